@@ -1,0 +1,9 @@
+"""Landslides and debris flows that pick up wet ground, as a Landlab component."""
+
+from .component import DebrisFlow
+from .core.errors import InputError, ParameterError, SimulationError
+from .model.numerics import Numerics
+from .physics.material import Material
+
+__all__ = ["DebrisFlow", "InputError", "Material", "Numerics", "ParameterError", "SimulationError"]
+__version__ = "0.1.0"

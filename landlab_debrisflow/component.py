@@ -1,0 +1,300 @@
+"""The Landlab component: fields of the grid on one side, the model on the other."""
+
+import logging
+
+import numpy as np
+from landlab import Component, RasterModelGrid
+
+from . import inputs
+from .core.variables import NODE_FIELDS, OUTPUT_PREFIX
+from .model.footprint import NOW, PEAKS, Footprint
+from .model.ledger import Ledger
+from .model.numerics import Numerics
+from .model.physics import build_declared, build_physics
+from .model.simulation import Simulation
+from .record.datasets import columns_dataset, maps_dataset, particles_dataset
+from .spatial.transfer import Nodes
+from .terrain.bed import Bed
+from .terrain.surface import Surface
+
+log = logging.getLogger("landlab_debrisflow")
+
+
+class DebrisFlow(Component):
+    """Landslides and debris flows that pick up wet ground on their way.
+
+    Depth-integrated SPH on the terrain with a column of pore pressure under every particle, which moves
+    with the flow while new soil enters from below (Pastor et al., 2022).
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        With ``topographic__elevation`` [m]; give ``soil__depth`` [m] to let the bed erode and
+        ``debris_flow__release_depth`` [m] to say what fails.
+    friction, erosion, column, flow : law, str or mapping, optional
+        A law object, its name, or plain values: ``{"law": "voellmy", "turbulent_coefficient": 500.0}``.
+    material : Material or mapping, optional
+        Densities, porosity, consolidation, initial pore pressure.
+    numerics : Numerics or mapping, optional
+        Number of particles, threads, settling.
+    observers : sequence, optional
+        Objects with an ``interval`` [s] and a method ``observe(flow)``, called every so many seconds of
+        the event and when it comes to rest.
+
+    Raises
+    ------
+    InputError (a ValueError), ParameterError (a ValueError), landlab.FieldError
+        If the grid, a boundary, a law or a parameter is not usable.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from landlab import RasterModelGrid
+    >>> from landlab_debrisflow import DebrisFlow
+    >>> grid = RasterModelGrid((20, 60), xy_spacing=5.0)
+    >>> z = grid.add_field("topographic__elevation", np.maximum(0.0, 75.0 - 0.5 * grid.x_of_node), at="node")
+    >>> soil = grid.add_full("soil__depth", 1.0, at="node")
+    >>> release = grid.add_zeros("debris_flow__release_depth", at="node")
+    >>> release[(abs(grid.x_of_node - 30) < 8) & (abs(grid.y_of_node - 48) < 8)] = 1.0
+    >>> flow = DebrisFlow(grid, numerics={"particle_count": 200})
+    >>> flow.run_until_rest()
+    True
+    >>> flow.budget["released"]
+    225.0
+    >>> bool(abs(flow.budget["residual"]) < 1e-12 * 225.0)
+    True
+    """
+
+    _name = "DebrisFlow"
+    _unit_agnostic = False
+    _cite_as = """
+    @article{pastor2022ale,
+      author = {Pastor, Manuel and others},
+      title = {An {ALE} finite difference--{SPH} depth integrated model for pore pressure evolution on
+               landslides over erodible terrains},
+      journal = {International Journal for Numerical and Analytical Methods in Geomechanics},
+      volume = {46}, pages = {1127--1153}, year = {2022}, doi = {10.1002/nag.3339}
+    }
+    """
+    _info = {field.name: field.info for field in NODE_FIELDS}
+
+    def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
+                 numerics=None, observers=()):  # fmt: skip
+        if not isinstance(grid, RasterModelGrid):
+            raise inputs.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
+        self._physics = build_physics(flow, friction, erosion, column, material)
+        self._numerics = build_declared(Numerics, numerics, "numerics")
+        self._observers = tuple(observers)
+        for observer in self._observers:
+            if not (getattr(observer, "interval", 0.0) > 0.0 and callable(getattr(observer, "observe", None))):
+                raise inputs.InputError(f"an observer needs interval > 0 [s] and observe(flow), got {observer!r}")
+        super().__init__(grid)
+        inputs.check_boundaries(grid)
+        new_arrival = "debris_flow__arrival_time" not in grid.at_node
+        self.initialize_output_fields()
+        if "debris_flow__release_depth" not in grid.at_node:
+            grid.add_zeros("debris_flow__release_depth", at="node", units="m")
+        if new_arrival:
+            grid.at_node["debris_flow__arrival_time"][:] = -1.0
+        self._simulation = Simulation(self._physics, self._numerics)
+        self._settled = np.zeros(grid.number_of_nodes)
+        self._ledger = Ledger(grid.dx * grid.dy)
+        self._seen = None  # elevation and status as the last call left them
+        self._said_nothing_to_do = False
+
+    # ---- what a user calls ----
+
+    def run_one_step(self, dt):
+        """Advance exactly `dt` seconds.
+
+        Values > 0 in ``debris_flow__release_depth`` are taken first; what has come to rest at the end is
+        laid into the terrain, unless ``numerics={"settle": False}``.
+
+        Parameters
+        ----------
+        dt : float
+            Duration [s], whatever unit other components use; 0 does nothing.
+
+        Raises
+        ------
+        InputError
+            If `dt` or a field is not usable; nothing was changed.
+        SimulationError
+            If the state stopped being finite; the grid is as it was before the call.
+        """
+        if (dt := inputs.check_duration(dt)) > 0.0:
+            self._run(dt, stop_at_rest=False)
+
+    def run_until_rest(self, max_duration=3600.0):
+        """Run the whole event.
+
+        Parameters
+        ----------
+        max_duration : float
+            Longest time to simulate [s].
+
+        Returns
+        -------
+        bool
+            True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on.
+        """
+        if (duration := inputs.check_duration(max_duration, "max_duration")) > 0.0:
+            self._run(duration, stop_at_rest=True)
+        return self.at_rest
+
+    def settle(self):
+        """Lay the mass at rest into elevation and soil; the particles go.
+
+        Raises
+        ------
+        InputError
+            If something still moves.
+        """
+        if not self.at_rest:
+            raise inputs.InputError("settle() lays down mass at rest, but the flow still moves; run_until_rest() first")
+        if self._simulation.particles.count:
+            self._begin()
+            self._settle()
+            self._show()
+            self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
+
+    @property
+    def elapsed_time(self):
+        """Time simulated so far [s]."""
+        return self._simulation.time
+
+    @property
+    def at_rest(self):
+        """Whether nothing moves."""
+        return self._simulation.at_rest
+
+    @property
+    def budget(self):
+        """Volumes so far [m3]: released + eroded = moving + deposited + outflow, up to the residual.
+
+        Each is measured on its own: release field, soil field, particles, elevation field, particles
+        that left. ``moving`` counts all particles, also those at rest but not settled.
+        """
+        return self._ledger.budget(self._simulation)
+
+    @property
+    def outflow_by_edge(self):
+        """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
+        return self._simulation.outflow_by_edge(*self.grid.shape)
+
+    @property
+    def particles(self):
+        """The particles now: a Dataset over ``particle`` with map coordinates of the grid."""
+        return particles_dataset(self._simulation.particles, self.grid.xy_of_lower_left, self.elapsed_time)
+
+    @property
+    def columns(self):
+        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), now."""
+        return columns_dataset(self._simulation.columns_now(), self.elapsed_time)
+
+    @property
+    def maps(self):
+        """The fields of the grid as a Dataset over ``y`` and ``x``, with units and all parameters."""
+        return maps_dataset(self.grid, self._physics, self._numerics, self.budget, self.elapsed_time)
+
+    # ---- the life of a call ----
+
+    def _run(self, duration, stop_at_rest):
+        fields = [f for f in self._info if f in self.grid.at_node and "out" in self._info[f]["intent"]]
+        before = {name: self.grid.at_node[name].copy() for name in fields}
+        state = self._simulation.snapshot(), self._ledger.snapshot(), self._settled.copy(), self._seen
+        try:
+            self._begin()
+            self._advance(duration, stop_at_rest)
+            self._finish()
+        except BaseException:  # whatever it was, the grid must be as it was before the call
+            for name, values in before.items():
+                self.grid.at_node[name][:] = values
+            simulation, ledger, self._settled, self._seen = state
+            self._simulation.restore(simulation)
+            self._ledger.restore(ledger)
+            raise
+
+    def _begin(self):
+        """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
+        grid, at, sim = self.grid, self.grid.at_node, self._simulation
+        elevation, soil = at["topographic__elevation"], self._soil
+        if "bed__excess_pore_pressure_ratio" in at:
+            ratio = at["bed__excess_pore_pressure_ratio"]
+        else:
+            ratio = np.full(grid.number_of_nodes, self._physics.material.bed_pressure_ratio)
+        inputs.check_boundaries(grid)
+        inputs.check_terrain(grid, elevation, soil, ratio)
+        release = inputs.read_release(grid, soil)
+        status = np.array(grid.status_at_node, np.int64)
+        seen = (elevation.copy(), status)
+        changed = self._seen is None or not all(map(np.array_equal, self._seen, seen))
+        if failing := release.any():
+            self._ledger.released += float(release.sum() * grid.dx * grid.dy)
+            elevation -= release
+            if soil is not None:
+                soil -= release
+            at["debris_flow__release_depth"][release > 0.0] = 0.0
+            if "mass__wasting_id" in at:
+                at["mass__wasting_id"][release > 0.0] = 0
+        elif sim.particles.count == 0 and not self._said_nothing_to_do:
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
+            self._said_nothing_to_do = True
+        nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
+        closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
+        surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
+        eroded = at[OUTPUT_PREFIX + "eroded_depth"]
+        sim.on(Bed(nodes, surface, elevation, soil, eroded, ratio), status, changed or failing)
+        self._footprint = Footprint(
+            nodes, {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}, self._numerics.arrival_depth
+        )
+        self._ledger.open(nodes.core, soil)
+        if failing:
+            sim.release(release)
+            self._footprint.record(sim.particles, sim.time)
+
+    @property
+    def _soil(self):
+        return self.grid.at_node["soil__depth"] if "soil__depth" in self.grid.at_node else None
+
+    def _advance(self, duration, stop_at_rest):
+        """Run, stopping where an observer wants to look."""
+        sim, end = self._simulation, self._simulation.time + duration
+        looks = {o: o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in self._observers}
+
+        def after_step():
+            self._footprint.record(sim.particles, sim.time)
+
+        while sim.time < end and not (stop_at_rest and self.at_rest):
+            until = min([end, *looks.values()])
+            sim.advance(until - sim.time, after_step, stop_at_rest)
+            done = sim.at_rest or sim.time >= end
+            for observer in self._observers:
+                if sim.time >= looks[observer] or (done and sim.at_rest):
+                    self._show()
+                    observer.observe(self)
+                    while looks[observer] <= sim.time:
+                        looks[observer] += observer.interval
+
+    def _finish(self):
+        """Do the accounts; settle what rests."""
+        self._ledger.eroded -= self._ledger.change(self._soil)
+        self._simulation.warn_of_walls()
+        if self.at_rest and self._numerics.settle and self._simulation.particles.count:
+            self._settle()
+        self._show()
+        self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
+
+    def _settle(self):
+        elevation = self.grid.at_node["topographic__elevation"]
+        self._ledger.open(self._simulation.bed.nodes.core, elevation)
+        nodes, depth = self._simulation.settle()
+        self._ledger.deposited += self._ledger.change(elevation)
+        self._settled[nodes] += depth
+        self._footprint.clear()
+
+    def _show(self):
+        """Write the deposit: what has settled and what lies still now."""
+        self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"][:] = self._settled
+        nodes, depth = self._simulation.resting_depth()
+        self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"][nodes] += depth

@@ -1,0 +1,1 @@
+"""Tools every layer shares: declarations, units, errors and the compiler. No debris, no grid."""

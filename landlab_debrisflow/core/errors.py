@@ -1,0 +1,30 @@
+"""The errors a user can meet. Each says what, where, got, allowed and what to do."""
+
+
+class ParameterError(ValueError):
+    """A parameter of a law, of the material or of the numerics is not usable."""
+
+
+class InputError(ValueError):
+    """A field of the grid or an argument of a call is not usable; nothing was changed."""
+
+
+class SimulationError(RuntimeError):
+    """The state stopped being finite.
+
+    Attributes
+    ----------
+    time : float
+        Elapsed time of the event at which it was noticed [s].
+    particle : int
+        Index of the first particle concerned.
+    variable : str
+        Name of the variable that is not finite.
+    """
+
+    def __init__(self, variable: str, particle: int, time: float, value: float):
+        self.variable, self.particle, self.time = variable, particle, time
+        super().__init__(
+            f"{variable} of particle {particle} became {value} at {time:.6g} s; the grid is as it "
+            "was before the call. Look at the terrain and the parameters there, or use more particles."
+        )

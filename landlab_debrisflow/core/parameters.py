@@ -1,0 +1,130 @@
+"""Declare a parameter once: name, unit, meaning, default, bounds.
+
+From that one line come the validation, the tables of the documentation, the attributes of output
+files and the SI numbers that kernels read.
+
+>>> @declared
+... class Growth:
+...     growth_rate: float = parameter("m-1", "relative growth per metre", 3e-3, (0, None))
+>>> Growth(growth_rate=-1.0)
+Traceback (most recent call last):
+    ...
+landlab_debrisflow.core.errors.ParameterError: Growth: growth_rate must lie in [0, inf] m-1, got -1.0
+>>> from_mapping(Growth, {"rate": 1.0})
+Traceback (most recent call last):
+    ...
+landlab_debrisflow.core.errors.ParameterError: Growth: unknown key 'rate'; allowed: growth_rate [m-1]
+"""
+
+import dataclasses
+import math
+from collections import namedtuple
+from collections.abc import Mapping
+from numbers import Integral, Real
+from typing import Any, dataclass_transform
+
+from .errors import ParameterError
+
+
+def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float):
+    """Declare one parameter of a class decorated with `declared`.
+
+    Parameters
+    ----------
+    unit : str
+        SI unit, ``"-"`` for none, or ``"deg"`` (kernels then get radians).
+    meaning : str
+        One line for tables and file attributes.
+    default : object
+        Value if the user says nothing; None means "not set".
+    bounds : tuple of float or None
+        Closed interval of allowed values; None is unbounded.
+    choices : tuple of str, optional
+        Allowed words, for a parameter that is a choice and not a number.
+    kind : type
+        float, int, bool or str.
+    """
+    if choices is not None:
+        kind = str
+    low, high = bounds
+    bounds = (-math.inf if low is None else low, math.inf if high is None else high)
+    metadata = {"unit": unit, "meaning": meaning, "bounds": bounds, "choices": choices, "kind": kind}
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(parameter,))
+def declared(cls):
+    """Make a frozen, keyword-only dataclass whose parameters are checked when it is built.
+
+    A method ``_agree`` of the class is called last, for what concerns several parameters at once.
+    """
+
+    def check(self):
+        for field in dataclasses.fields(self):
+            value = _checked(type(self).__name__, field, getattr(self, field.name))
+            object.__setattr__(self, field.name, value)
+        if hasattr(self, "_agree"):
+            self._agree()
+
+    cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
+    cls.si = property(_in_si, doc="The numbers in SI units, degrees as radians (a named tuple).")
+    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+
+
+def _checked(owner: str, field: dataclasses.Field, value: Any):
+    """Return the value in its declared type, or raise ParameterError."""
+    meta, name = field.metadata, f"{owner}: {field.name}"
+    kind, unit = meta["kind"], meta["unit"]
+    if value is None and field.default is None:
+        return None
+    if kind is str:
+        if value not in meta["choices"]:
+            raise ParameterError(f"{name} must be one of {', '.join(meta['choices'])}; got {value!r}")
+        return value
+    if kind is bool:
+        if not isinstance(value, bool):
+            raise ParameterError(f"{name} must be true or false, got {value!r}")
+        return value
+    expected = Integral if kind is int else Real
+    if isinstance(value, bool) or not isinstance(value, expected):
+        word = "an integer" if kind is int else "a number"
+        raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}")
+    low, high = meta["bounds"]
+    if not low <= value <= high or math.isinf(value):  # the comparison also refuses NaN
+        unit = "" if unit == "-" else f" {unit}"
+        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {value!r}")
+    return kind(value)
+
+
+def _in_si(self):
+    values = {
+        f.name: math.radians(v) if f.metadata["unit"] == "deg" else v
+        for f in dataclasses.fields(self)
+        if isinstance(v := getattr(self, f.name), Real)
+    }
+    return namedtuple(type(self).__name__ + "SI", values)(**values)
+
+
+def from_mapping(cls, mapping: Mapping[str, Any]):
+    """Build a declared class from plain values, as they come from YAML.
+
+    Raises
+    ------
+    ParameterError
+        If a key is unknown (the message lists the legal ones with units) or a value is refused.
+    """
+    legal = {f.name: f.metadata["unit"] for f in dataclasses.fields(cls)}
+    for key in mapping:
+        if key not in legal:
+            allowed = ", ".join(f"{name} [{unit}]" for name, unit in legal.items()) or "none"
+            raise ParameterError(f"{cls.__name__}: unknown key {key!r}; allowed: {allowed}")
+    return cls(**mapping)
+
+
+def describe(obj) -> dict[str, Any]:
+    """Return the parameters of a declared object as plain values for file attributes."""
+    return {
+        f"{f.name} [{f.metadata['unit']}]": getattr(obj, f.name)
+        for f in dataclasses.fields(obj)
+        if getattr(obj, f.name) is not None
+    }

@@ -1,0 +1,102 @@
+"""Every state variable, declared once: arrays, output files and Landlab's `_info` follow from here."""
+
+from typing import NamedTuple
+
+
+class Variable(NamedTuple):
+    """One number per particle, three for a vector, or one per level of its column."""
+
+    name: str
+    unit: str
+    long_name: str
+    dtype: type = float
+    initial: float = 0.0
+    written: bool = True  # appears in output
+    per_level: bool = False
+    vector: bool = False
+
+
+PARTICLE_VARIABLES = (
+    Variable("x", "m", "map coordinate, from the lower left node of the grid"),
+    Variable("y", "m", "map coordinate, from the lower left node of the grid"),
+    Variable("z", "m", "elevation of the bed below"),
+    Variable("velocity", "m s-1", "depth-averaged velocity, tangent to the bed", vector=True),
+    Variable("thrust", "m s-2", "acceleration by the pressure of the flow", vector=True, written=False),
+    Variable("volume", "m3", "volume of debris carried"),
+    Variable("depth", "m", "vertical flow depth"),
+    Variable("thickness", "m", "slope-normal flow thickness"),
+    Variable("longest_smoothing_length", "m", "cap of the smoothing length", written=False),
+    Variable("smoothing_length", "m", "SPH smoothing length"),
+    Variable("liquefaction_pressure", "Pa", "effective normal stress without excess pore pressure"),
+    Variable("basal_excess_pore_pressure", "Pa", "excess pore pressure at the base"),
+    Variable("entrainment_rate", "m s-1", "erosion rate granted by the bed, per map area"),
+    Variable("basal_peclet_number", "-", "erosion rate times thickness over c_v, of the last erosion"),
+    Variable("column_volume", "m3", "volume when the column was last advanced", written=False),
+    Variable("column_load", "Pa", "liquefaction pressure when the column was last advanced", written=False),
+    Variable("column_current_load", "Pa", "liquefaction pressure the column last heard of", written=False),
+    Variable("column_erosion_load", "Pa", "load added by entrained soil since then", written=False),
+    Variable("column_diffusion", "-", "diffusion owed to the column", written=False),
+    Variable("column_diffusion_since_switch", "-", "diffusion since the base closed", written=False),
+    Variable("column_eroding", "-", "1 while the bed prescribes the base", "i1", 0, written=False),
+    Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
+    Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
+    Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
+)
+
+
+class NodeField(NamedTuple):
+    """One field of the grid, at nodes; `_info` of the component is made of these."""
+
+    name: str
+    intent: str
+    unit: str
+    doc: str
+    optional: bool = False
+    dtype: type = float
+
+    @property
+    def info(self) -> dict:
+        """The entry of a Landlab component's `_info`."""
+        return {
+            "dtype": self.dtype, "intent": self.intent, "optional": self.optional,
+            "units": self.unit, "mapping": "node", "doc": self.doc,
+        }  # fmt: skip
+
+
+OUTPUT_PREFIX = "debris_flow__"
+
+NODE_FIELDS = (
+    # the docs of shared names are Landlab's own
+    NodeField("topographic__elevation", "inout", "m", "Land surface topographic elevation"),
+    NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
+    NodeField("debris_flow__release_depth", "inout", "m", "Vertical thickness of ground that fails; 0 once taken", True),
+    NodeField(
+        "mass__wasting_id", "inout", "-",
+        "integer or float id of each mass wasting area is assigned to all nodes representing the mass wasting area.",
+        True, int,
+    ),
+    NodeField(
+        "bed__excess_pore_pressure_ratio", "in", "-",
+        "Excess pore pressure of the bed over its liquefaction value", True,
+    ),
+    NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
+    NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),
+    NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
+    NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
+    NodeField("debris_flow__arrival_time", "out", "s", "Time of first arrival; -1 where nothing came"),
+    NodeField("debris_flow__eroded_depth", "out", "m", "Cumulative erosion, without the release"),
+    NodeField("debris_flow__deposit_depth", "out", "m", "Depth of mass at rest now plus what has settled"),
+    NodeField(
+        "debris_flow__basal_excess_pore_pressure", "out", "Pa",
+        "Excess pore pressure at the base of the flow; after settling, the last value",
+    ),
+    NodeField(
+        "debris_flow__max_basal_pressure_ratio", "out", "-",
+        "Largest basal excess pore pressure over its liquefaction value so far",
+    ),
+    NodeField(
+        "debris_flow__basal_peclet_number", "out", "-",
+        "Erosion rate times thickness over coefficient of consolidation, of the last erosion",
+    ),
+    NodeField("debris_flow__max_basal_peclet_number", "out", "-", "Largest basal Peclet number so far"),
+)  # fmt: skip

@@ -1,0 +1,134 @@
+"""Kick and drift of points on a surface.
+
+Curvature does no work here: gravity and pressure act along the bed, the particle drifts, and its
+velocity is then turned into the new tangent plane with its length kept.
+"""
+
+import numpy as np
+
+from ..core.jit import kernel
+
+CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are open boundaries
+
+
+@kernel
+def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, dt):
+    """Accelerate along the bed for `dt` seconds, friction included, in place.
+
+    Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
+    the yield stress. The drag enters as v_new = (v + dt a) / (1 + dt d(|v|)), which for a drag
+    proportional to the speed squared is second-order and never overshoots (Kahan's method).
+
+    Parameters
+    ----------
+    velocity, push : ndarray, shape (3, n)
+        Velocity [m s-1] and acceleration by inner forces [m s-2].
+    ground : ndarray, shape (6, n)
+        As `Surface.sample` returns it.
+    cosine, yield_stress, drag, mass : ndarray, shape (n,)
+        cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2].
+    """
+    for i in range(cosine.size):
+        c = cosine[i]
+        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+        across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
+        u = velocity[0, i] + dt * (push[0, i] - across * nx)
+        v = velocity[1, i] + dt * (push[1, i] - across * ny)
+        w = velocity[2, i] + dt * (push[2, i] - across * nz - gravity)
+        speed = np.sqrt(u * u + v * v + w * w)
+        if speed == 0.0:
+            factor = 0.0
+        else:
+            left = max(0.0, speed - dt * yield_stress[i] / mass[i]) / (1.0 + dt * drag[i] / mass[i])
+            factor = left / speed
+        velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
+
+
+@kernel
+def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_wall):
+    """Move the particles; slow them by the soil they took up; stop them at closed nodes.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Changed in place [m].
+    velocity : ndarray, shape (3, n)
+        Multiplied by `dilution`; the drift uses the mean of before and after, which keeps the pair
+        erosion-drift second-order. A component into a closed node is lost.
+    dilution : ndarray, shape (n,)
+        Volume before over volume after entrainment [-].
+    status : ndarray, shape (nodes,)
+        Status of the nodes.
+    left : ndarray of int, shape (n,)
+        Written: -1, or the open node over which the particle left.
+    touched_wall : ndarray of int8, shape (n,)
+        Set to 1 where a closed node stopped the particle.
+    """
+    rows = status.size // columns
+    for i in range(x.size):
+        left[i] = -1
+        step = 0.5 * dt * (1.0 + dilution[i])
+        new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
+        for k in range(3):
+            velocity[k, i] *= dilution[i]
+        node = _nearest(new_x, new_y, dx, dy, columns, rows)
+        if node >= 0 and status[node] == CLOSED:
+            touched_wall[i] = 1
+            along_x = _nearest(new_x, y[i], dx, dy, columns, rows)
+            along_y = _nearest(x[i], new_y, dx, dy, columns, rows)
+            if status[along_x] != CLOSED:
+                new_y, velocity[1, i] = y[i], 0.0
+            elif status[along_y] != CLOSED:
+                new_x, velocity[0, i] = x[i], 0.0
+            else:
+                new_x, new_y, velocity[0, i], velocity[1, i] = x[i], y[i], 0.0, 0.0
+            node = _nearest(new_x, new_y, dx, dy, columns, rows)
+        x[i], y[i] = new_x, new_y
+        if node >= 0 and status[node] != CORE:
+            left[i] = node
+
+
+@kernel
+def _nearest(x, y, dx, dy, columns, rows):
+    """Return the flat index of the nearest node, or -1 if the position is not a number."""
+    if not (np.isfinite(x) and np.isfinite(y)):
+        return -1
+    r = min(max(int(np.floor(y / dy + 0.5)), 0), rows - 1)
+    c = min(max(int(np.floor(x / dx + 0.5)), 0), columns - 1)
+    return r * columns + c
+
+
+@kernel
+def turn(velocity, ground, cosine):
+    """Turn each velocity into the tangent plane of the ground, keeping its length, in place."""
+    for i in range(cosine.size):
+        c = cosine[i]
+        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
+        across = u * nx + v * ny + w * nz
+        speed = u * u + v * v + w * w
+        u, v, w = u - across * nx, v - across * ny, w - across * nz
+        along = u * u + v * v + w * w
+        if along > 1e-12 * speed:
+            factor = np.sqrt(speed / along)
+        else:
+            factor = 0.0
+        velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
+
+
+@kernel
+def basal_state(velocity, ground, cosine, thickness, gravity, buoyant_density, tightest,
+                speed, normal_gravity, liquefaction_pressure):  # fmt: skip
+    """Write speed [m s-1], normal gravity with curvature [m s-2] and liquefaction pressure [Pa].
+
+    The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
+    own spacing, and noise must not press the flow to the ground.
+    """
+    for i in range(cosine.size):
+        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
+        bend = u * u * ground[3, i] + 2.0 * u * v * ground[4, i] + v * v * ground[5, i]
+        most = (u * u + v * v) / tightest
+        bend = min(max(bend, -most), most)
+        speed[i] = np.sqrt(u * u + v * v + w * w)
+        normal_gravity[i] = max(0.0, (gravity + bend) * cosine[i])
+        liquefaction_pressure[i] = buoyant_density * gravity * thickness[i] * cosine[i]

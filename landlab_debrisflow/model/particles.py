@@ -1,0 +1,65 @@
+"""The moving mass: a struct of arrays, one entry per particle."""
+
+import numpy as np
+
+from ..core.variables import PARTICLE_VARIABLES
+
+
+class Particles:
+    """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
+
+    Scalars have shape (n,), vectors (3, n), columns (n, levels).
+
+    Parameters
+    ----------
+    levels : int
+        Levels of a pore-pressure column.
+
+    Examples
+    --------
+    >>> particles = Particles(levels=11)
+    >>> particles.append(3, volume=2.0)
+    >>> particles.count, float(particles.volume.sum()), particles.velocity.shape
+    (3, 6.0, (3, 3))
+    """
+
+    def __init__(self, levels: int):
+        self.levels = levels
+        for variable in PARTICLE_VARIABLES:
+            setattr(self, variable.name, self._new(variable, 0))
+
+    def _new(self, variable, count):
+        shape = (3, count) if variable.vector else (count, self.levels) if variable.per_level else (count,)
+        return np.full(shape, variable.initial, variable.dtype)
+
+    @property
+    def count(self) -> int:
+        """Number of particles."""
+        return self.volume.size
+
+    @property
+    def spread(self):
+        """Map spacing of the particles, (V/h)^(1/2), shape (n,) [m]."""
+        return np.sqrt(self.volume / self.depth)
+
+    def append(self, count: int, **values) -> None:
+        """Add particles; variables not named get their declared initial value."""
+        for variable in PARTICLE_VARIABLES:
+            new = self._new(variable, count)
+            if variable.name in values:
+                new[:] = values[variable.name]
+            axis = 1 if variable.vector else 0
+            setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], axis))
+
+    def keep(self, mask) -> None:
+        """Remove all particles where `mask` is False."""
+        for variable in PARTICLE_VARIABLES:
+            axis = 1 if variable.vector else 0
+            setattr(self, variable.name, np.compress(mask, getattr(self, variable.name), axis))
+
+    def copy(self) -> "Particles":
+        """Return an independent copy."""
+        other = Particles(self.levels)
+        for variable in PARTICLE_VARIABLES:
+            setattr(other, variable.name, getattr(self, variable.name).copy())
+        return other

@@ -1,0 +1,103 @@
+"""The bundle of chosen laws, and the one place that builds laws from names."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..core.errors import ParameterError
+from ..core.parameters import from_mapping
+from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
+from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
+from ..physics.erosion import Growth, NoErosion
+from ..physics.flow import OnePhase
+from ..physics.friction import Coulomb, Voellmy
+from ..physics.material import Material
+
+LAWS = {
+    "flow": {"one_phase": OnePhase},
+    "friction": {"coulomb": Coulomb, "voellmy": Voellmy},
+    "erosion": {"growth": Growth, "none": NoErosion},
+    "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
+}
+"""Every law by kind and name; the first of a kind is the default."""
+
+METHOD = {
+    "flow": "thrust",
+    "friction": "basal_resistance",
+    "erosion": "entrainment_rate",
+    "column": "advance",
+}
+"""The method that makes an object a law of its kind."""
+
+
+@dataclass(frozen=True)
+class Physics:
+    """What is simulated: one law of each kind and the material."""
+
+    flow: FlowLaw
+    friction: FrictionLaw
+    erosion: ErosionLaw
+    column: ColumnLaw
+    material: Material
+
+
+def build_physics(flow=None, friction=None, erosion=None, column=None, material=None) -> Physics:
+    """Build the bundle; each argument is a law, a name, a mapping of plain values, or None for the default.
+
+    Raises
+    ------
+    ParameterError
+        If a law or key is unknown (the message lists the legal ones) or a value out of bounds.
+    """
+    return Physics(
+        build_law("flow", flow),
+        build_law("friction", friction),
+        build_law("erosion", erosion),
+        build_law("column", column),
+        build_declared(Material, material, "material"),
+    )
+
+
+def build_law(kind: str, value):
+    """Return the law of some kind that `value` stands for.
+
+    Examples
+    --------
+    >>> build_law("friction", {"law": "voellmy", "turbulent_coefficient": 300})
+    Voellmy(basal_friction_angle=30.96375653207352, turbulent_coefficient=300.0)
+    >>> build_law("erosion", "plough")
+    Traceback (most recent call last):
+        ...
+    landlab_debrisflow.core.errors.ParameterError: erosion: unknown law 'plough'; allowed: growth, none
+    """
+    laws = LAWS[kind]
+    if value is None:
+        value = next(iter(laws))
+    if isinstance(value, str):
+        value = {"law": value}
+    if isinstance(value, Mapping):
+        values = dict(value)
+        name = values.pop("law", None)
+        if name not in laws:
+            raise ParameterError(f"{kind}: unknown law {name!r}; allowed: {', '.join(laws)}")
+        return from_mapping(laws[name], values)
+    if isinstance(value, type) or not callable(getattr(value, METHOD[kind], None)):
+        raise ParameterError(
+            f"{kind}: {value!r} is no {kind} law (it has no method {METHOD[kind]!r}); "
+            f"give an object, a mapping with 'law', or one of {', '.join(laws)}"
+        )
+    return value
+
+
+def build_declared(cls, value, keyword: str):
+    """Return an instance of a declared class from an instance, a mapping or None.
+
+    Raises
+    ------
+    ParameterError
+        If `value` is something else.
+    """
+    if isinstance(value, cls):
+        return value
+    if value is None or isinstance(value, Mapping):
+        return from_mapping(cls, value or {})
+    raise ParameterError(f"{keyword} must be a {cls.__name__} or a mapping, got {value!r}")

@@ -1,0 +1,231 @@
+"""The event: clock, loop, release, rest and settling."""
+
+import logging
+
+import numpy as np
+
+from ..physics.column.start import initial_profile
+from ..spatial.summation import SMOOTHING_RATIO
+from ..terrain.bed import Bed
+from . import step
+from .numerics import Numerics
+from .particles import Particles
+from .physics import Physics
+from .release import place_particles
+from .timestep import longest_step
+
+log = logging.getLogger("landlab_debrisflow")
+
+LONGEST_SMOOTHING = 4.0
+"""Cap of the smoothing length over its value at the thickest part of the release: flow thinner than a
+sixteenth of that is seen with fixed length."""
+
+FIRST_SWEEPS = 8
+"""Passes that make thickness and smoothing length agree after a release."""
+
+
+class Simulation:
+    """All that moves, and when.
+
+    Parameters
+    ----------
+    physics : Physics
+    numerics : Numerics
+    """
+
+    def __init__(self, physics: Physics, numerics: Numerics):
+        self.physics, self.numerics = physics, numerics
+        self.particles = Particles(physics.column.levels)
+        self.time = 0.0
+        self.outflow = {}  # volume by open node [m3]
+        self._peak_energy, self._arrested = 0.0, False
+        self._changed = True  # terrain or particles are new: neighbours and forces must be found again
+        self.bed = self.status = None
+
+    def on(self, bed: Bed, status, changed: bool) -> None:
+        """Put the simulation on a bed for the call that follows.
+
+        Parameters
+        ----------
+        bed : Bed
+        status : ndarray, shape (nodes,)
+            Node statuses as Landlab numbers them.
+        changed : bool
+            Whether the terrain differs from what the last call left.
+        """
+        self.bed, self.status = bed, status
+        self._changed |= changed
+
+    def release(self, depth) -> float:
+        """Turn a depth of failing ground, shape (nodes,) [m], into particles at rest on the bed below.
+
+        Returns
+        -------
+        float
+            The volume released, summed over the particles [m3].
+        """
+        p, nodes, material = self.particles, self.bed.nodes, self.physics.material
+        depth = depth.reshape(-1, nodes.columns)
+        volume = depth.sum() * nodes.area
+        count = self.numerics.count_for(np.count_nonzero(depth) * nodes.area)
+        x, y = place_particles(depth, (nodes.dx, nodes.dy), self.bed.surface, count)
+        ground = self.bed.surface.sample(x, y)
+        each = volume / count
+        here = depth[np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)]
+        normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        longest = LONGEST_SMOOTHING * SMOOTHING_RATIO * np.sqrt(each / normal.max())
+        first = p.count
+        p.append(
+            count, x=x, y=y, z=ground[0], volume=each, depth=here, thickness=normal,
+            longest_smoothing_length=longest,
+            smoothing_length=np.minimum(longest, SMOOTHING_RATIO * np.sqrt(each / normal)),
+        )  # fmt: skip
+        self._find_everything(FIRST_SWEEPS)
+        new = slice(first, None)
+        load = p.liquefaction_pressure[new]
+        p.excess_pore_pressure[new] = initial_profile(
+            load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
+            material.basal_layer_fraction,
+        )  # fmt: skip
+        p.column_volume[new], p.column_load[new], p.column_current_load[new] = p.volume[new], load, load
+        p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
+        step.consolidate(self, 0.0)
+        self._peak_energy, self._arrested = 0.0, False
+        return float(p.volume[new].sum())
+
+    def _find_everything(self, sweeps: int = 1) -> None:
+        """Find ground, thickness and forces anew where particles or terrain changed by other hands."""
+        p = self.particles
+        self.granted, self.granted_ratio = np.zeros(p.count), np.zeros(p.count)
+        step.find_ground(self)
+        for _ in range(sweeps - 1):
+            step.find_depth(self)
+            p.smoothing_length[:] = self.next_smoothing_length
+        step.find_depth(self)
+        step.push(self)
+        self._changed = False
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves (also when there is nothing)."""
+        return self.particles.count == 0 or self._arrested
+
+    def advance(self, duration: float, after_step=None, stop_at_rest: bool = False) -> None:
+        """Advance by exactly `duration` seconds, or until rest.
+
+        Parameters
+        ----------
+        duration : float
+            [s]
+        after_step : callable, optional
+            Called without arguments after every step.
+        stop_at_rest : bool
+            Return as soon as all is at rest; `time` tells when.
+        """
+        end = self.time + duration
+        if self._changed and self.particles.count:
+            self._find_everything()
+            if self._arrested:
+                self._arrested, self._peak_energy = False, 0.0
+        while self.time < end and not self.at_rest:
+            left = end - self.time
+            dt = self._next_step(left)
+            step.advance(self, dt)
+            self.time = end if dt == left else self.time + dt
+            self._look_for_rest()
+            if after_step is not None:
+                after_step()
+        if not stop_at_rest and self.time < end:
+            if self.particles.count:  # at rest, but the pore pressure still drains
+                self.granted, self.granted_ratio = np.zeros((2, self.particles.count))
+                step.consolidate(self, end - self.time)
+            self.time = end
+
+    def _next_step(self, left: float) -> float:
+        longest = longest_step(
+            self.particles, self.cosine, self.thickening, self.physics.material.gravity,
+            self.numerics.courant_number, min(self.bed.nodes.dx, self.bed.nodes.dy),
+        )  # fmt: skip
+        if left <= longest:
+            return left
+        return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
+
+    def _look_for_rest(self) -> None:
+        """Stop everything once the kinetic energy is a negligible part of its peak.
+
+        Without this, remnants on slopes above their apparent friction angle creep for ever.
+        """
+        p = self.particles
+        energy = float(np.sum(p.volume * np.einsum("in,in->n", p.velocity, p.velocity)))
+        self._peak_energy = max(self._peak_energy, energy)
+        if energy <= self.numerics.rest_energy * self._peak_energy:
+            p.velocity[:] = 0.0
+            p.entrainment_rate[:] = 0.0
+            self._arrested = True
+
+    def count_outflow(self, nodes, volume) -> None:
+        """Add volumes [m3] to the account of the open nodes over which they left."""
+        for node, part in zip(nodes.tolist(), volume.tolist(), strict=True):
+            self.outflow[node] = self.outflow.get(node, 0.0) + part
+
+    def outflow_by_edge(self, rows: int, columns: int) -> dict[str, float]:
+        """Return the volume that left over each side, or over open nodes inside the grid [m3]."""
+        edges = dict.fromkeys(("west", "east", "south", "north", "inside"), 0.0)
+        for node, volume in self.outflow.items():
+            r, c = divmod(node, columns)
+            sides = {"west": c == 0, "east": c == columns - 1, "south": r == 0, "north": r == rows - 1}
+            edges[next((side for side, on in sides.items() if on), "inside")] += volume
+        return edges
+
+    def warn_of_walls(self) -> None:
+        """Log how much ran against closed or NODATA nodes since the last warning."""
+        p = self.particles
+        if volume := float(p.volume[p.touched_wall > 0].sum()):
+            log.warning(
+                "%.3g m3 ran against closed or NODATA nodes at %.4g s: the DEM is probably too small", volume, self.time
+            )
+            p.touched_wall[:] = 0
+
+    def resting_depth(self):
+        """Return nodes and the depth of particles that lie still on them [m]."""
+        p = self.particles
+        still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
+        if not still.any():
+            return np.empty(0, np.int64), np.empty(0)
+        return self.bed.depth_of(p.x[still], p.y[still], p.spread[still], p.volume[still])
+
+    def columns_now(self):
+        """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
+        now = Simulation(self.physics, self.numerics)
+        now.particles = self.particles.copy()
+        now.granted, now.granted_ratio = np.zeros((2, now.particles.count))
+        material = self.physics.material
+        self.physics.column.synchronise(
+            step.columns(now.particles), step.forcing(now), material.water_density / material.buoyant_density
+        )
+        return now.particles.excess_pore_pressure
+
+    def settle(self):
+        """Lay the mass into the bed and forget the particles.
+
+        Returns
+        -------
+        nodes : ndarray of int
+            Nodes that received material.
+        depth : ndarray
+            Depth laid on each [m].
+        """
+        p = self.particles
+        laid = self.bed.lay_down(p.x, p.y, p.spread, p.volume)
+        p.keep(np.zeros(p.count, bool))
+        self._arrested = False
+        return laid
+
+    def snapshot(self):
+        """Return what `restore` needs to undo everything since."""
+        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested
+
+    def restore(self, snapshot) -> None:
+        """Go back to a snapshot."""
+        self.particles, self.time, self.outflow, self._peak_energy, self._arrested = snapshot
+        self._changed = True

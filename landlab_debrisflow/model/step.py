@@ -1,0 +1,146 @@
+"""One time step, as a list of stages that reads like the governing equations.
+
+Kick - erode and drift - kick, symmetric in time, hence second-order: the forces at the end of a step
+are those at the beginning of the next.
+"""
+
+import numpy as np
+
+from ..core.errors import SimulationError
+from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
+from ..spatial.cells import sort_into_cells
+from ..spatial.summation import thickness
+from .motion import basal_state, drift, kick, turn
+
+
+def advance(sim, dt: float) -> None:
+    """Advance the simulation by one step of `dt` seconds."""
+    friction_and_kick(sim, 0.5 * dt)
+    dilution = entrain(sim, dt)
+    move(sim, dt, dilution)
+    find_ground(sim)
+    find_depth(sim)
+    consolidate(sim, dt)
+    push(sim)
+    friction_and_kick(sim, 0.5 * dt)
+    check(sim)
+
+
+def friction_and_kick(sim, dt: float) -> None:
+    """Gravity along the bed, thrust and basal resistance, taken implicitly."""
+    p, material = sim.particles, sim.physics.material
+    yield_stress, drag = np.empty(p.count), np.empty(p.count)
+    sim.physics.friction.basal_resistance(_base(sim), yield_stress, drag)
+    mass = material.density * p.thickness
+    kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, dt)
+
+
+def entrain(sim, dt: float):
+    """Ask soil of the bed, take what it grants; return volume before over volume after."""
+    p = sim.particles
+    p.entrainment_rate[:] = 0.0
+    sim.physics.erosion.entrainment_rate(_base(sim), p.entrainment_rate)
+    wanted = p.entrainment_rate * p.volume / p.depth * dt
+    sim.granted, sim.granted_ratio = sim.bed.erode(p.x, p.y, p.spread, wanted)
+    p.entrainment_rate[:] = sim.granted * p.depth / (p.volume * dt)
+    before = p.volume.copy()
+    p.volume += sim.granted
+    return before / p.volume
+
+
+def move(sim, dt: float, dilution) -> None:
+    """Drift along the bed; those over an open boundary are taken out and counted."""
+    p, nodes = sim.particles, sim.bed.nodes
+    left = np.empty(p.count, np.int64)
+    drift(p.x, p.y, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, left, p.touched_wall)
+    check(sim)
+    gone = left >= 0
+    if gone.any():
+        sim.count_outflow(left[gone], p.volume[gone])
+        p.keep(~gone)
+        sim.granted, sim.granted_ratio = sim.granted[~gone], sim.granted_ratio[~gone]
+
+
+def find_ground(sim) -> None:
+    """Read the terrain under the particles and turn their velocities into its tangent plane."""
+    p = sim.particles
+    sim.ground = sim.bed.surface.sample(p.x, p.y)
+    sim.cosine = 1.0 / np.sqrt(1.0 + sim.ground[1] ** 2 + sim.ground[2] ** 2)
+    p.z[:] = sim.ground[0]
+    turn(p.velocity, sim.ground, sim.cosine)
+
+
+def find_depth(sim) -> None:
+    """Sum the slope-normal thickness over neighbours; the smoothing length follows it."""
+    p, material = sim.particles, sim.physics.material
+    if p.count == 0:
+        return
+    sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length)
+    p.thickness[:], sim.gradient_term, sim.next_smoothing_length = thickness(
+        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, p.longest_smoothing_length, sim.numerics.threads
+    )
+    p.depth[:] = p.thickness / sim.cosine
+    p.liquefaction_pressure[:] = material.buoyant_density * material.gravity * p.thickness * sim.cosine
+
+
+def consolidate(sim, dt: float) -> None:
+    """Advance the pore-pressure columns with what the flow did to them."""
+    p, material = sim.particles, sim.physics.material
+    c_v = material.coefficient_of_consolidation
+    sim.physics.column.advance(
+        columns(p), forcing(sim), c_v, material.water_density / material.buoyant_density, dt,
+        p.basal_excess_pore_pressure,
+    )  # fmt: skip
+    eroding = sim.granted > 0.0
+    with np.errstate(divide="ignore"):
+        peclet = p.entrainment_rate * p.thickness * sim.cosine / c_v
+    p.basal_peclet_number[:] = np.where(eroding, peclet, p.basal_peclet_number)
+
+
+def push(sim) -> None:
+    """Thrust: the acceleration by the flow's own pressure."""
+    p, numerics = sim.particles, sim.numerics
+    if p.count == 0:
+        return
+    state = FlowState(
+        p.x, p.y, p.z, p.velocity, p.volume, p.thickness, p.smoothing_length, sim.gradient_term, sim.cosine,
+        sim.physics.material.gravity,
+    )  # fmt: skip
+    p.thrust[:], sim.thickening = sim.physics.flow.thrust(
+        state, sim.cells, numerics.shock_viscosity, numerics.threads
+    )
+    p.smoothing_length[:] = sim.next_smoothing_length
+
+
+def check(sim) -> None:
+    """Raise SimulationError if anything that moves is not finite."""
+    for name in ("velocity", "thickness", "basal_excess_pore_pressure"):
+        values = getattr(sim.particles, name)
+        if not np.isfinite(values.sum()):
+            bad = ~np.isfinite(values)
+            particle = int(np.nonzero(bad)[-1][0]) if bad.any() else 0
+            raise SimulationError(name, particle, sim.time, float(values[..., particle].sum()))
+
+
+def columns(p) -> ColumnState:
+    """Return the particles' arrays as the column law knows them."""
+    return ColumnState(p.excess_pore_pressure, *(getattr(p, f"column_{name}") for name in ColumnState._fields[1:]))
+
+
+def forcing(sim) -> ColumnForcing:
+    """Return what the last step did to the columns."""
+    p = sim.particles
+    return ColumnForcing(p.volume, p.thickness, p.liquefaction_pressure, sim.granted, sim.granted_ratio)
+
+
+def _base(sim) -> BasalState:
+    p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
+    speed, normal_gravity, liquefaction = np.empty(p.count), np.empty(p.count), np.empty(p.count)
+    basal_state(
+        p.velocity, sim.ground, sim.cosine, p.thickness, material.gravity, material.buoyant_density,
+        min(nodes.dx, nodes.dy), speed, normal_gravity, liquefaction,
+    )  # fmt: skip
+    return BasalState(
+        p.depth, p.thickness, speed, normal_gravity, liquefaction, p.basal_excess_pore_pressure,
+        material.density, material.buoyant_density, material.gravity,
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""The laws, one per file. Sub-packages do not import each other."""

@@ -1,0 +1,36 @@
+"""Columns whose basal pressure follows the load."""
+
+import numpy as np
+
+from ...core.parameters import declared, parameter
+from ..contracts import ColumnForcing, ColumnState
+
+
+@declared
+class ConstantRatio:
+    """Excess pore pressure proportional to the overburden at every depth, for ever.
+
+    The limit of tight debris whose bed has its own ratio (theory, section 6, "constant ratio").
+
+    Examples
+    --------
+    >>> ConstantRatio()
+    ConstantRatio(ratio=0.65)
+    """
+
+    ratio: float = parameter("-", "excess pore pressure over its liquefaction value", 0.65, (0.0, 1.0))
+
+    @property
+    def levels(self) -> int:
+        """Number of levels of a column: base and surface, the profile is linear."""
+        return 2
+
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
+                water_to_buoyant: float, dt: float, basal_pressure) -> None:
+        """Write the pressure at the base [Pa]."""
+        np.multiply(forcing.liquefaction_pressure, self.ratio, out=basal_pressure)
+
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+        """Write the linear profile [Pa]."""
+        eta = np.linspace(1.0, 0.0, columns.profile.shape[1])
+        columns.profile[:] = self.ratio * forcing.liquefaction_pressure[:, None] * eta

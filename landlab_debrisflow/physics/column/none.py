@@ -1,0 +1,29 @@
+"""Columns without excess pore pressure."""
+
+from ...core.parameters import declared
+from ..contracts import ColumnForcing, ColumnState
+
+
+@declared
+class NoExcessPressure:
+    """Dry debris, or debris so permeable that its pore water stays hydrostatic.
+
+    Examples
+    --------
+    >>> NoExcessPressure()
+    NoExcessPressure()
+    """
+
+    @property
+    def levels(self) -> int:
+        """Number of levels of a column: base and surface."""
+        return 2
+
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
+                water_to_buoyant: float, dt: float, basal_pressure) -> None:
+        """Write no pressure at the base [Pa]."""
+        basal_pressure[:] = 0.0
+
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+        """Write no pressure at any level [Pa]."""
+        columns.profile[:] = 0.0

@@ -1,0 +1,50 @@
+"""The excess pore pressure a column is released with."""
+
+import numpy as np
+
+
+def initial_profile(liquefaction_pressure, levels: int, ratio, profile: str, basal_layer_fraction):
+    """Return the profiles of columns at release (theory, section 3, "Start").
+
+    Parameters
+    ----------
+    liquefaction_pressure : ndarray, shape (n,)
+        [Pa].
+    levels : int
+        Number of levels, equally spaced, 0 at the base and the last at the surface.
+    ratio : float or ndarray, shape (n,)
+        Basal excess pore pressure over its liquefaction value [-].
+    profile : {"linear", "uniform", "basal_layer"}
+        Falling linearly to the surface; the same everywhere; or the same within a layer at the base
+        and 0 above. Nowhere more than what liquefies the grains there.
+    basal_layer_fraction : float
+        Thickness of that layer over that of the column [-].
+
+    Returns
+    -------
+    ndarray, shape (n, levels)
+        Excess pore pressure [Pa].
+
+    Examples
+    --------
+    >>> initial_profile(np.array([100.0]), 5, 0.5, "uniform", 0.1)
+    array([[50., 50., 50., 25.,  0.]])
+    >>> initial_profile(np.array([100.0]), 5, 0.5, "basal_layer", 0.25)
+    array([[50., 25.,  0.,  0.,  0.]])
+    """
+    eta = np.linspace(1.0, 0.0, levels)
+    load = np.asarray(liquefaction_pressure, dtype=float)[:, None]
+    base = np.asarray(ratio, dtype=float).reshape(-1, 1) * load
+    if profile == "linear":
+        return base * eta
+    if profile == "basal_layer":
+        # A level stands for the half cells beside it (a half cell at base and surface), and takes the
+        # part of them that lies in the layer: the sum over the levels is then that of the step, for a
+        # layer of any thickness. The base level keeps its part too, so a layer thinner than half a
+        # cell starts below its own pressure rather than with more of it than there is.
+        cells = levels - 1
+        below = cells * (1.0 - eta) - 0.5
+        filled = np.clip(basal_layer_fraction * cells - below, 0.0, 1.0)
+        filled[0] = min(1.0, 2.0 * basal_layer_fraction * cells)
+        base = base * filled
+    return np.minimum(base, load * eta)

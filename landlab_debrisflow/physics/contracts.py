@@ -1,0 +1,107 @@
+"""What a law is given and what it must return.
+
+A law is a frozen dataclass made by `core.parameters.declared` with one array method. It reads the
+arrays it is given, writes only those named ``out`` (or named in the docstring), and is composed with
+others in Python: no law knows another.
+"""
+
+from typing import NamedTuple, Protocol
+
+from numpy import ndarray as Array
+
+
+class BasalState(NamedTuple):
+    """The base of the flow under each of n particles: what friction and erosion laws read."""
+
+    depth: Array  # vertical [m]
+    thickness: Array  # slope-normal [m]
+    speed: Array  # along the slope [m s-1]
+    normal_gravity: Array  # with curvature, >= 0 [m s-2]
+    liquefaction_pressure: Array  # rho' g thickness cos(theta), static gravity [Pa]
+    excess_pore_pressure: Array  # at the base [Pa]
+    density: float  # mixture [kg m-3]
+    buoyant_density: float  # [kg m-3]
+    gravity: float  # [m s-2]
+
+
+class ColumnState(NamedTuple):
+    """The pore-pressure columns of n particles, written by the column law.
+
+    ``profile`` is the excess pore pressure [Pa] at equally spaced levels, index 0 at the base and the
+    last at the surface, *as it was when the column was last advanced*; the other arrays say when that
+    was, so that a law may leave a column alone while nothing is missed.
+    """
+
+    profile: Array  # (n, levels) [Pa]
+    volume: Array  # of the particle then [m3]
+    load: Array  # liquefaction pressure then [Pa]
+    current_load: Array  # liquefaction pressure at the end of the last call [Pa]
+    erosion_load: Array  # liquefaction pressure added by entrained soil since [Pa]
+    diffusion: Array  # integral of c_v / h_n^2 dt since [-]
+    diffusion_since_switch: Array  # the same since the base became impermeable [-]
+    eroding: Array  # base now: 0 impermeable, 1 prescribed by the bed, 2 prescribed only since then (int8)
+    clipped: Array  # pressure removed by the bounds, times thickness, so far [Pa m]
+
+
+class ColumnForcing(NamedTuple):
+    """What the flow did to n columns in one step."""
+
+    volume: Array  # after the step [m3]
+    thickness: Array  # after the step, slope-normal [m]
+    liquefaction_pressure: Array  # after the step [Pa]
+    entrained: Array  # volume granted by the bed in the step [m3]; > 0 means eroding
+    bed_pressure_ratio: Array  # of the soil that came in, or of the bed below [-]
+
+
+class FrictionLaw(Protocol):
+    """Resistance of the bed."""
+
+    def basal_resistance(self, state: BasalState, yield_stress: Array, drag: Array) -> None:
+        """Write the part of the basal shear stress that holds a body at rest [Pa], and the rest
+        divided by the speed [Pa s m-1], both >= 0 and finite."""
+
+
+class ErosionLaw(Protocol):
+    """How fast the flow asks soil from the bed."""
+
+    def entrainment_rate(self, state: BasalState, out: Array) -> None:
+        """Write the erosion rate asked for: bed volume per map area and time [m s-1], >= 0, zero at rest."""
+
+
+class ColumnLaw(Protocol):
+    """Excess pore pressure under a particle."""
+
+    @property
+    def levels(self) -> int:
+        """Number of levels of a column, at least 2."""
+
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
+                water_to_buoyant: float, dt: float, basal_pressure: Array) -> None:
+        """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
+
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing,
+                    water_to_buoyant: float) -> None:
+        """Bring every profile to the present in place, for output, a change of volume or the end."""
+
+
+class FlowState(NamedTuple):
+    """The moving mass as the flow law sees it, n particles on the surface."""
+
+    x: Array  # map coordinates [m]
+    y: Array
+    z: Array  # elevation of the bed [m]
+    velocity: Array  # (3, n) [m s-1]
+    volume: Array  # [m3]
+    thickness: Array  # slope-normal [m]
+    smoothing_length: Array  # [m]
+    gradient_term: Array  # Omega of the grad-h formulation [-]
+    cos_slope: Array  # [-]
+    gravity: float  # [m s-2]
+
+
+class FlowLaw(Protocol):
+    """Inner forces of the flow."""
+
+    def thrust(self, state: FlowState, cells, shock_viscosity: float, threads: int) -> tuple[Array, Array]:
+        """Return the acceleration by the flow's own pressure, shape (3, n) [m s-2], and the rate at which
+        converging flow thickens, shape (n,) [m s-1]."""

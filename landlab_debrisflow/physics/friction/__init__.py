@@ -1,0 +1,6 @@
+"""Laws of basal friction."""
+
+from .coulomb import Coulomb
+from .voellmy import Voellmy
+
+__all__ = ["Coulomb", "Voellmy"]

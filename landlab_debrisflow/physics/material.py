@@ -1,0 +1,50 @@
+"""What the debris is made of, and the pore pressure it starts with."""
+
+from ..core.constants import GRAVITY
+from ..core.parameters import declared, parameter
+
+
+@declared
+class Material:
+    """Saturated (or, with ``water_density=0``, dry) debris; the defaults are those of Tsing Shan.
+
+    The basal friction acts on the *buoyant* weight, so an angle printed for a saturated flow is the
+    angle of the grains, about twice the apparent one.
+
+    Examples
+    --------
+    >>> Material().density, Material().buoyant_density
+    (1990.0, 990.0)
+    >>> Material(water_density=0.0).buoyant_density
+    1590.0
+    """
+
+    solid_density: float = parameter("kg m-3", "density of the grains", 2650.0, (1.0, 1e5))
+    water_density: float = parameter("kg m-3", "density of the pore water; 0 = dry", 1000.0, (0.0, 1e5))
+    porosity: float = parameter("-", "volume fraction of the pores", 0.4, (0.0, 0.99))
+    coefficient_of_consolidation: float = parameter(
+        "m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6)
+    )
+    bed_pressure_ratio: float = parameter(
+        "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
+    )
+    initial_pressure_ratio: float = parameter(
+        "-", "basal excess pore pressure over its liquefaction value at release", 0.65, (0.0, 1.0)
+    )
+    initial_pressure_profile: str = parameter(
+        "-", "shape of the profile at release", "linear", choices=("linear", "uniform", "basal_layer")
+    )
+    basal_layer_fraction: float = parameter(
+        "-", "thickness of the basal layer over that of the column", 0.1, (0.0, 1.0)
+    )
+    gravity: float = parameter("m s-2", "acceleration of gravity", GRAVITY, (0.0, 1e3))
+
+    @property
+    def density(self) -> float:
+        """Density of the mixture [kg m-3]."""
+        return (1.0 - self.porosity) * self.solid_density + self.porosity * self.water_density
+
+    @property
+    def buoyant_density(self) -> float:
+        """Density of the mixture less that of the water [kg m-3]."""
+        return self.density - self.water_density

@@ -1,0 +1,1 @@
+"""What watches and writes. Reads the model, is never imported by it."""

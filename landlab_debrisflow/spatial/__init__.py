@@ -1,0 +1,1 @@
+"""Mathematics without debris: cell lists, SPH sums, transfer between particles and nodes."""

@@ -1,0 +1,97 @@
+"""Sort particles into square cells so that neighbours are found in cells nearby.
+
+Supports differ from particle to particle, and a pair interacts if *either* reaches the other. Each
+cell therefore knows its own reach (the largest support inside) and its window: how many cells away
+the farthest cell lies whose reach, or its own, spans the gap.
+"""
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.jit import kernel
+
+
+class Cells(NamedTuple):
+    """A cell list over n particles; ``start[c]:start[c + 1]`` are the sorted particles of cell c."""
+
+    order: np.ndarray  # (n,) particle at each sorted place
+    start: np.ndarray  # (cells + 1,)
+    reach: np.ndarray  # (cells,) [m]
+    window: np.ndarray  # (cells,) in cells
+    columns: int
+    rows: int
+    size: float  # [m]
+
+
+def sort_into_cells(x, y, support) -> Cells:
+    """Build the cell list.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Map coordinates [m].
+    support : ndarray, shape (n,)
+        Radius within which each particle feels others [m].
+    """
+    n = x.size
+    west, south = x.min(), y.min()
+    width, height = x.max() - west, y.max() - south
+    size = support.mean()
+    most = 4 * n + 16  # a flow far from its parts must not pay for the empty land between
+    size = max(size, np.sqrt(width * height / most), max(width, height) / most)
+    columns, rows = int(width / size) + 1, int(height / size) + 1
+    cells = columns * rows
+    start, order = np.zeros(cells + 1, np.int64), np.empty(n, np.int64)
+    reach, window = np.zeros(cells), np.zeros(cells, np.int64)
+    _sort(x, y, support, west, south, size, columns, rows, order, start, reach, window, np.empty(n, np.int64))
+    return Cells(order, start, reach, window, columns, rows, size)
+
+
+@kernel
+def _sort(x, y, support, west, south, size, columns, rows, order, start, reach, window, cell):
+    for i in range(x.size):
+        c = min(int((y[i] - south) / size), rows - 1) * columns + min(int((x[i] - west) / size), columns - 1)
+        cell[i] = c
+        start[c + 1] += 1
+        reach[c] = max(reach[c], support[i])
+    for c in range(start.size - 1):
+        start[c + 1] += start[c]
+    for i in range(x.size - 1, -1, -1):  # backwards and counting down: the order inside a cell is kept
+        c = cell[i]
+        start[c + 1] -= 1
+        order[start[c + 1]] = i
+    # start[c + 1] now holds the beginning of cell c: shift it back
+    for c in range(start.size - 1):
+        start[c] = start[c + 1]
+    start[start.size - 1] = x.size
+    for row in range(rows):
+        for column in range(columns):
+            c = row * columns + column
+            if start[c] == start[c + 1]:
+                continue
+            k = int(np.ceil(reach[c] / size))
+            for r in range(max(row - k, 0), min(row + k, rows - 1) + 1):
+                for q in range(max(column - k, 0), min(column + k, columns - 1) + 1):
+                    distance = max(abs(r - row), abs(q - column))
+                    d = r * columns + q
+                    window[d] = max(window[d], distance)
+                    window[c] = max(window[c], distance)
+
+
+def over_cells(function, cells: Cells, threads: int, *arguments):
+    """Call ``function(first, last, cells, *arguments)`` on ranges of cells with equal work.
+
+    Every cell is computed whole by one thread and writes only to its own particles, so the result
+    does not depend on the number of threads, to the last bit.
+    """
+    count = cells.start.size - 1
+    if threads == 1:
+        function(0, count, *arguments)
+        return
+    parts = np.searchsorted(cells.start, np.linspace(0, cells.order.size, threads + 1))
+    parts[0], parts[-1] = 0, count
+    with ThreadPoolExecutor(threads) as pool:
+        for future in [pool.submit(function, a, b, *arguments) for a, b in zip(parts, parts[1:], strict=False)]:
+            future.result()

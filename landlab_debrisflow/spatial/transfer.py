@@ -1,0 +1,107 @@
+"""Carry volumes and values between particles and the nodes of a raster.
+
+The rule, used for every field, for erosion and for the deposit: a particle is a tent as wide as its
+own spacing (V/h)^(1/2), never narrower than the node spacing (then it is bilinear), never wider than
+four. Its weights are normalised over the *core* nodes it reaches, so nothing is lost at a boundary
+and nothing is put outside.
+
+The loops run in particle order in one thread: the only sums that several particles share.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.jit import kernel
+
+WIDEST = 4.0
+"""Largest half-width of a tent in node spacings."""
+
+
+class Nodes(NamedTuple):
+    """The raster as kernels see it; coordinates start at the lower left node."""
+
+    core: np.ndarray  # (nodes,) bool: may hold material
+    columns: int
+    dx: float
+    dy: float
+
+    @property
+    def area(self):
+        """Map area of one node [m2]."""
+        return self.dx * self.dy
+
+
+def scatter(nodes: Nodes, x, y, spread, values, sums, touched):
+    """Add particles' values to nodes.
+
+    Parameters
+    ----------
+    x, y, spread : ndarray, shape (n,)
+        Position and half-width of the tent [m].
+    values : ndarray, shape (k, n)
+        Amounts; the first row must be > 0 where a particle counts.
+    sums : ndarray, shape (k, nodes)
+        Zero on entry; the amounts are added.
+    touched : ndarray of int, shape (nodes,)
+        Scratch for the list of nodes reached.
+
+    Returns
+    -------
+    ndarray of int
+        The nodes reached, in order of first touch: all that a caller needs to look at.
+    """
+    return touched[: _scatter(nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, values, sums, touched)]
+
+
+def gather(nodes: Nodes, x, y, spread, values):
+    """Return the tent-weighted mean of node values, shape (k, nodes), at particles, shape (k, n)."""
+    out = np.zeros((values.shape[0], x.size))
+    _gather(nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, values, out)
+    return out
+
+
+@kernel
+def _weigh(core, columns, dx, dy, x, y, spread, index, weight):
+    """Write the core nodes under one tent and their normalised weights; return how many."""
+    rows = core.size // columns
+    ax, ay = min(max(spread, dx), WIDEST * dx), min(max(spread, dy), WIDEST * dy)
+    count, total = 0, 0.0
+    for r in range(max(int(np.ceil((y - ay) / dy)), 0), min(int(np.floor((y + ay) / dy)), rows - 1) + 1):
+        wy = 1.0 - abs(y - r * dy) / ay
+        for c in range(max(int(np.ceil((x - ax) / dx)), 0), min(int(np.floor((x + ax) / dx)), columns - 1) + 1):
+            node = r * columns + c
+            w = wy * (1.0 - abs(x - c * dx) / ax)
+            if core[node] and w > 0.0:
+                index[count], weight[count] = node, w
+                total += w
+                count += 1
+    for k in range(count):
+        weight[k] /= total
+    return count
+
+
+@kernel
+def _scatter(core, columns, dx, dy, x, y, spread, values, sums, touched):
+    index, weight = np.empty(100, np.int64), np.empty(100)
+    found = 0
+    for i in range(x.size):
+        if values[0, i] <= 0.0:
+            continue
+        for k in range(_weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+            node = index[k]
+            if sums[0, node] == 0.0:
+                touched[found] = node
+                found += 1
+            for v in range(values.shape[0]):
+                sums[v, node] += weight[k] * values[v, i]
+    return found
+
+
+@kernel
+def _gather(core, columns, dx, dy, x, y, spread, values, out):
+    index, weight = np.empty(100, np.int64), np.empty(100)
+    for i in range(x.size):
+        for k in range(_weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+            for v in range(values.shape[0]):
+                out[v, i] += weight[k] * values[v, index[k]]
