@@ -17,6 +17,7 @@ landlab_debrisflow.core.errors.ParameterError: Growth: unknown key 'rate'; allow
 """
 
 import dataclasses
+import functools
 import math
 from collections import namedtuple
 from collections.abc import Mapping
@@ -67,7 +68,8 @@ def declared(cls):
             self._agree()
 
     cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
-    cls.si = property(_in_si, doc="The numbers in SI units, degrees as radians (a named tuple).")
+    cls.si = functools.cached_property(_in_si)  # the numbers in SI units, degrees as radians
+    cls.si.__set_name__(cls, "si")
     return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
 
 

@@ -8,11 +8,15 @@ import numpy as np
 
 from ..core.jit import kernel
 
+STILL = 1e-3
+"""Displacement over smoothing length, and relative change of volume, below which the sums over
+neighbours need not be done again: their error is of this order."""
+
 CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are open boundaries
 
 
 @kernel
-def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, dt):
+def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest_speed, dt):
     """Accelerate along the bed for `dt` seconds, friction included, in place.
 
     Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
@@ -27,6 +31,8 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, dt):
         As `Surface.sample` returns it.
     cosine, yield_stress, drag, mass : ndarray, shape (n,)
         cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2].
+    rest_speed : float
+        A particle that is being slowed and falls below this comes to rest [m s-1].
     """
     for i in range(cosine.size):
         c = cosine[i]
@@ -39,8 +45,10 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, dt):
         if speed == 0.0:
             factor = 0.0
         else:
+            was = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
             left = max(0.0, speed - dt * yield_stress[i] / mass[i]) / (1.0 + dt * drag[i] / mass[i])
-            factor = left / speed
+            slowing = left * left < was
+            factor = 0.0 if slowing and left < rest_speed else left / speed
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 
 
@@ -132,3 +140,24 @@ def basal_state(velocity, ground, cosine, thickness, gravity, buoyant_density, t
         speed[i] = np.sqrt(u * u + v * v + w * w)
         normal_gravity[i] = max(0.0, (gravity + bend) * cosine[i])
         liquefaction_pressure[i] = buoyant_density * gravity * thickness[i] * cosine[i]
+
+
+@kernel
+def count_still_steps(x, y, z, volume, smoothing_length, anchor, anchor_volume, still_steps):
+    """Count the steps since each particle moved or grew noticeably, in place.
+
+    Parameters
+    ----------
+    x, y, z, volume, smoothing_length : ndarray, shape (n,)
+    anchor, anchor_volume : ndarray, shape (3, n) and (n,)
+        Where and how large it was when it last counted as changed [m, m3].
+    still_steps : ndarray of int, shape (n,)
+    """
+    for i in range(x.size):
+        moved = (x[i] - anchor[0, i]) ** 2 + (y[i] - anchor[1, i]) ** 2 + (z[i] - anchor[2, i]) ** 2
+        grown = abs(volume[i] - anchor_volume[i])
+        if moved > (STILL * smoothing_length[i]) ** 2 or grown > STILL * volume[i]:
+            anchor[0, i], anchor[1, i], anchor[2, i], anchor_volume[i] = x[i], y[i], z[i], volume[i]
+            still_steps[i] = 0
+        else:
+            still_steps[i] += 1

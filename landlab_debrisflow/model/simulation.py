@@ -39,6 +39,7 @@ class Simulation:
         self.time = 0.0
         self.outflow = {}  # volume by open node [m3]
         self._peak_energy, self._arrested = 0.0, False
+        self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = None
 
@@ -98,9 +99,10 @@ class Simulation:
         p = self.particles
         self.granted, self.granted_ratio = np.zeros(p.count), np.zeros(p.count)
         step.find_ground(self)
+        p.still_steps[:] = 0
         for _ in range(sweeps - 1):
             step.find_depth(self)
-            p.smoothing_length[:] = self.next_smoothing_length
+            p.smoothing_length[:] = p.next_smoothing_length
         step.find_depth(self)
         step.push(self)
         self._changed = False
@@ -143,7 +145,7 @@ class Simulation:
 
     def _next_step(self, left: float) -> float:
         longest = longest_step(
-            self.particles, self.cosine, self.thickening, self.physics.material.gravity,
+            self.particles, self.cells.computed, self.cosine, self.physics.material.gravity,
             self.numerics.courant_number, min(self.bed.nodes.dx, self.bed.nodes.dy),
         )  # fmt: skip
         if left <= longest:
@@ -155,10 +157,13 @@ class Simulation:
 
         Without this, remnants on slopes above their apparent friction angle creep for ever.
         """
-        p = self.particles
+        p, rest_energy = self.particles, self.numerics.rest_energy
+        if p.count == 0:
+            return
         energy = float(np.sum(p.volume * np.einsum("in,in->n", p.velocity, p.velocity)))
         self._peak_energy = max(self._peak_energy, energy)
-        if energy <= self.numerics.rest_energy * self._peak_energy:
+        self.rest_speed = np.sqrt(rest_energy * self._peak_energy / p.volume.sum())
+        if energy <= rest_energy * self._peak_energy:
             p.velocity[:] = 0.0
             p.entrainment_rate[:] = 0.0
             self._arrested = True

@@ -9,8 +9,12 @@ import numpy as np
 from ..core.errors import SimulationError
 from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
-from ..spatial.summation import thickness
-from .motion import basal_state, drift, kick, turn
+from ..spatial.summation import sum_thickness
+from .motion import basal_state, count_still_steps, drift, kick, turn
+
+STEPS_TO_SLEEP = 4
+"""Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
+smoothing length has then settled."""
 
 
 def advance(sim, dt: float) -> None:
@@ -32,7 +36,7 @@ def friction_and_kick(sim, dt: float) -> None:
     yield_stress, drag = np.empty(p.count), np.empty(p.count)
     sim.physics.friction.basal_resistance(_base(sim), yield_stress, drag)
     mass = material.density * p.thickness
-    kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, dt)
+    kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
 
 
 def entrain(sim, dt: float):
@@ -68,6 +72,7 @@ def find_ground(sim) -> None:
     sim.cosine = 1.0 / np.sqrt(1.0 + sim.ground[1] ** 2 + sim.ground[2] ** 2)
     p.z[:] = sim.ground[0]
     turn(p.velocity, sim.ground, sim.cosine)
+    count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
 
 def find_depth(sim) -> None:
@@ -75,10 +80,11 @@ def find_depth(sim) -> None:
     p, material = sim.particles, sim.physics.material
     if p.count == 0:
         return
-    sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length)
-    p.thickness[:], sim.gradient_term, sim.next_smoothing_length = thickness(
-        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, p.longest_smoothing_length, sim.numerics.threads
-    )
+    sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length, p.still_steps < STEPS_TO_SLEEP)
+    sum_thickness(
+        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, p.longest_smoothing_length,
+        (p.thickness, p.gradient_term, p.next_smoothing_length), sim.numerics.threads,
+    )  # fmt: skip
     p.depth[:] = p.thickness / sim.cosine
     p.liquefaction_pressure[:] = material.buoyant_density * material.gravity * p.thickness * sim.cosine
 
@@ -103,13 +109,11 @@ def push(sim) -> None:
     if p.count == 0:
         return
     state = FlowState(
-        p.x, p.y, p.z, p.velocity, p.volume, p.thickness, p.smoothing_length, sim.gradient_term, sim.cosine,
+        p.x, p.y, p.z, p.velocity, p.volume, p.thickness, p.smoothing_length, p.gradient_term, sim.cosine,
         sim.physics.material.gravity,
     )  # fmt: skip
-    p.thrust[:], sim.thickening = sim.physics.flow.thrust(
-        state, sim.cells, numerics.shock_viscosity, numerics.threads
-    )
-    p.smoothing_length[:] = sim.next_smoothing_length
+    sim.physics.flow.thrust(state, sim.cells, numerics.shock_viscosity, numerics.threads, p.thrust, p.thickening)
+    p.smoothing_length[:] = p.next_smoothing_length
 
 
 def check(sim) -> None:

@@ -6,7 +6,9 @@ TERRAIN_FRACTION = 0.25
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
-def longest_step(particles, cosine, thickening, gravity: float, courant_number: float, node_spacing: float) -> float:
+def longest_step(
+    particles, awake, cosine, gravity: float, courant_number: float, node_spacing: float
+) -> float:
     """Return the longest stable time step [s].
 
     Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow against the smoothing
@@ -15,8 +17,10 @@ def longest_step(particles, cosine, thickening, gravity: float, courant_number: 
     Parameters
     ----------
     particles : Particles
-    cosine, thickening : ndarray, shape (n,)
-        cos(theta) and -h div v [m s-1].
+    awake : ndarray of bool, shape (n,)
+        Those near something that moves; the others can wait for any time.
+    cosine : ndarray, shape (n,)
+        cos(theta).
     gravity : float
         [m s-2]
     courant_number : float
@@ -28,7 +32,7 @@ def longest_step(particles, cosine, thickening, gravity: float, courant_number: 
         return np.inf
     p = particles
     celerity = np.sqrt(gravity * cosine * p.thickness)
-    closing = np.maximum(thickening, 0.0) / p.thickness
-    waves = np.max(celerity / p.smoothing_length + closing)
+    closing = np.maximum(p.thickening, 0.0) / p.thickness
+    waves = np.max(np.where(awake, celerity / p.smoothing_length + closing, 0.0))
     speed = np.sqrt(np.max(np.einsum("in,in->n", p.velocity, p.velocity)))
-    return min(courant_number / waves, TERRAIN_FRACTION * node_spacing / max(speed, 1e-300))
+    return min(courant_number / max(waves, 1e-300), TERRAIN_FRACTION * node_spacing / max(speed, 1e-300))

@@ -39,7 +39,8 @@ class ColumnState(NamedTuple):
     erosion_load: Array  # liquefaction pressure added by entrained soil since [Pa]
     diffusion: Array  # integral of c_v / h_n^2 dt since [-]
     diffusion_since_switch: Array  # the same since the base became impermeable [-]
-    eroding: Array  # base now: 0 impermeable, 1 prescribed by the bed, 2 prescribed only since then (int8)
+    eroding: Array  # > 0: the bed prescribes the base; the rest is the law's own business (int8, 0 at start)
+    bed_ratio: Array  # of the soil that came in last [-]
     clipped: Array  # pressure removed by the bounds, times thickness, so far [Pa m]
 
 
@@ -102,6 +103,7 @@ class FlowState(NamedTuple):
 class FlowLaw(Protocol):
     """Inner forces of the flow."""
 
-    def thrust(self, state: FlowState, cells, shock_viscosity: float, threads: int) -> tuple[Array, Array]:
-        """Return the acceleration by the flow's own pressure, shape (3, n) [m s-2], and the rate at which
-        converging flow thickens, shape (n,) [m s-1]."""
+    def thrust(self, state: FlowState, cells, shock_viscosity: float, threads: int,
+               acceleration: Array, thickening: Array) -> None:
+        """Write, where cells are awake, the acceleration by the flow's own pressure, shape (3, n) [m s-2],
+        and the rate at which converging flow thickens, shape (n,) [m s-1]."""

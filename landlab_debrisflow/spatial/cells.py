@@ -3,6 +3,9 @@
 Supports differ from particle to particle, and a pair interacts if *either* reaches the other. Each
 cell therefore knows its own reach (the largest support inside) and its window: how many cells away
 the farthest cell lies whose reach, or its own, spans the gap.
+
+A cell sleeps while nothing in its window has changed: its sums would come out the same to the last
+bit, so nobody computes them.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -20,12 +23,14 @@ class Cells(NamedTuple):
     start: np.ndarray  # (cells + 1,)
     reach: np.ndarray  # (cells,) [m]
     window: np.ndarray  # (cells,) in cells
+    awake: np.ndarray  # (cells,) bool
+    computed: np.ndarray  # (n,) bool: in a cell that is awake
     columns: int
     rows: int
     size: float  # [m]
 
 
-def sort_into_cells(x, y, support) -> Cells:
+def sort_into_cells(x, y, support, changed=None) -> Cells:
     """Build the cell list.
 
     Parameters
@@ -34,8 +39,11 @@ def sort_into_cells(x, y, support) -> Cells:
         Map coordinates [m].
     support : ndarray, shape (n,)
         Radius within which each particle feels others [m].
+    changed : ndarray of bool, shape (n,), optional
+        Particles whose neighbours' sums may differ from last time; all if not given.
     """
     n = x.size
+    changed = np.ones(n, bool) if changed is None else changed
     west, south = x.min(), y.min()
     width, height = x.max() - west, y.max() - south
     size = support.mean()
@@ -45,17 +53,25 @@ def sort_into_cells(x, y, support) -> Cells:
     cells = columns * rows
     start, order = np.zeros(cells + 1, np.int64), np.empty(n, np.int64)
     reach, window = np.zeros(cells), np.zeros(cells, np.int64)
-    _sort(x, y, support, west, south, size, columns, rows, order, start, reach, window, np.empty(n, np.int64))
-    return Cells(order, start, reach, window, columns, rows, size)
+    stirred, awake, computed = np.zeros(cells, np.bool_), np.zeros(cells, np.bool_), np.zeros(n, np.bool_)
+    _sort(
+        x, y, support, changed, west, south, size, columns, rows, order, start, reach, window,
+        stirred, awake, computed, np.empty(n, np.int64),
+    )  # fmt: skip
+    return Cells(order, start, reach, window, awake, computed, columns, rows, size)
 
 
 @kernel
-def _sort(x, y, support, west, south, size, columns, rows, order, start, reach, window, cell):
+def _sort(
+    x, y, support, changed, west, south, size, columns, rows, order, start, reach, window,
+    stirred, awake, computed, cell,
+):  # fmt: skip
     for i in range(x.size):
         c = min(int((y[i] - south) / size), rows - 1) * columns + min(int((x[i] - west) / size), columns - 1)
         cell[i] = c
         start[c + 1] += 1
         reach[c] = max(reach[c], support[i])
+        stirred[c] |= changed[i]
     for c in range(start.size - 1):
         start[c + 1] += start[c]
     for i in range(x.size - 1, -1, -1):  # backwards and counting down: the order inside a cell is kept
@@ -78,6 +94,15 @@ def _sort(x, y, support, west, south, size, columns, rows, order, start, reach, 
                     d = r * columns + q
                     window[d] = max(window[d], distance)
                     window[c] = max(window[c], distance)
+    for row in range(rows):
+        for column in range(columns):
+            c = row * columns + column
+            w = window[c] if start[c] < start[c + 1] else -1
+            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+                    awake[c] |= stirred[r * columns + q]
+            for k in range(start[c], start[c + 1]):
+                computed[order[k]] = awake[c]
 
 
 def over_cells(function, cells: Cells, threads: int, *arguments):

@@ -9,8 +9,9 @@ sums carry the corresponding gradient terms (Springel & Hernquist 2002; Price 20
 nothing converges in a spreading flow.
 
 The formulas stand in the loops that use them: numba's cache watches only a function's own file.
-Every cell first copies its neighbourhood into a small contiguous scratch and then loops over it
-without branches, which the compiler turns into vector code.
+What the pairs need is first packed in the order of the cells. Every cell then copies its neighbourhood,
+row by row of cells, into a small contiguous scratch, fills it up to whole vectors with points that are
+too far to matter, and loops over it without branches: the compiler turns that into vector code.
 """
 
 import numpy as np
@@ -28,10 +29,13 @@ plain Wendland sum it comes out 0.67 % too deep on square and hexagonal lattices
 LEAST_GRADIENT_TERM = 0.4
 """Floor of the grad-h term: it vanishes for a particle without neighbours, whose thickness is undefined."""
 
+_LANES = 8  # doubles in the widest vector register
+_FAR = 1e30  # where the filling points stand [m]
+
 _NORM = 7.0 / (4.0 * np.pi)
 
 
-def thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, threads=1):
+def sum_thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, out, threads=1):
     """Sum the slope-normal thickness and take one Newton step towards a consistent smoothing length.
 
     Parameters
@@ -45,10 +49,9 @@ def thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, threads=
     longest : ndarray, shape (n,)
         Cap of the smoothing length [m]; at the cap the length is fixed and the plain sum holds.
 
-    Returns
-    -------
-    thickness, gradient_term, smoothing_length : ndarray, shape (n,)
-        Slope-normal thickness [m]; Omega of the grad-h formulation [-]; the next smoothing length [m].
+    out : tuple of three ndarray, shape (n,)
+        Written where cells are awake: slope-normal thickness [m]; Omega of the grad-h formulation [-];
+        the next smoothing length [m].
 
     Notes
     -----
@@ -56,36 +59,59 @@ def thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, threads=
     Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
     length was set: one pass per time step is enough.
     """
-    n = x.size
-    out = np.empty((3, n))
+    packed = np.stack((x, y, z, volume, smoothing_length))[:, cells.order]
     over_cells(
-        _thickness, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.columns,
-        cells.rows, cells.size, x, y, z, volume, smoothing_length, longest, out,
+        _thickness, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.awake, cells.columns,
+        cells.rows, packed, longest, *out,
     )  # fmt: skip
-    return out
 
 
 @kernel
-def _thickness(first, last, order, start, reach, window, columns, rows, size, x, y, z, volume, length, longest, out):
-    near = np.empty((4, order.size))
+def _neighbourhood(cell, start, reach, window, columns, rows, packed, reach_row, near):
+    """Copy what may act on the particles of a cell into `near`; return its number, a multiple of _LANES.
+
+    Kept is what lies near enough to the box around the cell's particles: within the reach of the cell,
+    or within its own, 1 / packed[reach_row] (if reach_row >= 0).
+    """
+    west, east, south, north = _FAR, -_FAR, _FAR, -_FAR
+    for k in range(start[cell], start[cell + 1]):
+        west, east = min(west, packed[0, k]), max(east, packed[0, k])
+        south, north = min(south, packed[1, k]), max(north, packed[1, k])
+    row, column, w = cell // columns, cell % columns, window[cell]
+    within = reach[cell] * reach[cell]
+    m = 0
+    for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+        first = start[r * columns + max(column - w, 0)]
+        last = start[r * columns + min(column + w, columns - 1) + 1]
+        for k in range(first, last):
+            gap_x = max(max(west - packed[0, k], packed[0, k] - east), 0.0)
+            gap_y = max(max(south - packed[1, k], packed[1, k] - north), 0.0)
+            gap = gap_x * gap_x + gap_y * gap_y
+            if gap < within or (reach_row >= 0 and gap * packed[reach_row, k] ** 2 < 1.0):
+                for v in range(near.shape[0]):
+                    near[v, m] = packed[v, k]
+                m += 1
+    while m % _LANES:
+        for v in range(near.shape[0]):
+            near[v, m] = 0.0
+        near[0, m] = _FAR
+        m += 1
+    return m
+
+
+@kernel
+def _thickness(
+    first, last, order, start, reach, window, awake, columns, rows, packed, longest,
+    thickness, gradient_term, next_length,
+):  # fmt: skip
+    near = np.empty((4, order.size + _LANES))
     for cell in range(first, last):
-        if start[cell] == start[cell + 1]:
+        if not awake[cell]:
             continue
-        row, column, w = cell // columns, cell % columns, window[cell]
-        m = 0
-        for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                other = r * columns + q
-                gap_x, gap_y = max(abs(q - column) - 1, 0) * size, max(abs(r - row) - 1, 0) * size
-                if gap_x * gap_x + gap_y * gap_y >= reach[cell] * reach[cell]:
-                    continue
-                for k in range(start[other], start[other + 1]):
-                    j = order[k]
-                    near[0, m], near[1, m], near[2, m], near[3, m] = x[j], y[j], z[j], volume[j]
-                    m += 1
+        m = _neighbourhood(cell, start, reach, window, columns, rows, packed, -1, near)
         for k in range(start[cell], start[cell + 1]):
-            i = order[k]
-            xi, yi, zi, li = x[i], y[i], z[i], length[i]
+            i, volume = order[k], packed[3, k]
+            xi, yi, zi, li = packed[0, k], packed[1, k], packed[2, k], packed[4, k]
             inverse = 0.5 / li
             total, change = 0.0, 0.0
             for j in range(m):
@@ -95,23 +121,22 @@ def _thickness(first, last, order, start, reach, window, columns, rows, size, x,
                 t3 = t * t * t * near[3, j]
                 total += t3 * t * (1.0 + 4.0 * q)
                 change += t3 * q * q
-            own = (SELF_WEIGHT - 1.0) * volume[i]
+            own = (SELF_WEIGHT - 1.0) * volume
             # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3
             slope = -(2.0 * (total + own) - 20.0 * change) * _NORM / (li * li * li)
             total = (total + own) * _NORM / (li * li)
             if li >= longest[i]:
                 h, omega = total, 1.0
             else:
-                h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume[i] / (li * li)
+                h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume / (li * li)
                 omega = max(LEAST_GRADIENT_TERM, 1.0 + 0.5 * li / h * slope)
                 h -= min(max((h - total) / omega, -h), 0.5 * h)
-            out[0, i] = h
-            out[1, i] = omega
-            out[2, i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume[i] / h))
+            thickness[i], gradient_term[i] = h, omega
+            next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))
 
 
-def pressure_gradient(cells: Cells, x, y, z, velocity, volume, smoothing_length, strength, celerity, thickness,
-                      viscosity, threads=1):
+def sum_pressure_gradient(cells: Cells, x, y, z, velocity, volume, smoothing_length, strength, celerity, thickness,
+                          viscosity, acceleration, thickening, threads=1):  # fmt: skip
     """Sum the symmetric pressure gradient with shock viscosity: an acceleration.
 
     a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
@@ -129,70 +154,46 @@ def pressure_gradient(cells: Cells, x, y, z, velocity, volume, smoothing_length,
     viscosity : float
         Strength of the shock viscosity [-].
 
-    Returns
-    -------
     acceleration : ndarray, shape (3, n)
-        [m s-2]
+        Written where cells are awake [m s-2].
     thickening : ndarray, shape (n,)
-        -h div v, the rate at which converging flow thickens, without the grad-h term [m s-1].
+        Likewise: -h div v, the rate at which converging flow thickens, without the grad-h term [m s-1].
     """
-    acceleration, thickening = np.empty((3, x.size)), np.empty(x.size)
+    reach = volume * (5.0 * _NORM) / smoothing_length**4
+    packed = np.stack(
+        (x, y, z, *velocity, 0.5 / smoothing_length, reach, strength, celerity, thickness, volume)
+    )[:, cells.order]  # fmt: skip
     over_cells(
-        _pressure_gradient, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.columns,
-        cells.rows, cells.size, x, y, z, velocity, volume, smoothing_length, strength, celerity, thickness,
-        viscosity, acceleration, thickening,
+        _pressure_gradient, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.awake,
+        cells.columns, cells.rows, packed, viscosity, acceleration, thickening,
     )  # fmt: skip
-    return acceleration, thickening
 
 
 @kernel
 def _pressure_gradient(
-    first, last, order, start, reach, window, columns, rows, size, x, y, z, velocity, volume, length, strength,
-    celerity, thickness, viscosity, acceleration, thickening,
+    first, last, order, start, reach, window, awake, columns, rows, packed, viscosity, acceleration, thickening,
 ):  # fmt: skip
-    near = np.empty((12, order.size))
+    near = np.empty((12, order.size + _LANES))
     for cell in range(first, last):
-        if start[cell] == start[cell + 1]:
+        if not awake[cell]:
             continue
-        row, column, w = cell // columns, cell % columns, window[cell]
-        m = 0
-        for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                other = r * columns + q
-                gap_x, gap_y = max(abs(q - column) - 1, 0) * size, max(abs(r - row) - 1, 0) * size
-                if gap_x * gap_x + gap_y * gap_y >= max(reach[cell], reach[other]) ** 2:
-                    continue
-                for k in range(start[other], start[other + 1]):
-                    j = order[k]
-                    near[0, m], near[1, m], near[2, m] = x[j], y[j], z[j]
-                    near[3, m], near[4, m], near[5, m] = velocity[0, j], velocity[1, j], velocity[2, j]
-                    l2 = length[j] * length[j]
-                    near[6, m] = 0.5 / length[j]
-                    near[7, m] = volume[j] * 5.0 * _NORM / (l2 * l2)
-                    near[8, m] = strength[j]
-                    near[9, m] = celerity[j]
-                    near[10, m] = thickness[j]
-                    near[11, m] = volume[j]
-                    m += 1
+        m = _neighbourhood(cell, start, reach, window, columns, rows, packed, 6, near)
         for k in range(start[cell], start[cell + 1]):
-            i = order[k]
-            if volume[i] < 0.0:  # a hole pulls, and is not moved: see model/release.py
+            i, volume = order[k], packed[11, k]
+            if volume < 0.0:  # a hole pulls, and is not moved: see model/release.py
                 acceleration[0, i], acceleration[1, i], acceleration[2, i], thickening[i] = 0.0, 0.0, 0.0, 0.0
                 continue
-            xi, yi, zi, si, ci, hi = x[i], y[i], z[i], strength[i], celerity[i], thickness[i]
-            ui, vi, wi = velocity[0, i], velocity[1, i], velocity[2, i]
-            inverse = 0.5 / length[i]
-            own = 5.0 * _NORM / length[i] ** 4
+            xi, yi, zi, ui, vi, wi = packed[0, k], packed[1, k], packed[2, k], packed[3, k], packed[4, k], packed[5, k]
+            inverse, own, si, ci, hi = packed[6, k], packed[7, k] / volume, packed[8, k], packed[9, k], packed[10, k]
             ax, ay, az, inflow = 0.0, 0.0, 0.0, 0.0
             for j in range(m):
                 dx, dy, dz = xi - near[0, j], yi - near[1, j], zi - near[2, j]
                 r = np.sqrt(dx * dx + dy * dy + dz * dz)
                 ti, tj = max(0.0, 1.0 - r * inverse), max(0.0, 1.0 - r * near[6, j])
-                du, dv, dw = ui - near[3, j], vi - near[4, j], wi - near[5, j]
-                closing = -(du * dx + dv * dy + dw * dz)
-                approach = max(0.0, closing) / (r + 1e-300)
-                speed = ci + near[9, j] + 3.0 * approach
-                shock = 0.5 * viscosity * speed * approach / (hi + near[10, j])
+                closing = -((ui - near[3, j]) * dx + (vi - near[4, j]) * dy + (wi - near[5, j]) * dz)
+                both = hi + near[10, j]
+                approach = max(0.0, closing) / (r * both + 1e-300)  # speed over the sum of thicknesses
+                shock = 0.5 * viscosity * (ci + near[9, j] + 3.0 * approach * both) * approach
                 # grad W = -5 * 7/(4 pi l^4) (1 - q)^3 r
                 pull = own * near[11, j] * ti * ti * ti
                 push = pull * (si + shock) + near[7, j] * tj * tj * tj * (near[8, j] + shock)

@@ -60,7 +60,7 @@ def constant_local_peclet(xi, peclet: float) -> np.ndarray:
     Examples
     --------
     >>> constant_local_peclet([0.0, 0.5, 1.0], 1.0).round(6)
-    array([1.      , 0.560909, 0.      ])
+    array([1.      , 0.560906, 0.      ])
     """
     eta = 1.0 - np.asarray(xi, dtype=float)
     root = np.sqrt(0.5 * peclet)

@@ -2,8 +2,7 @@
 
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
-from .modes import column_modes
-from .profile import LOADING, advance_columns, bring_columns
+from .profile import LOADING, advance_columns, bring_columns, scheme_of
 
 
 @declared
@@ -24,13 +23,20 @@ class Classical:
         "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
     )
 
-    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
-                water_to_buoyant: float, dt: float, basal_pressure) -> None:
+    def advance(
+        self,
+        columns: ColumnState,
+        forcing: ColumnForcing,
+        coefficient_of_consolidation: float,
+        water_to_buoyant: float,
+        dt: float,
+        basal_pressure,
+    ) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
-        advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure,
-                        False, LOADING[self.loading_source], column_modes(self.levels))
+        scheme, c_v = scheme_of(False, self.loading_source, self.levels), coefficient_of_consolidation
+        advance_columns(columns, forcing, c_v, water_to_buoyant, dt, basal_pressure, scheme)
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
         """Bring every profile to the present in place."""
-        bring_columns(columns, forcing, water_to_buoyant, False, LOADING[self.loading_source],
-                      column_modes(self.levels))
+        scheme = scheme_of(False, self.loading_source, self.levels)
+        bring_columns(columns, forcing, water_to_buoyant, scheme)

@@ -25,8 +25,15 @@ class ConstantRatio:
         """Number of levels of a column: base and surface, the profile is linear."""
         return 2
 
-    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
-                water_to_buoyant: float, dt: float, basal_pressure) -> None:
+    def advance(
+        self,
+        columns: ColumnState,
+        forcing: ColumnForcing,
+        coefficient_of_consolidation: float,
+        water_to_buoyant: float,
+        dt: float,
+        basal_pressure,
+    ) -> None:
         """Write the pressure at the base [Pa]."""
         np.multiply(forcing.liquefaction_pressure, self.ratio, out=basal_pressure)
 

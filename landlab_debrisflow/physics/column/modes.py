@@ -7,20 +7,34 @@ import numpy as np
 
 
 class Modes(NamedTuple):
-    """Modes of a column, [0] over an impermeable base and [1] over a prescribed one."""
+    """Modes of a column, and what they need to let a slope at an impermeable base relax."""
 
-    shapes: np.ndarray  # (2, cells, cells), at all levels but the surface: sin(wave eta), normalised
-    mirror_rates: np.ndarray  # (cells,), of the next wave that looks the same at the levels, [0] only
-    mirror: np.ndarray  # (cells,), what that wave adds to a unit slope at the base
-    unseen: np.ndarray  # (cells,), what all waves that look the same add to it
+    shapes: np.ndarray  # (2, cells, cells): sin(wave eta), normalised, for either base
+    mirror_rates: np.ndarray  # (cells,), decay of the next wave that looks the same at the levels
+    mirror: np.ndarray  # (cells,), what that wave has in a slope of 1
+    unseen: np.ndarray  # (cells,), what all shorter waves that look the same have in it
 
 
 @lru_cache(maxsize=8)
 def column_modes(levels: int) -> Modes:
-    """Return the modes of a column of ``levels`` levels, base and surface included.
+    """Return the modes of a column.
 
-    The Fourier coefficients of ``eta`` over an impermeable base are ``+-2/wave^2``; those that the
-    levels see are ``+-2/(2 cells sin(wave/(2 cells)))^2``, the sum over all waves that look alike.
+    Parameters
+    ----------
+    levels : int
+        Number of levels, base and surface included.
+
+    Returns
+    -------
+    Modes
+        Shapes [0] belong to an impermeable base, waves ``(j + 1/2) pi``; [1] to a prescribed one,
+        ``(j + 1) pi``. They are given at all levels but the surface, where they vanish.
+
+    Notes
+    -----
+    ``eta`` has the Fourier coefficients ``+-2/wave^2`` over an impermeable base. The levels cannot
+    tell waves ``wave + 2 pi cells l`` apart; summed over them it is ``+-2/(2 cells sin(wave/(2 cells)))^2``
+    (the partial fractions of the cosecant squared).
     """
     cells = levels - 1
     index = np.arange(cells)

@@ -3,31 +3,52 @@
 With ``eta = y/h`` the fraction of the depth below the surface, a grain keeps its depth while soil
 comes in at the base, so that over any interval it moves from ``eta`` to ``a eta``, ``a`` being the
 volume before over the volume after (theory, section 3; eq. 35 of Pastor et al., 2022, integrated).
-An interval is taken as half of this deformation with half of the loading, all of the diffusion, and
-the other half: second order in the interval, and each part is exact by itself.
+An interval is taken as half of this deformation and of the loading, all of the diffusion, and the
+other half: second order in the interval, while each part is exact by itself.
 
 The deformation interpolates the effective stress, so that a liquefied grain stays so. The diffusion
-evolves the trigonometric interpolant through the levels by its own decay rates: no limit on the time
-step and no error in time. Both are held between the values they started from, as is the solution.
+evolves the sines through the levels by their own decay: no error in time and no limit on the step.
+Both are held between the values they started from. A base that has just become impermeable finds a
+slope that relaxes as the square root of time in a layer no level resolves; that part is evolved by
+all its waves, and friction gets the law of the half space until levels can see it. A profile does not
+jump on a switch: the base level keeps the pressure of the bed, that of the soil that came in last.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.jit import kernel
+from .modes import Modes, column_modes
 
 OVERBURDEN, PROPORTIONAL, UNLOADED = 0, 1, 2
 LOADING = {"overburden": OVERBURDEN, "proportional": PROPORTIONAL, "none": UNLOADED}
-JUST_IMPERMEABLE, IMPERMEABLE, PRESCRIBED, JUST_PRESCRIBED = -1, 0, 1, 2  # values of ColumnState.eroding
+# Values of ColumnState.eroding: is the profile that of such a base, or not yet?
+IMPERMEABLE, JUST_IMPERMEABLE, PRESCRIBED, JUST_PRESCRIBED = -1, 0, 1, 2
+# A column is advanced when one of these is exceeded since it was last. They follow from measuring the
+# error of the pressure that friction feels (benchmarks/column.py) against the cost; what has the width
+# of a level in it lets the error in time fall with the one in space.
+GROWTH_DUE = 1.1  # volume over volume then
+STRAIN_DUE = 1.0  # change of the load not by erosion, over the load, in widths of a level
+DIFFUSION_DUE = 0.05  # c_v t / h^2 in widths of a level
+LAYER_DUE = 0.5  # c_v t / h^2 in squared widths: when levels resolve the layer at a base just closed
+SHARE_DUE, LEAST_DUE = 0.3, 1e-4  # c_v t / h^2 over that since the last switch, and the least
+LOADED_DUE = 1.25e-5  # c_v t / h^2 times the squared change of the load over the load
+DIFFUSION_CAP = 1e3  # c_v t / h^2 that leaves nothing
 
-GROWTH_DUE = 1.1
-DIFFUSION_DUE = 0.05
-LAYER_DUE = 0.5
-STRAIN_DUE = 0.1
-LOADED_DIFFUSION_DUE = 1.25e-5
-SHARE_DUE = 0.3
-DIFFUSION_CAP = 1e3
+
+class Scheme(NamedTuple):
+    """What tells one law from another."""
+
+    stretching: bool  # grains keep their depth (ALE); else they keep their fraction of it (classical)
+    loading: int  # a value of LOADING
+    modes: Modes
+
+
+def scheme_of(stretching: bool, loading_source: str, levels: int) -> Scheme:
+    """Return the scheme of a law from its parameters."""
+    return Scheme(stretching, LOADING[loading_source], column_modes(levels))
 
 
 @kernel
@@ -47,10 +68,10 @@ def _interpolate(values, cells, position):
 
 
 @kernel
-def _deform(profile, i, grown, load, new_load, ratio, new_ratio, shed, stretching, loading, old):
+def _deform(profile, i, grown, load, new_load, ratio, new_ratio, shed, scheme, old):
     """Stretch and load one column; ``grown`` is its volume before over the one after."""
     cells = profile.shape[1] - 1
-    stretch = grown if stretching else 1.0
+    loading, stretch = scheme.loading, grown if scheme.stretching else 1.0
     weight, scale = (1.0, 1.0) if loading == OVERBURDEN else (0.0, 1.0)
     if loading == PROPORTIONAL:
         scale = new_load * grown / load if load > 0.0 else 0.0
@@ -147,35 +168,36 @@ def _pending(first, second, third, cells, closing, diffusion):
 
 
 @kernel
-def _bring(columns, i, volume, load, ratio, thickness, lower, stretching, loading, ends, modes, work):
+def _bring(columns, i, volume, load, thickness, erodes, lower, scheme, work):
     """Bring one column from where it was last advanced to ``volume`` and ``load``."""
     profile, start, old_load = columns.profile, columns.volume[i], columns.load[i]
     cells = profile.shape[1] - 1
     prescribed = columns.eroding[i] > 0
-    diffusion, shed = columns.diffusion[i], 0.0 if stretching else 0.5 * columns.erosion_load[i]
-    old_base = profile[i, 0]
+    ratio, diffusion, old_base = columns.bed_ratio[i], columns.diffusion[i], profile[i, 0]
+    shed = 0.5 * columns.erosion_load[i]
     old_ratio = ratio
     if columns.eroding[i] == PRESCRIBED and old_load > 0.0:
         old_ratio = old_base / old_load
     middle_load, middle_ratio = 0.5 * (old_load + load), 0.5 * (old_ratio + ratio)
     middle = 0.5 * (start + volume)  # the middle in time, too, while the bed gives at a constant rate
-    first = start / middle if middle > start else 1.0
-    second = middle / volume if volume > middle else 1.0
-    _deform(profile, i, first, old_load, middle_load, old_ratio, middle_ratio, shed, stretching, loading, work)
+    first, second = 1.0, 1.0
+    if prescribed and volume > start:
+        first, second = start / middle, middle / volume
+    _deform(profile, i, first, old_load, middle_load, old_ratio, middle_ratio, shed, scheme, work)
     if diffusion > 0.0:
         base = middle_ratio * middle_load
         slope = 0.0
         if columns.eroding[i] == JUST_IMPERMEABLE:
             slope = _base_slope(profile[i, 0], profile[i, 1], profile[i, 2], cells)
-        _diffuse(profile, i, diffusion, prescribed, base, slope, modes, work)
-    _deform(profile, i, second, middle_load, load, middle_ratio, ratio, shed, stretching, loading, work)
+        _diffuse(profile, i, diffusion, prescribed, base, slope, scheme.modes, work)
+    _deform(profile, i, second, middle_load, load, middle_ratio, ratio, shed, scheme, work)
     if prescribed:
         profile[i, 0] = ratio * load
-        if ends and columns.eroding[i] == JUST_PRESCRIBED:
+        if columns.eroding[i] == JUST_PRESCRIBED and not erodes:
             # The base level stands for half a cell. A touch of erosion fills only a part of it: the
             # new soil and what diffused in. All of it, and a base that chatters would pump pressure.
             filled = 2.0 * cells * (1.0 - first * second + 2.0 * math.sqrt(diffusion / math.pi))
-            untouched = _carried(old_base, 1.0, old_load, load, loading)
+            untouched = _carried(old_base, 1.0, old_load, load, scheme.loading)
             profile[i, 0] = untouched + min(1.0, filled) * (ratio * load - untouched)
     columns.eroding[i] = PRESCRIBED if prescribed else IMPERMEABLE
     removed = 0.0
@@ -190,8 +212,9 @@ def _bring(columns, i, volume, load, ratio, thickness, lower, stretching, loadin
 
 
 @kernel
-def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure,
-                    stretching, loading, modes):
+def advance_columns(
+    columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure, scheme
+):
     """Account for one step of the flow, advance the columns for which it is due, write the base.
 
     Parameters
@@ -208,58 +231,61 @@ def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buo
         Duration [s].
     basal_pressure : ndarray, shape (n,)
         Written: the excess pore pressure that friction feels [Pa].
-    stretching : bool
-        Grains keep their depth (ALE); else they keep their fraction of it (classical).
-    loading : int
-        A value of `LOADING`.
-    modes : Modes
-        From `column_modes`.
+    scheme : Scheme
+        Which law it is.
     """
     # arrays of a tuple are taken out once: numba counts references at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
-    entrained, ratios = forcing.entrained, forcing.bed_pressure_ratio
+    entrained, bed_ratios = forcing.entrained, forcing.bed_pressure_ratio
     profile, last_volumes, last_loads = columns.profile, columns.volume, columns.load
     current_loads, pendings, sinces = columns.current_load, columns.diffusion, columns.diffusion_since_switch
-    erosion_loads, bases = columns.erosion_load, columns.eroding
+    erosion_loads, bases, ratios = columns.erosion_load, columns.eroding, columns.bed_ratio
     cells = profile.shape[1] - 1
-    diffusion_due, layer_due = DIFFUSION_DUE / cells, LAYER_DUE / (cells * cells)
+    width, loading = 1.0 / cells, scheme.loading
     work = np.empty(cells + 1)
     for i in range(basal_pressure.size):
         volume, load, thickness = volumes[i], loads[i], thicknesses[i]
-        ratio, before, load_before = ratios[min(i, ratios.size - 1)], volume - entrained[i], current_loads[i]
+        before, load_before = volume - entrained[i], current_loads[i]
         erodes = entrained[i] > 0.0
         if erodes != (bases[i] > 0):
-            _bring(columns, i, before, load_before, ratio, thickness, water_to_buoyant, stretching, loading,
-                   True, modes, work)
+            _bring(columns, i, before, load_before, thickness, erodes, water_to_buoyant, scheme, work)
             bases[i] = JUST_PRESCRIBED if erodes else JUST_IMPERMEABLE
             sinces[i] = 0.0
         current_loads[i] = load
         # h before times h after, were there erosion only: exact for a constant rate of it
         square = thickness * thickness * max(before, 0.0)
         passed = coefficient_of_consolidation * dt * volume
-        passed = passed / square if passed < DIFFUSION_CAP * square else (DIFFUSION_CAP if passed > 0.0 else 0.0)
+        if passed < DIFFUSION_CAP * square:
+            passed /= square
+        elif passed > 0.0:
+            passed = DIFFUSION_CAP
         diffusion, since = min(pendings[i] + passed, DIFFUSION_CAP), min(sinces[i] + passed, DIFFUSION_CAP)
         pendings[i], sinces[i] = diffusion, since
         old_volume, old_load = last_volumes[i], last_loads[i]
         whole = old_load * volume
         strain = abs(load * old_volume - whole)
         closing = bases[i] == JUST_IMPERMEABLE
-        due = strain * strain * diffusion > LOADED_DIFFUSION_DUE * whole * whole
-        due = due or diffusion > (layer_due if closing else min(diffusion_due, SHARE_DUE * since + 1e-4))
+        due = strain * strain * diffusion > LOADED_DUE * whole * whole and not closing
+        limit = (
+            LAYER_DUE * width * width
+            if closing
+            else min(DIFFUSION_DUE * width, SHARE_DUE * since + LEAST_DUE)
+        )
+        due = due or diffusion > limit
         if erodes:
-            if not stretching:
+            ratios[i] = bed_ratios[min(i, bed_ratios.size - 1)]
+            if not scheme.stretching:
                 erosion_loads[i] += (load_before + load) * entrained[i] / (before + volume)
-            due = due or volume > GROWTH_DUE * old_volume or strain > STRAIN_DUE * whole
+            due = due or volume > GROWTH_DUE * old_volume or strain > STRAIN_DUE * width * whole
         if due:
-            _bring(columns, i, volume, load, ratio, thickness, water_to_buoyant, stretching, loading, False,
-                   modes, work)
+            _bring(columns, i, volume, load, thickness, erodes, water_to_buoyant, scheme, work)
             old_load, diffusion = load, 0.0
         if erodes:
-            pressure = ratio * load
+            pressure = ratios[i] * load
         else:
             pressure = _carried(profile[i, 0], 1.0, old_load, load, loading)
             if diffusion > 0.0:
-                middle, width = 0.5 * (old_load + load), 1.0 / cells
+                middle = 0.5 * (old_load + load)
                 first = _carried(profile[i, 0], 1.0, old_load, middle, loading)
                 second = _carried(profile[i, 1], 1.0 - width, old_load, middle, loading)
                 third = _carried(profile[i, 2], 1.0 - 2.0 * width, old_load, middle, loading)
@@ -268,12 +294,10 @@ def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buo
 
 
 @kernel
-def bring_columns(columns, forcing, water_to_buoyant, stretching, loading, modes):
+def bring_columns(columns, forcing, water_to_buoyant, scheme):
     """Bring every column to the present; arguments as in `advance_columns`."""
-    ratios = forcing.bed_pressure_ratio
     work = np.empty(columns.profile.shape[1])
     for i in range(columns.volume.size):
-        load = forcing.liquefaction_pressure[i]
-        _bring(columns, i, forcing.volume[i], load, ratios[min(i, ratios.size - 1)], forcing.thickness[i],
-               water_to_buoyant, stretching, loading, False, modes, work)
+        volume, load, thickness = forcing.volume[i], forcing.liquefaction_pressure[i], forcing.thickness[i]
+        _bring(columns, i, volume, load, thickness, columns.eroding[i] > 0, water_to_buoyant, scheme, work)
         columns.current_load[i] = load

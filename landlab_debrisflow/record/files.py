@@ -1,0 +1,81 @@
+"""Output paths: refused before anything is computed, and never left half written."""
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from ..core.errors import InputError
+
+
+def check_writable(path) -> Path:
+    """Return `path` as a Path if a file can be written there.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file to be written; it may exist already.
+
+    Raises
+    ------
+    InputError
+        If the directory is missing or may not be written to, or if `path` is a directory or a file that
+        may not be replaced.
+    """
+    path = Path(path)
+    folder = path.parent
+    if path.is_dir():
+        raise InputError(f"cannot write {path}: it is a directory; give the name of a file in it")
+    if not folder.is_dir():
+        word = "is not a directory" if folder.exists() else "does not exist"
+        raise InputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
+    try:  # the only honest test: permission bits say nothing on read-only or full file systems
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot write {path}: {error.strerror} in {folder}; choose another directory") from error
+    if path.exists() and not os.access(path, os.W_OK):
+        raise InputError(f"cannot write {path}: the file is there and write-protected; remove it or choose another name")
+    return path
+
+
+def write_atomically(path, write: Callable[[Path], object]) -> Path:
+    """Write a file so that `path` never holds half of it: beside it first, then renamed.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file wanted.
+    write : callable
+        Called with the temporary path, which has the same suffix.
+
+    Returns
+    -------
+    Path
+        Where the file is.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; see `check_writable`.
+    """
+    path = check_writable(path)
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
+        write(temporary)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return path
+
+
+def write_dataset(path, dataset) -> Path:
+    """Write an xarray Dataset as compressed NetCDF, atomically; return where.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; see `check_writable`.
+    """
+    encoding = {name: {"zlib": True, "complevel": 1} for name, data in dataset.items() if data.ndim >= 2}
+    return write_atomically(path, lambda temporary: dataset.to_netcdf(temporary, engine="netcdf4", encoding=encoding))

@@ -1,0 +1,1 @@
+"""Tests of the whole package; the folders mirror it."""

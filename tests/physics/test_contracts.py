@@ -1,0 +1,229 @@
+"""What every law must do, by kind: a new law in `model.physics.LAWS` is tested here without a line more."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from landlab_debrisflow import Material, Numerics
+from landlab_debrisflow.core.errors import ParameterError
+from landlab_debrisflow.model.physics import LAWS, METHOD, build_law, build_physics
+from landlab_debrisflow.physics.contracts import BasalState
+from landlab_debrisflow.physics.erosion import Growth
+from landlab_debrisflow.physics.friction import Coulomb, Voellmy
+
+ALL = [(kind, name) for kind, laws in LAWS.items() for name in laws]
+DECLARED = [law for laws in LAWS.values() for law in laws.values()] + [Material, Numerics]
+PARAMETERS = [(law, field) for law in DECLARED for field in dataclasses.fields(law)]
+
+
+def of(kind):
+    return pytest.mark.parametrize("law", [law() for law in LAWS[kind].values()], ids=list(LAWS[kind]))
+
+
+def basal_state(count=50, seed=1, **given):
+    """A plausible base; by default between dry and liquefied, on all slopes and at all speeds."""
+    rng = np.random.default_rng(seed)
+    slope = rng.uniform(0.0, 1.3, count)
+    thickness = given.pop("thickness", 10.0 ** rng.uniform(-4.0, 1.3, count))
+    liquefaction = 990.0 * 9.81 * thickness * np.cos(slope)
+    values = {
+        "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
+        "normal_gravity": 9.81 * np.cos(slope), "liquefaction_pressure": liquefaction,
+        "excess_pore_pressure": rng.uniform(0.0, 1.0, count) * liquefaction,
+        "density": 1990.0, "buoyant_density": 990.0, "gravity": 9.81,
+    }  # fmt: skip
+    return BasalState(**(values | given))
+
+
+def resistance(law, state):
+    out = np.full((2, state.depth.size), np.nan)  # everything must be written
+    law.basal_resistance(state, *out)
+    return out
+
+
+def entrainment(law, state):
+    out = np.full(state.depth.size, np.nan)
+    law.entrainment_rate(state, out)
+    return out
+
+
+@of("friction")
+def test_friction_is_finite_and_never_negative(law):
+    state = basal_state()
+    yield_stress, drag = resistance(law, state)
+    assert np.isfinite(yield_stress).all() and np.isfinite(drag).all()
+    assert (yield_stress >= 0.0).all() and (drag >= 0.0).all()
+
+
+@of("friction")
+def test_friction_leaves_its_inputs_alone(law):
+    unchanged(resistance, law)
+
+
+@of("erosion")
+def test_erosion_leaves_its_inputs_alone(law):
+    unchanged(entrainment, law)
+
+
+def unchanged(ask, law):
+    state = basal_state()
+    before = [np.copy(values) for values in state]
+    first = ask(law, state)
+    for values, copy in zip(state, before, strict=True):
+        np.testing.assert_array_equal(values, copy)
+    np.testing.assert_array_equal(first, ask(law, state))  # and keeps nothing to itself
+
+
+@of("friction")
+def test_pore_pressure_lowers_what_holds_a_body(law):
+    dry, wet = basal_state(excess_pore_pressure=np.zeros(50)), basal_state()
+    assert np.all(resistance(law, wet)[0] < resistance(law, dry)[0])
+
+
+@of("friction")
+@pytest.mark.parametrize("excess", [1.0, 1.5, 1e6])
+def test_what_is_liquefied_yields_at_once(law, excess):
+    state = basal_state()
+    # the small excess over 1 keeps round-off of rho' g_n h_n - p out of it
+    state = state._replace(excess_pore_pressure=state.liquefaction_pressure * excess * (1.0 + 1e-12))
+    assert not resistance(law, state)[0].any()
+
+
+@of("friction")
+def test_a_bend_that_lifts_the_flow_off_leaves_no_friction_to_hold_it(law):
+    assert not resistance(law, basal_state(normal_gravity=np.zeros(50)))[0].any()
+
+
+@of("friction")
+def test_a_film_of_no_thickness_needs_no_special_case(law):
+    state = basal_state(thickness=np.zeros(50))
+    out = resistance(law, state)
+    assert np.isfinite(out).all() and not out[0].any()
+
+
+@of("erosion")
+def test_erosion_is_finite_and_never_negative(law):
+    rate = entrainment(law, basal_state())
+    assert np.isfinite(rate).all() and (rate >= 0.0).all()
+
+
+@of("erosion")
+def test_nothing_erodes_at_rest(law):
+    assert not entrainment(law, basal_state(speed=np.zeros(50))).any()
+
+
+@of("column")
+def test_columns_have_levels(law):
+    assert law.levels >= 2
+
+
+@pytest.mark.parametrize(("kind", "name"), ALL)
+def test_a_law_is_built_by_name_mapping_or_given(kind, name):
+    law = LAWS[kind][name]()
+    assert build_law(kind, name) == law
+    assert build_law(kind, law) is law
+    values = {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
+    assert build_law(kind, {"law": name, **values}) == law
+    assert callable(getattr(law, METHOD[kind])) and type(law).__doc__ and hash(law) == hash(LAWS[kind][name]())
+
+
+def test_defaults_are_those_of_tsing_shan():
+    physics = build_physics()
+    names = [type(getattr(physics, kind)).__name__ for kind in ("flow", "friction", "erosion", "column")]
+    assert names == ["OnePhase", "Coulomb", "Growth", "ALE"]
+    assert math.tan(physics.friction.si.basal_friction_angle) == pytest.approx(0.6, rel=1e-15)
+    assert physics.erosion.growth_rate == 3e-3
+    material = physics.material
+    assert (material.density, material.buoyant_density) == (1990.0, 990.0)
+    assert material.coefficient_of_consolidation == 4e-4
+    assert material.bed_pressure_ratio == material.initial_pressure_ratio == 0.65
+
+
+@pytest.mark.parametrize("kind", LAWS)
+@pytest.mark.parametrize("value", ["plough", {"law": "plough"}, {}, {"rate": 1.0}])
+def test_an_unknown_law_lists_the_legal_ones(kind, value):
+    with pytest.raises(ParameterError) as refusal:
+        build_law(kind, value)
+    assert str(refusal.value).startswith(f"{kind}: unknown law")
+    assert all(name in str(refusal.value) for name in LAWS[kind])
+
+
+@pytest.mark.parametrize(("kind", "name"), ALL)
+def test_an_unknown_key_lists_the_legal_ones_with_units(kind, name):
+    with pytest.raises(ParameterError) as refusal:
+        build_law(kind, {"law": name, "ploughing_depth": 1.0})
+    law = LAWS[kind][name]
+    expected = [f"{field.name} [{field.metadata['unit']}]" for field in dataclasses.fields(law)]
+    for words in (law.__name__, "unknown key 'ploughing_depth'", *(expected or ["allowed: none"])):
+        assert words in str(refusal.value)
+
+
+@pytest.mark.parametrize("kind", LAWS)
+@pytest.mark.parametrize("value", [3.0, object(), ["coulomb"]], ids=["number", "object", "list"])
+def test_what_is_no_law_is_refused(kind, value):
+    with pytest.raises(ParameterError, match=f"{kind}: .* is no {kind} law"):
+        build_law(kind, value)
+
+
+@pytest.mark.parametrize(("kind", "name"), ALL)
+def test_a_class_is_not_taken_for_a_law(kind, name):
+    with pytest.raises(ParameterError, match="is no"):
+        build_law(kind, LAWS[kind][name])
+
+
+def refused_values(meta):
+    """Yield values a parameter must refuse."""
+    yield from (math.nan, math.inf, -math.inf, "text", [1.0])
+    if meta["kind"] is bool:
+        return
+    yield True
+    if meta["kind"] in (int, float):
+        low, high = meta["bounds"]
+        yield from (bound + side for bound, side in ((low, -1), (high, 1)) if math.isfinite(bound))
+    if meta["kind"] is int:
+        yield 2.5
+
+
+@pytest.mark.parametrize(("law", "field"), PARAMETERS, ids=lambda value: getattr(value, "name", None) or value.__name__)
+def test_a_parameter_out_of_bounds_is_refused_by_name_unit_bounds_and_value(law, field):
+    meta = field.metadata
+    assert meta["meaning"] and meta["unit"]
+    for value in refused_values(meta):
+        with pytest.raises(ParameterError) as refusal:
+            law(**{field.name: value})
+        message = str(refusal.value)
+        assert message.startswith(f"{law.__name__}: {field.name} must") and repr(value) in message
+        if meta["kind"] is str:
+            assert all(choice in message for choice in meta["choices"])
+        elif meta["kind"] in (int, float) and meta["unit"] != "-":
+            assert meta["unit"] in message
+        if "lie in" in message:
+            assert f"[{meta['bounds'][0]:g}, {meta['bounds'][1]:g}]" in message
+
+
+def hand_state():
+    """Two metres on a flat at 10 m/s, 9000 Pa of excess pore pressure."""
+    one = np.ones(1)
+    return BasalState(2.5 * one, 2.0 * one, 10.0 * one, 9.81 * one, 19423.8 * one, 9000.0 * one, 1990.0, 990.0, 9.81)
+
+
+def test_coulomb_by_hand():
+    yield_stress, drag = resistance(Coulomb(basal_friction_angle=45.0), hand_state())
+    # 990 * 9.81 * 2 - 9000 = 10423.8 Pa, tan 45 = 1; round-off of the tangent
+    assert yield_stress[0] == pytest.approx(10423.8, rel=1e-14)
+    assert drag[0] == 0.0
+
+
+def test_voellmy_by_hand():
+    law = Voellmy(basal_friction_angle=45.0, turbulent_coefficient=500.0)
+    yield_stress, drag = resistance(law, hand_state())
+    assert yield_stress[0] == pytest.approx(10423.8, rel=1e-14)
+    # rho g v^2/xi = 1990 * 9.81 * 100/500 = 3904.38 Pa, per speed of 10 m/s
+    assert drag[0] == pytest.approx(390.438, rel=1e-14)
+
+
+def test_growth_by_hand():
+    # 3e-3 per metre * 2.5 m (vertical) * 10 m/s
+    assert entrainment(Growth(growth_rate=3e-3), hand_state())[0] == pytest.approx(0.075, rel=1e-14)

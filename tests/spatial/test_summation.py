@@ -1,0 +1,165 @@
+"""SPH sums against all pairs in numpy, their symmetry, and what a regular lattice must give."""
+
+import numpy as np
+import pytest
+
+from landlab_debrisflow.spatial.cells import sort_into_cells
+from landlab_debrisflow.spatial.summation import SELF_WEIGHT, SMOOTHING_RATIO, sum_pressure_gradient, sum_thickness
+
+VISCOSITY = 0.8
+
+
+def cloud(count, seed):
+    """Random particles with smoothing lengths of ratio 1 to 6 and volumes of ratio 1 to 3."""
+    rng = np.random.default_rng(seed)
+    x, y = rng.uniform(-3.0, 50.0, count), rng.uniform(10.0, 30.0, count)
+    x[: count // 10] += 400.0  # some far away
+    length = rng.uniform(1.0, 6.0, count)
+    return {
+        "x": x, "y": y, "z": rng.uniform(0.0, 2.0, count), "volume": rng.uniform(1.0, 3.0, count),
+        "length": length, "velocity": rng.normal(0.0, 1.0, (3, count)), "strength": rng.uniform(4.0, 9.0, count),
+        "celerity": rng.uniform(1.0, 3.0, count), "thickness": rng.uniform(0.5, 2.0, count),
+    }  # fmt: skip
+
+
+def sums(c, longest, threads=1, changed=None, out=None):
+    """Return thickness, grad-h term, next length, acceleration and thickening."""
+    n = c["x"].size
+    out = [np.empty(n), np.empty(n), np.empty(n), np.empty((3, n)), np.empty(n)] if out is None else out
+    cells = sort_into_cells(c["x"], c["y"], 2.0 * c["length"], changed)
+    sum_thickness(cells, c["x"], c["y"], c["z"], c["volume"], c["length"], longest, tuple(out[:3]), threads)
+    sum_pressure_gradient(
+        cells, c["x"], c["y"], c["z"], c["velocity"], c["volume"], c["length"], c["strength"], c["celerity"],
+        c["thickness"], VISCOSITY, out[3], out[4], threads,
+    )  # fmt: skip
+    return out
+
+
+def wendland(r, length):
+    q = np.minimum(1.0, r / (2.0 * length))
+    return 7.0 / (4.0 * np.pi * length**2) * (1.0 - q) ** 4 * (1.0 + 4.0 * q)
+
+
+def plain_sum(c, length):
+    """Sum the thickness over all pairs, for smoothing lengths of shape (n,)."""
+    r, _ = distances(c)
+    weights = wendland(r, length[:, None])
+    weights[np.diag_indices(length.size)] *= SELF_WEIGHT
+    return weights @ c["volume"]
+
+
+def distances(c):
+    position = np.array([c["x"], c["y"], c["z"]])
+    apart = position[:, :, None] - position[:, None, :]  # (3, i, j): from j to i
+    return np.sqrt((apart**2).sum(axis=0)), apart
+
+
+def reference_gradient(c):
+    """The formula of `sum_pressure_gradient` with dW/dr by central differences."""
+    r, apart = distances(c)
+    np.fill_diagonal(r, 1.0)
+    unit = apart / r
+    step = 1e-5
+    length = c["length"][:, None]
+    slope_i = (wendland(r + step, length) - wendland(r - step, length)) / (2 * step)
+    slope_j = (wendland(r + step, length.T) - wendland(r - step, length.T)) / (2 * step)
+    apart_v = c["velocity"][:, :, None] - c["velocity"][:, None, :]
+    w = np.minimum(0.0, (apart_v * unit).sum(axis=0))
+    mean_thickness = 0.5 * (c["thickness"][:, None] + c["thickness"])
+    shock = 0.25 * VISCOSITY * (c["celerity"][:, None] + c["celerity"] - 3.0 * w) * -w / mean_thickness
+    pair = (c["strength"][:, None] + shock) * slope_i + (c["strength"] + shock) * slope_j
+    np.fill_diagonal(pair, 0.0)
+    np.fill_diagonal(slope_i, 0.0)
+    acceleration = -np.einsum("j,ij,kij->ki", c["volume"], pair, unit)
+    thickening = np.einsum("j,ij,kij,kij->i", c["volume"], slope_i, unit, apart_v)
+    return acceleration, thickening
+
+
+@pytest.mark.parametrize(("count", "seed"), [(300, 1), (120, 2), (2, 3), (1, 4)])
+def test_thickness_is_the_sum_over_all_pairs(count, seed):
+    c = cloud(count, seed)
+    capped, omega, length, _, _ = sums(c, longest=c["length"])  # at the cap the plain sum holds
+    exact = plain_sum(c, c["length"])
+    np.testing.assert_allclose(capped, exact, rtol=1e-12)  # round-off of some hundred terms, reordered
+    assert np.all(omega == 1.0)
+    np.testing.assert_allclose(length, np.minimum(c["length"], SMOOTHING_RATIO * np.sqrt(c["volume"] / exact)))
+
+
+def test_the_newton_step_uses_the_slope_of_the_sum():
+    c = cloud(300, 5)
+    h, omega, _, _, _ = sums(c, longest=np.full(300, 1e9))
+    length, step = c["length"], 1e-6
+    slope = (plain_sum(c, length + step) - plain_sum(c, length - step)) / (2 * step)
+    now = SMOOTHING_RATIO**2 * c["volume"] / length**2
+    expected = np.maximum(0.4, 1.0 + 0.5 * length / now * slope)
+    np.testing.assert_allclose(omega, expected, rtol=0, atol=1e-7)  # central differences of a C2 function
+    step = np.clip((now - plain_sum(c, length)) / expected, -now, 0.5 * now)  # never to nothing, never beyond double
+    np.testing.assert_allclose(h, now - step, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("count", "seed"), [(300, 1), (120, 2), (2, 3), (1, 4)])
+def test_the_gradient_is_the_sum_over_all_pairs(count, seed):
+    c = cloud(count, seed)
+    *_, acceleration, thickening = sums(c, longest=c["length"])
+    exact, exact_thickening = reference_gradient(c)
+    size = np.abs(exact).max() + 1e-300
+    # central differences with a step of 1e-5: third derivatives of order 1, and round-off 1e-16/1e-5
+    np.testing.assert_allclose(acceleration / size, exact / size, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(thickening, exact_thickening, rtol=0, atol=1e-9)
+
+
+def test_pairs_push_each_other_equally():
+    c = cloud(500, 6)
+    *_, acceleration, _ = sums(c, longest=c["length"])
+    force = c["volume"] * acceleration
+    # each force sums some hundred terms: round-off of 1e-16 times the root of their number
+    assert np.all(abs(force.sum(axis=1)) < 1e-13 * abs(force).sum(axis=1))
+
+
+def lattice(kind, slope):
+    """A regular lattice of unit spacing on a plane; volume 1 on unit area: thickness 1."""
+    i, j = np.meshgrid(np.arange(-14, 15), np.arange(-14, 15))
+    if kind == "square":
+        along, across = i.ravel() + 0.0, j.ravel() + 0.0
+    else:
+        along, across = (i + 0.5 * (j % 2)).ravel() * np.sqrt(2 / np.sqrt(3)), j.ravel() * np.sqrt(np.sqrt(3) / 2)
+    return along / np.hypot(1, slope), across, slope * along / np.hypot(1, slope)
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+@pytest.mark.parametrize("kind", ["square", "hexagonal"])
+@pytest.mark.parametrize("longest", [SMOOTHING_RATIO, 1e9])
+def test_a_regular_lattice_has_its_exact_thickness(kind, slope, longest):
+    x, y, z = lattice(kind, slope)
+    n = x.size
+    c = {"x": x, "y": y, "z": z, "volume": np.ones(n), "length": np.full(n, SMOOTHING_RATIO)}
+    c |= {"velocity": np.zeros((3, n)), "strength": np.ones(n), "celerity": np.ones(n), "thickness": np.ones(n)}
+    h, _, _, acceleration, _ = sums(c, longest=np.full(n, longest))
+    middle = np.flatnonzero(x**2 + y**2 + z**2 < 9.0)
+    # SELF_WEIGHT is the mean of both lattices: 2e-4 for either; the plain sum is 6.7e-3 too deep
+    np.testing.assert_allclose(h[middle], 1.0, rtol=0, atol=1e-3)
+    assert abs(acceleration[:, middle]).max() < 1e-13  # symmetry: round-off
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_results_do_not_depend_on_the_number_of_threads(threads):
+    c = cloud(700, 7)
+    for one, other in zip(sums(c, 2.0 * c["length"]), sums(c, 2.0 * c["length"], threads), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_what_sleeps_is_left_alone_and_what_wakes_is_computed_alike():
+    c = cloud(700, 8)
+    changed = c["x"] > 40.0
+    full = sums(c, 2.0 * c["length"])
+    marker = [np.full_like(values, -1.0) for values in full]
+    cells = sort_into_cells(c["x"], c["y"], 2.0 * c["length"], changed)
+    awake = cells.computed
+    assert changed.sum() < awake.sum() < 700
+    for one, other in zip(full, sums(c, 2.0 * c["length"], changed=changed, out=marker), strict=True):
+        np.testing.assert_array_equal(one[..., awake], other[..., awake])
+        assert np.all(other[..., ~awake] == -1.0)
+    # whoever feels a changed particle, or is felt by one, is awake
+    r, _ = distances(c)
+    support = 2.0 * np.maximum(c["length"][:, None], c["length"])
+    assert np.all(awake[np.any((r < support) & changed, axis=1)])

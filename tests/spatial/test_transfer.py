@@ -1,0 +1,81 @@
+"""Particles to nodes and back: nothing is lost, nothing falls outside, constants stay constant."""
+
+import numpy as np
+import pytest
+
+from landlab_debrisflow.spatial.transfer import WIDEST, Nodes, gather, scatter
+
+ROWS, COLUMNS, DX, DY = 9, 12, 2.0, 3.0
+
+
+@pytest.fixture
+def nodes():
+    core = np.zeros((ROWS, COLUMNS), bool)
+    core[1:-1, 1:-1] = True
+    core[4, 5] = core[6, 2] = False
+    return Nodes(core.ravel(), COLUMNS, DX, DY)
+
+
+@pytest.fixture
+def particles():
+    """Where particles may be: their nearest node is a core node; tents from a point to wider than allowed."""
+    rng = np.random.default_rng(1)
+    x, y = rng.uniform(0.51 * DX, 10.49 * DX, 300), rng.uniform(0.51 * DY, 7.49 * DY, 300)
+    return x, y, rng.uniform(0.0, 6.0 * DX, 300)
+
+
+def add(nodes, particles, values):
+    sums = np.zeros((values.shape[0], ROWS * COLUMNS))
+    at = scatter(nodes, *particles, values, sums, np.empty(ROWS * COLUMNS, np.int64))
+    return at.copy(), sums
+
+
+def test_amounts_are_conserved_and_only_core_nodes_get_any(nodes, particles):
+    values = np.random.default_rng(2).uniform(0.1, 1.0, (3, 300))
+    at, sums = add(nodes, particles, values)
+    np.testing.assert_allclose(sums.sum(axis=1), values.sum(axis=1), rtol=1e-14)  # round-off of 300 additions
+    assert not sums[:, ~nodes.core].any()
+    assert sorted(at) == sorted(np.flatnonzero(sums[0]))  # each once
+    assert np.all(sums >= 0.0)
+
+
+def test_particles_without_volume_do_not_count(nodes, particles):
+    values = np.ones((2, 300))
+    values[0, 50:] = 0.0
+    _, sums = add(nodes, particles, values)
+    np.testing.assert_allclose(sums.sum(axis=1), 50.0, rtol=1e-14)
+
+
+def test_a_constant_comes_back(nodes, particles):
+    values = np.where(nodes.core, 7.5, np.nan)[None, :]  # the others are not even read
+    np.testing.assert_allclose(gather(nodes, *particles, values), 7.5, rtol=1e-14)  # weights sum to one
+
+
+def test_gather_is_the_mean_under_the_tent(nodes):
+    """A narrow tent is bilinear, and away from holes a linear field comes back exactly at any width."""
+    y, x = np.divmod(np.arange(ROWS * COLUMNS), COLUMNS)
+    values = (0.5 * x * DX - 0.25 * y * DY)[None, :]
+    px, py = np.array([8.3 * DX]), np.array([4.4 * DY])
+    got = gather(nodes, px, py, np.array([0.0]), values)[0]
+    assert got == pytest.approx(0.5 * px - 0.25 * py, rel=1e-14)
+    # a tent of twice the spacing is still a partition of unity with the right centre
+    got = gather(nodes, px, py, np.array([2 * DY]), values)[0]
+    assert got == pytest.approx(0.5 * 8.3 * DX - 0.25 * 4.4 * DY, abs=0.1 * DX)
+
+
+@pytest.mark.parametrize("spread", [0.5, 1.0, 2.5, WIDEST, 10.0])
+def test_the_tent_is_as_wide_as_the_particle_within_limits(spread):
+    core = np.ones((21, 21), bool)
+    nodes, centre = Nodes(core.ravel(), 21, 1.0, 1.0), np.array([10.0])
+    sums = np.zeros((1, 441))
+    scatter(nodes, centre, centre, np.array([spread]), np.ones((1, 1)), sums, np.empty(441, np.int64))
+    half_width = min(max(spread, 1.0), WIDEST)
+    tent = np.maximum(0.0, 1.0 - abs(np.arange(21) - 10.0) / half_width)
+    expected = np.outer(tent, tent) / tent.sum() ** 2
+    np.testing.assert_allclose(sums.reshape(21, 21), expected, rtol=0, atol=1e-15)  # round-off
+
+
+def test_a_particle_beside_the_edge_keeps_its_volume_inside(nodes):
+    particles = np.array([0.5 * DX]), np.array([0.5 * DY]), np.array([0.1])
+    at, sums = add(nodes, particles, np.ones((1, 1)))
+    assert at.tolist() == [COLUMNS + 1] and sums[0, COLUMNS + 1] == 1.0

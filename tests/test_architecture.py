@@ -1,0 +1,131 @@
+"""The shape of the package: layers, file length, names (design, sections 1 to 3 and 6)."""
+
+import ast
+import pathlib
+
+import landlab
+import pytest
+from landlab.components import SpaceLargeScaleEroder
+
+import landlab_debrisflow
+
+PACKAGE = pathlib.Path(landlab_debrisflow.__file__).parent
+FILES = sorted(PACKAGE.rglob("*.py"))
+MODULES = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path in FILES}
+
+LEVEL = {"core": 0, "spatial": 1, "terrain": 1, "physics": 2, "model": 3, "record": 4}
+TOP = 5  # component and what stands beside or above it
+KNOWS_LANDLAB = {
+    "component", "inputs", "cli", "demo", "scene", "terrains", "record/plots", "__init__",
+}  # fmt: skip
+
+
+def layer(module):
+    return module.split("/")[0] if "/" in module else "top"
+
+
+def level(module):
+    return LEVEL.get(layer(module), TOP)
+
+
+def imports(path):
+    """Yield (module inside the package or None, absolute name) of every import in a file."""
+    inside = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield alias.name.split(".")
+        elif isinstance(node, ast.ImportFrom):
+            base = list(inside[: len(inside) - node.level]) if node.level else []
+            base += node.module.split(".") if node.module else []
+            yield from ([*base, alias.name] for alias in node.names)
+
+
+def inner(name):
+    """Return the module of the package that a dotted name means, or None."""
+    if name[0] != "landlab_debrisflow":
+        return None
+    for end in range(len(name), 1, -1):
+        if (module := "/".join(name[1:end])) in MODULES or f"{module}/__init__" in MODULES:
+            return module
+    return "__init__"
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_go_downward_only(module):
+    for name in imports(MODULES[module]):
+        target = inner(name)
+        if target is None or level(module) == TOP:
+            continue
+        assert target != "__init__", f"{module} imports the whole package"
+        # terrain samples what it carries to particles with spatial/transfer; nothing goes the other way
+        assert level(target) <= level(module), f"{module} imports {target} above it"
+        assert (layer(module), layer(target)) != ("spatial", "terrain")
+        if layer(module) == layer(target) == "physics":
+            one, other = module.split("/")[1:], target.split("/")[1:]
+            assert len(one) < 2 or len(other) < 2 or one[0] == other[0], f"{module} knows another kind of law: {target}"
+
+
+def test_the_layers_are_all_known():
+    folders = {layer(module) for module in MODULES} - {"top"}
+    assert folders == set(LEVEL)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_only_what_stands_on_top_knows_landlab(module):
+    if module in KNOWS_LANDLAB:
+        return
+    assert not [name for name in imports(MODULES[module]) if name[0] == "landlab"]
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_numba_is_named_in_one_place(module):
+    named = any(name[0] == "numba" for name in imports(MODULES[module]))
+    assert named == (module == "core/jit")
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_files_are_short(module):
+    assert len(MODULES[module].read_text().splitlines()) <= 300
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_the_library_does_not_print(module):
+    calls = [node.func for node in ast.walk(ast.parse(MODULES[module].read_text())) if isinstance(node, ast.Call)]
+    assert module == "cli" or not [f for f in calls if isinstance(f, ast.Name) and f.id == "print"]
+
+
+def test_every_module_says_what_it_is():
+    assert [module for module, path in MODULES.items() if not ast.get_docstring(ast.parse(path.read_text()))] == []
+
+
+def test_public_names_exist():
+    names = landlab_debrisflow.__all__
+    assert "DebrisFlow" in names and len(set(names)) == len(names)
+    assert [name for name in names if not hasattr(landlab_debrisflow, name)] == []
+
+
+def test_info_has_the_six_keys_landlab_asks_for():
+    keys = {"doc", "dtype", "intent", "mapping", "optional", "units"}
+    for name, entry in landlab_debrisflow.DebrisFlow._info.items():
+        assert set(entry) == keys, name
+        assert entry["intent"] in ("in", "out", "inout") and entry["mapping"] == "node" and entry["doc"]
+        assert entry["dtype"] in (float, int)
+
+
+def test_shared_fields_are_described_in_landlabs_words():
+    for name in ("topographic__elevation", "soil__depth"):
+        assert landlab_debrisflow.DebrisFlow._info[name]["doc"] == SpaceLargeScaleEroder._info[name]["doc"]
+
+
+def test_the_citation_is_bibtex():
+    text = landlab_debrisflow.DebrisFlow._cite_as.strip()
+    assert text.startswith("@article{") and text.endswith("}")
+    assert text.count("{") == text.count("}")
+    landlab.registry.add(landlab_debrisflow.DebrisFlow)
+    assert "10.1002/nag.3339" in landlab.registry.format_citations()
+
+
+def test_no_public_attribute_is_called_update():
+    # wrap_as_bmi would call it without dt
+    assert not hasattr(landlab_debrisflow.DebrisFlow, "update")

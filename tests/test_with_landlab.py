@@ -1,0 +1,144 @@
+"""Beside other components, under the BMI wrapper, and watched by observers."""
+
+import numpy as np
+import pytest
+from landlab.bmi import wrap_as_bmi
+from landlab.components import DepthDependentDiffuser, FlowAccumulator, SpaceLargeScaleEroder
+
+from landlab_debrisflow import DebrisFlow
+
+from .grids import COARSE, release_slab
+
+Z, SOIL, ROCK = "topographic__elevation", "soil__depth", "bedrock__elevation"
+
+
+class Watch:
+    """Writes down when it was called and what it saw."""
+
+    def __init__(self, interval):
+        self.interval, self.times, self.moving = interval, [], []
+
+    def observe(self, flow):
+        self.times.append(flow.elapsed_time)
+        self.moving.append(float(flow.grid.at_node["debris_flow__depth"].sum()) * 25.0)
+
+
+def test_observers_are_called_at_their_interval_and_at_rest(valley):
+    often, seldom = Watch(1.0), Watch(2.5)
+    flow = DebrisFlow(valley, numerics=COARSE, observers=[often, seldom])
+    flow.run_one_step(4.2)
+    assert often.times == [1.0, 2.0, 3.0, 4.0] and seldom.times == [2.5]
+    flow.run_one_step(0.8)  # calls do not shift the rhythm
+    assert often.times[4:] == [5.0] and seldom.times == [2.5, 5.0]
+    flow.run_until_rest()
+    end = flow.elapsed_time
+    assert often.times[5:-1] == list(np.arange(6.0, end)) and often.times[-1] == seldom.times[-1] == end
+    assert all(volume > 225.0 for volume in often.moving)  # they see the grid as it is then
+
+
+def test_watching_hardly_changes_what_happens(valley, slope):
+    flow = DebrisFlow(valley, numerics=COARSE, observers=[Watch(0.5)])
+    flow.run_until_rest()
+    deposit = valley.at_node["debris_flow__deposit_depth"]
+    assert deposit.sum() * 25.0 == pytest.approx(flow.budget["deposited"], rel=1e-13)  # round-off
+
+
+def test_bedrock_and_soil_stay_together_beside_other_components(valley):
+    grid = valley
+    release = grid.at_node["debris_flow__release_depth"].copy()
+    grid.at_node[Z][:] += np.random.default_rng(1).uniform(0.0, 0.01, grid.number_of_nodes)  # rivers need outlets
+    grid.add_field(ROCK, grid.at_node[Z] - grid.at_node[SOIL], at="node")
+    accumulator = FlowAccumulator(grid, flow_director="FlowDirectorD8")
+    rivers = SpaceLargeScaleEroder(grid, K_sed=1e-4, K_br=1e-5)
+    creep = DepthDependentDiffuser(grid, linear_diffusivity=0.01)
+    grid.add_zeros("soil_production__rate", at="node", clobber=True)
+    flow = DebrisFlow(grid, numerics=COARSE)
+    core = grid.core_nodes
+    for _ in range(2):
+        grid.at_node["debris_flow__release_depth"][:] = np.minimum(release, grid.at_node[SOIL])
+        before, rock = grid.at_node[Z].copy(), grid.at_node[ROCK].copy()
+        assert flow.run_until_rest() is True
+        np.testing.assert_array_equal(grid.at_node[ROCK], rock)
+        assert abs(grid.at_node[Z] - before).max() > 0.1
+        together(grid, core)
+        settled = grid.at_node[Z].copy()
+        accumulator.run_one_step()
+        rivers.run_one_step(10.0)
+        creep.run_one_step(10.0)
+        together(grid, core)
+        # they work on from what the flow left, and do not take it back
+        change = abs(grid.at_node[Z] - settled)[core]
+        assert 0.0 < change.max() and change.mean() < 0.1 * abs(settled - before)[core].mean()
+
+
+def together(grid, nodes):
+    # elevations of 75 m, changed some hundred times: round-off of 1e-14 each
+    gap = grid.at_node[Z] - grid.at_node[ROCK] - grid.at_node[SOIL]
+    assert abs(gap[nodes]).max() < 1e-12
+    assert grid.at_node[SOIL].min() >= 0.0
+
+
+CONFIG = """
+debris_flow:
+    friction: {law: voellmy, basal_friction_angle: 25.0, turbulent_coefficient: 400}
+    erosion: {law: growth, growth_rate: 0.004}
+    column: ale
+    material: {porosity: 0.35}
+    numerics: {particle_count: 60, settle: true}
+clock: {start: 0.0, stop: 100.0, step: 2.0}
+grid:
+    RasterModelGrid:
+    - [20, 40]
+    - xy_spacing: [5.0, 5.0]
+    - fields:
+        node:
+          topographic__elevation:
+            plane:
+              - {point: [0.0, 0.0, 100.0], normal: [0.5, 0.0, 1.0]}
+          soil__depth:
+            constant:
+              - value: 1.0
+          debris_flow__release_depth:
+            constant:
+              - value: 0.0
+"""
+
+
+@pytest.fixture
+def bmi():
+    model = wrap_as_bmi(DebrisFlow)()
+    model.initialize(CONFIG)
+    release_slab(model._base.grid, (30.0, 48.0), 8.0, 1.0)
+    return model
+
+
+def test_a_model_from_yaml_text(bmi):
+    assert bmi.get_component_name() == "DebrisFlow"
+    assert {"soil__depth", "debris_flow__release_depth"} <= set(bmi.get_input_var_names())
+    assert bmi.get_var_units("debris_flow__speed") == "m/s"
+    for expected in (2.0, 4.0):
+        bmi.update()
+        assert bmi.get_current_time() == expected == bmi._base.elapsed_time
+    depth = bmi.get_value("debris_flow__depth", np.empty(800))
+    assert depth.sum() * 25.0 == pytest.approx(bmi._base.budget["moving"], rel=1e-13)  # round-off
+    assert bmi._base.budget["released"] == 225.0
+    physics = bmi._base._physics
+    assert physics.friction.turbulent_coefficient == 400.0 and physics.material.porosity == 0.35
+
+
+def test_update_until_ends_where_it_should(bmi):
+    bmi.update_until(5.0)
+    assert bmi.get_current_time() == bmi._base.elapsed_time == 5.0
+    bmi.update_until(9.0)  # whole steps: ends with a step of no time
+    assert bmi.get_current_time() == bmi._base.elapsed_time == 9.0
+
+
+def test_a_release_set_through_bmi_fails(bmi):
+    bmi.update_until(100.0)
+    release = np.zeros(800)
+    release[10 * 40 + 8] = 0.01
+    soil = bmi.get_value("soil__depth", np.empty(800))
+    bmi.set_value("soil__depth", np.maximum(soil, release))
+    bmi.set_value("debris_flow__release_depth", release)
+    bmi.update()
+    assert bmi._base.budget["released"] == pytest.approx(225.25, rel=1e-14)

@@ -1,0 +1,1 @@
+"""Closed-form solutions, reached through the component."""
