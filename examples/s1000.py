@@ -151,7 +151,9 @@ def read(data: Path, name: str, **where):
 def build_grid(data: Path):
     """Return the terrain, ready to run: soil of 1.2 m, in the source at least what is released; NODATA closed."""
     grid = read(data, "pre_runout_DEM")
-    elevation = grid.add_field("topographic__elevation", grid.at_node["pre_runout_DEM"].astype(float), at="node", units="m")
+    elevation = grid.add_field(
+        "topographic__elevation", grid.at_node["pre_runout_DEM"].astype(float), at="node", units="m"
+    )
     grid.set_nodata_nodes_to_closed(elevation, NODATA)
     depth = read(data, "landslide_depth").at_node["landslide_depth"]
     release = np.where(depth == NODATA, 0.0, -depth)  # the file has lowering, negative
@@ -161,7 +163,7 @@ def build_grid(data: Path):
 
 
 def read_observed(data: Path):
-    """Return the change of elevation by lidar and the thickness released [m], over ``y`` and ``x``; NODATA is no change."""
+    """Return the change of elevation by lidar and the thickness released, over ``y`` and ``x`` [m]; NODATA is 0."""
     grid = read(data, "DEM_of_Difference")
     depth = read(data, "landslide_depth").at_node["landslide_depth"].reshape(grid.shape)
     values = grid.at_node["DEM_of_Difference"].reshape(grid.shape)
@@ -187,7 +189,9 @@ def elevation_map(grid):
 
 def warm_up(data, friction):
     """Load the compiled kernels, so that the times are those of the run."""
-    DebrisFlow(build_grid(data), friction=friction, material=MATERIAL, numerics={"particle_count": 10}).run_one_step(2.0)
+    DebrisFlow(build_grid(data), friction=friction, material=MATERIAL, numerics={"particle_count": 10}).run_one_step(
+        2.0
+    )
 
 
 def peak_memory():
@@ -220,36 +224,35 @@ def print_table(console, shown, particles, quick):
     console.print(table, NOTES, highlight=False, markup=False)
 
 
-NOTES = (
-    "Coulomb and Voellmy: values from the literature, fixed before the first scoring; nothing is calibrated. Each runs with "
-    "both answers to what thinning does to the pore pressure (overburden, the default, and proportional).\n"
-    "'spread evenly': the source spread along the observed path, three cells wide, computed here without any physics "
-    "(quoted: CSI .478, outside .432, correlation -.11; the difference is how the path was drawn).\n"
-    "In quotation marks: quoted, not rerun. MassWastingRunout is calibrated on this event. The prototype of this model has "
-    "values from the literature too; its ranges span growth rates of 5e-4 to 3e-3 and, with drag, xi of 200 to 500.\n"
-    "CSI: hits / (hits + misses + false alarms) over cells with |dz| above the threshold; erosion and deposition: by sign, "
-    "whole map, 0.2 m. Correlation: outside the source, over cells that changed by more than 0.2 m in either map.\n"
-    "Run-out: every cell with |dz| > 0.2 m is projected on the observed path in plan; the farthest counts, from the crown. "
-    "Left in the scar: release less net lowering inside the source.\n"
-    "Peak memory is that of the process so far, Python and Landlab included. Differences below the noise mean nothing."
-)
+NOTES = """\
+Coulomb and Voellmy: values from the literature, fixed before the first scoring; nothing is calibrated. Each runs with \
+both answers to what thinning does to the pore pressure (overburden, the default, and proportional).
+'spread evenly': the source spread along the observed path, three cells wide, computed here without any physics \
+(quoted: CSI .478, outside .432, correlation -.11; the difference is how the path was drawn).
+In quotation marks: quoted, not rerun. MassWastingRunout is calibrated on this event. The prototype of this model also \
+has values from the literature; its ranges span growth rates of 5e-4 to 3e-3 and, with drag, xi of 200 to 500.
+CSI: hits / (hits + misses + false alarms) over cells with |dz| above the threshold; erosion and deposition by sign, \
+whole map, 0.2 m. Correlation: outside the source, over cells that changed by more than 0.2 m in either map.
+Run-out: every cell with |dz| > 0.2 m is projected on the observed path in plan; the farthest from the crown counts. \
+Left in the scar: release less net lowering inside the source.
+Peak memory is that of the process so far, Python and Landlab included. Differences below the noise mean nothing."""
 
 
 def print_misfits(console, results, observed):
     """Say plainly where the runs are wrong."""
     for name, r in results.items():
         console.print(
-            f"{name}: {r['in scar']:.0f} m3 stay in the scar, lidar has {observed['in scar']:.0f}; outside the source the "
-            f"ground is lowered by {r['lowered outside']:.0f} m3, lidar has {observed['lowered outside']:.0f}; the run-out is "
-            f"{r['run-out error']:+.0f} m off; it came to rest after {r['duration']:.0f} s.",
+            f"{name}: {r['in scar']:.0f} m3 stay in the scar (lidar {observed['in scar']:.0f}); outside the source the "
+            f"ground is lowered by {r['lowered outside']:.0f} m3 (lidar {observed['lowered outside']:.0f}); the run-out "
+            f"is {r['run-out error']:+.0f} m off; rest after {r['duration']:.0f} s.",
             highlight=False,
         )
     console.print(
         "With the default loading the tail stops in the scar: the columns lose their pore pressure as the body thins. "
         "Proportional loading empties the scar. "
         f"The model conserves volume, lidar does not: {-observed['net']:.0f} m3 are missing after the event (washed "
-        f"out, compacted, or survey error). In {observed['too deep']} cells outside the source lidar is lowered by more than "
-        f"the {SOIL_DEPTH:g} m of soil the model may take.",
+        f"out, compacted, or survey error). In {observed['too deep']} cells outside the source lidar is lowered by "
+        f"more than the {SOIL_DEPTH:g} m of soil the model may take.",
         highlight=False,
     )
 
@@ -257,7 +260,9 @@ def print_misfits(console, results, observed):
 def collect(maps, change, observed, source):
     """Return one Dataset of both runs along ``run``, with the observed change."""
     names = xr.DataArray(list(maps), dims="run", name="run")
-    both = xr.concat(list(maps.values()), names, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals")
+    both = xr.concat(
+        list(maps.values()), names, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals"
+    )
     both.attrs = {key: value for key, value in both.attrs.items() if not key.startswith(("budget", "elapsed"))}
     both["elevation_change"] = xr.concat(list(change.values()), names).assign_coords(x=both.x, y=both.y)
     both["observed_elevation_change"] = observed.assign_coords(x=both.x, y=both.y)
@@ -269,7 +274,9 @@ def draw(change, observed, source, relief):
     """Return the figure: observed and modelled change of elevation in the same colours."""
     panels = {"observed (lidar)": observed} | {name.replace(", ", ",\n"): values for name, values in change.items()}
     layer = Layer(panels, "change of elevation, red: lowered, blue: raised [m]", "RdBu", (-5.0, 5.0), threshold=0.2)
-    return draw_maps([layer], relief, outline=source)
+    figure = draw_maps([layer], relief, outline=source)
+    figure.suptitle("S-1000, December 2021: change of elevation; parameters from the literature, nothing calibrated")
+    return figure
 
 
 if __name__ == "__main__":

@@ -30,9 +30,12 @@ MEASURES = {
 }
 """Words and format of each measure."""
 
-NOISE = dict.fromkeys(
-    ("csi", "csi outside", "csi 0.5", "csi 0.5 outside", "csi erosion", "csi deposition", "correlation"), "±.02"
-) | {"eroded": "±10 %", "eroded outside": "±10 %", "lowered outside": "±10 %", "run-out": "±15", "run-out error": "±15"}  # fmt: skip
+NOISE = {
+    **dict.fromkeys(("csi", "csi outside", "csi 0.5", "csi 0.5 outside"), "±.02"),
+    **dict.fromkeys(("csi erosion", "csi deposition", "correlation"), "±.02"),
+    **dict.fromkeys(("eroded", "eroded outside", "lowered outside"), "±10 %"),
+    **dict.fromkeys(("run-out", "run-out error"), "±15"),
+}
 """Differences below these mean nothing: spread between runs that differ in nothing that matters."""
 
 QUOTED = {

@@ -1,6 +1,7 @@
 """The Landlab component: fields of the grid on one side, the model on the other."""
 
 import logging
+from typing import ClassVar
 
 import numpy as np
 from landlab import Component, RasterModelGrid
@@ -76,7 +77,7 @@ class DebrisFlow(Component):
       volume = {46}, pages = {1127--1153}, year = {2022}, doi = {10.1002/nag.3339}
     }
     """
-    _info = {field.name: field.info for field in NODE_FIELDS}
+    _info: ClassVar = {field.name: field.info for field in NODE_FIELDS}
 
     def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
                  numerics=None, observers=()):  # fmt: skip
@@ -255,7 +256,8 @@ class DebrisFlow(Component):
 
     @property
     def _soil(self):
-        return self.grid.at_node["soil__depth"] if "soil__depth" in self.grid.at_node else None
+        # not at_node.get(): it is a dict's and knows nothing of the fields
+        return self.grid.at_node["soil__depth"] if "soil__depth" in self.grid.at_node else None  # noqa: SIM401
 
     def _advance(self, duration, stop_at_rest):
         """Run, stopping where an observer wants to look."""

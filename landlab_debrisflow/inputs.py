@@ -69,7 +69,9 @@ def check_release(grid, name: str, depth, soil) -> None:
     """Refuse a release that is negative, not on core nodes, or deeper than the soil."""
     bad = np.flatnonzero(~np.isfinite(depth) & (grid.status_at_node != CLOSED))
     if bad.size:
-        raise InputError(f"{name} must be finite, got {depth[bad[0]]} at {_where(grid, bad[0])}; set 0 where nothing fails")
+        raise InputError(
+            f"{name} must be finite, got {depth[bad[0]]} at {_where(grid, bad[0])}; set 0 where nothing fails"
+        )
     bad = np.flatnonzero((depth < 0.0) & (grid.status_at_node != CLOSED))
     if bad.size:
         raise InputError(
@@ -79,8 +81,8 @@ def check_release(grid, name: str, depth, soil) -> None:
     bad = np.flatnonzero((depth > 0.0) & (grid.status_at_node != 0))
     if bad.size:
         raise InputError(
-            f"{name} is {depth[bad[0]]:g} m on {_where(grid, bad[0])}, which is a boundary or closed node; release only on "
-            "core nodes: set 0 there, or use a larger DEM"
+            f"{name} is {depth[bad[0]]:g} m on {_where(grid, bad[0])}, a boundary or closed node; "
+            "release only on core nodes: set 0 there, or use a larger DEM"
         )
     if soil is not None:
         bad = np.flatnonzero(depth > soil)

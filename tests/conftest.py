@@ -19,7 +19,7 @@ os.environ["NUMBA_CACHE_DIR"] = os.path.join(
 
 import pytest  # noqa: E402  numba must not be imported before the line above
 
-from .grids import inclined, release_slab  # noqa: E402
+from .grids import inclined, release_slab
 
 
 @pytest.fixture
@@ -33,6 +33,6 @@ def slope():
 @pytest.fixture
 def valley():
     """The same slope running out on a flat: everything comes to rest inside."""
-    grid = inclined((20, 60), 5.0, 0.5, soil=1.0, foot=150.0)
+    grid = inclined((20, 80), 5.0, 0.5, soil=1.0, foot=150.0)
     release_slab(grid, (30.0, 48.0), 8.0, 1.0)
     return grid

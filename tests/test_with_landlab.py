@@ -36,11 +36,16 @@ def test_observers_are_called_at_their_interval_and_at_rest(valley):
     assert all(volume > 225.0 for volume in often.moving)  # they see the grid as it is then
 
 
-def test_watching_hardly_changes_what_happens(valley, slope):
-    flow = DebrisFlow(valley, numerics=COARSE, observers=[Watch(0.5)])
-    flow.run_until_rest()
-    deposit = valley.at_node["debris_flow__deposit_depth"]
-    assert deposit.sum() * 25.0 == pytest.approx(flow.budget["deposited"], rel=1e-13)  # round-off
+def test_a_call_is_the_same_whether_watched_at_its_end_or_not(valley):
+    release, z, soil = (valley.at_node[name].copy() for name in ("debris_flow__release_depth", Z, SOIL))
+    particles = []
+    for observers in ((), [Watch(5.0)]):
+        for name, values in (("debris_flow__release_depth", release), (Z, z), (SOIL, soil)):
+            valley.at_node[name][:] = values
+        flow = DebrisFlow(valley, numerics=COARSE, observers=observers)
+        flow.run_one_step(5.0)
+        particles.append(flow.particles)
+    assert particles[0].identical(particles[1])
 
 
 def test_bedrock_and_soil_stay_together_beside_other_components(valley):
@@ -50,12 +55,12 @@ def test_bedrock_and_soil_stay_together_beside_other_components(valley):
     grid.add_field(ROCK, grid.at_node[Z] - grid.at_node[SOIL], at="node")
     accumulator = FlowAccumulator(grid, flow_director="FlowDirectorD8")
     rivers = SpaceLargeScaleEroder(grid, K_sed=1e-4, K_br=1e-5)
-    creep = DepthDependentDiffuser(grid, linear_diffusivity=0.01)
-    grid.add_zeros("soil_production__rate", at="node", clobber=True)
+    grid.add_zeros("soil_production__rate", at="node")
+    creep = DepthDependentDiffuser(grid, soil_transport_velocity=0.01)
     flow = DebrisFlow(grid, numerics=COARSE)
     core = grid.core_nodes
     for _ in range(2):
-        grid.at_node["debris_flow__release_depth"][:] = np.minimum(release, grid.at_node[SOIL])
+        grid.at_node["debris_flow__release_depth"][:] = np.minimum(0.4 * release, grid.at_node[SOIL])
         before, rock = grid.at_node[Z].copy(), grid.at_node[ROCK].copy()
         assert flow.run_until_rest() is True
         np.testing.assert_array_equal(grid.at_node[ROCK], rock)
@@ -63,8 +68,8 @@ def test_bedrock_and_soil_stay_together_beside_other_components(valley):
         together(grid, core)
         settled = grid.at_node[Z].copy()
         accumulator.run_one_step()
-        rivers.run_one_step(10.0)
-        creep.run_one_step(10.0)
+        rivers.run_one_step(1.0)
+        creep.run_one_step(1.0)
         together(grid, core)
         # they work on from what the flow left, and do not take it back
         change = abs(grid.at_node[Z] - settled)[core]
@@ -114,7 +119,8 @@ def bmi():
 
 def test_a_model_from_yaml_text(bmi):
     assert bmi.get_component_name() == "DebrisFlow"
-    assert {"soil__depth", "debris_flow__release_depth"} <= set(bmi.get_input_var_names())
+    assert "topographic__elevation" in bmi.get_input_var_names()
+    assert "debris_flow__deposit_depth" in bmi.get_output_var_names()
     assert bmi.get_var_units("debris_flow__speed") == "m/s"
     for expected in (2.0, 4.0):
         bmi.update()
@@ -134,11 +140,9 @@ def test_update_until_ends_where_it_should(bmi):
 
 
 def test_a_release_set_through_bmi_fails(bmi):
-    bmi.update_until(100.0)
-    release = np.zeros(800)
-    release[10 * 40 + 8] = 0.01
-    soil = bmi.get_value("soil__depth", np.empty(800))
-    bmi.set_value("soil__depth", np.maximum(soil, release))
-    bmi.set_value("debris_flow__release_depth", release)
+    # Landlab's wrapper offers optional fields by pointer and index only, not in `set_value`
+    bmi.update_until(90.0)
+    bmi.get_value_ptr("soil__depth")[:] += 0.01
+    bmi.set_value_at_indices("debris_flow__release_depth", [10 * 40 + 8], 0.01)
     bmi.update()
     assert bmi._base.budget["released"] == pytest.approx(225.25, rel=1e-14)

@@ -76,7 +76,7 @@ NODE_FIELDS = (
     # the docs of shared names are Landlab's own
     NodeField("topographic__elevation", "inout", "m", "Land surface topographic elevation"),
     NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
-    NodeField("debris_flow__release_depth", "inout", "m", "Vertical thickness of ground that fails; 0 once taken", True),
+    NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
     NodeField(
         "mass__wasting_id", "inout", "-",
         "integer or float id of each mass wasting area is assigned to all nodes representing the mass wasting area.",

@@ -39,9 +39,7 @@ class Footprint:
             self._under = self._under[:0]
             return
         speed = np.sqrt(np.einsum("in,in->n", p.velocity, p.velocity))
-        amounts = np.array(
-            [speed, p.basal_excess_pore_pressure, p.liquefaction_pressure, p.basal_peclet_number]
-        )
+        amounts = np.array([speed, p.basal_excess_pore_pressure, p.liquefaction_pressure, p.basal_peclet_number])
         values = np.concatenate([p.volume[None, :], amounts * p.volume])
         self._under = scatter(self._nodes, p.x, p.y, p.spread, values, self._sums, self._scratch).copy()
         _record(self._under, self._sums, self._nodes.area, time, self._arrival_depth, *self._now, *self._peaks)

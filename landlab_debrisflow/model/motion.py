@@ -117,10 +117,7 @@ def turn(velocity, ground, cosine):
         speed = u * u + v * v + w * w
         u, v, w = u - across * nx, v - across * ny, w - across * nz
         along = u * u + v * v + w * w
-        if along > 1e-12 * speed:
-            factor = np.sqrt(speed / along)
-        else:
-            factor = 0.0
+        factor = np.sqrt(speed / along) if along > 1e-12 * speed else 0.0
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 
 

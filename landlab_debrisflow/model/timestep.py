@@ -6,9 +6,7 @@ TERRAIN_FRACTION = 0.25
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
-def longest_step(
-    particles, awake, cosine, gravity: float, courant_number: float, node_spacing: float
-) -> float:
+def longest_step(particles, awake, cosine, gravity: float, courant_number: float, node_spacing: float) -> float:
     """Return the longest stable time step [s].
 
     Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow against the smoothing

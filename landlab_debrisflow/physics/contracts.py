@@ -58,8 +58,10 @@ class FrictionLaw(Protocol):
     """Resistance of the bed."""
 
     def basal_resistance(self, state: BasalState, yield_stress: Array, drag: Array) -> None:
-        """Write the part of the basal shear stress that holds a body at rest [Pa], and the rest
-        divided by the speed [Pa s m-1], both >= 0 and finite."""
+        """Write the yield stress, which holds a body at rest [Pa], and the other resistance over speed [Pa s m-1].
+
+        Both are >= 0 and finite.
+        """
 
 
 class ErosionLaw(Protocol):
@@ -76,12 +78,18 @@ class ColumnLaw(Protocol):
     def levels(self) -> int:
         """Number of levels of a column, at least 2."""
 
-    def advance(self, columns: ColumnState, forcing: ColumnForcing, coefficient_of_consolidation: float,
-                water_to_buoyant: float, dt: float, basal_pressure: Array) -> None:
+    def advance(
+        self,
+        columns: ColumnState,
+        forcing: ColumnForcing,
+        coefficient_of_consolidation: float,
+        water_to_buoyant: float,
+        dt: float,
+        basal_pressure: Array,
+    ) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
 
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing,
-                    water_to_buoyant: float) -> None:
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
         """Bring every profile to the present in place, for output, a change of volume or the end."""
 
 
@@ -103,7 +111,11 @@ class FlowState(NamedTuple):
 class FlowLaw(Protocol):
     """Inner forces of the flow."""
 
-    def thrust(self, state: FlowState, cells, shock_viscosity: float, threads: int,
-               acceleration: Array, thickening: Array) -> None:
-        """Write, where cells are awake, the acceleration by the flow's own pressure, shape (3, n) [m s-2],
-        and the rate at which converging flow thickens, shape (n,) [m s-1]."""
+    def thrust(
+        self, state: FlowState, cells, shock_viscosity: float, threads: int, acceleration: Array, thickening: Array
+    ) -> None:
+        """Write, where cells are awake, what the flow's own pressure does.
+
+        That is the acceleration, shape (3, n) [m s-2], and the rate at which converging flow thickens,
+        shape (n,) [m s-1].
+        """

@@ -22,9 +22,7 @@ class Material:
     solid_density: float = parameter("kg m-3", "density of the grains", 2650.0, (1.0, 1e5))
     water_density: float = parameter("kg m-3", "density of the pore water; 0 = dry", 1000.0, (0.0, 1e5))
     porosity: float = parameter("-", "volume fraction of the pores", 0.4, (0.0, 0.99))
-    coefficient_of_consolidation: float = parameter(
-        "m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6)
-    )
+    coefficient_of_consolidation: float = parameter("m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6))
     bed_pressure_ratio: float = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
     )

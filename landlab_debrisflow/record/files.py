@@ -35,7 +35,9 @@ def check_writable(path) -> Path:
     except OSError as error:
         raise InputError(f"cannot write {path}: {error.strerror} in {folder}; choose another directory") from error
     if path.exists() and not os.access(path, os.W_OK):
-        raise InputError(f"cannot write {path}: the file is there and write-protected; remove it or choose another name")
+        raise InputError(
+            f"cannot write {path}: the file is there and write-protected; remove it or choose another name"
+        )
     return path
 
 

@@ -99,7 +99,9 @@ class Snapshots:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
         words = {"units": "s", "long_name": "elapsed time of the event", "axis": "T"}
         time = xr.DataArray(self._times, dims="time", name="time", attrs=words)
-        return xr.concat(self._maps, time, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals")
+        return xr.concat(
+            self._maps, time, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals"
+        )
 
     def write(self, path=None):
         """Write the dataset as NetCDF, atomically.

@@ -167,4 +167,6 @@ def _draw_scale_bar(axes, unit):
     length = max(m * power for m in (1, 2, 5) if m * power <= target)
     x, y = west + 0.04 * (east - west), south + 0.06 * (north - south)
     axes.plot([x, x + length], [y, y], color="black", linewidth=3, solid_capstyle="butt")
-    axes.text(x + 0.5 * length, y + 0.015 * (north - south), f"{length:g} {unit}", ha="center", va="bottom", fontsize="small")
+    axes.text(
+        x + 0.5 * length, y + 0.015 * (north - south), f"{length:g} {unit}", ha="center", va="bottom", fontsize="small"
+    )

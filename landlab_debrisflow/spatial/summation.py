@@ -61,64 +61,44 @@ def sum_thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, out,
     """
     packed = np.stack((x, y, z, volume, smoothing_length))[:, cells.order]
     over_cells(
-        _thickness, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.awake, cells.columns,
-        cells.rows, packed, longest, *out,
+        _thickness, cells, threads, cells.order, cells.start, cells.near, cells.near_start, packed, longest, *out,
     )  # fmt: skip
 
 
 @kernel
-def _neighbourhood(cell, start, reach, window, columns, rows, packed, reach_row, near):
-    """Copy what may act on the particles of a cell into `near`; return its number, a multiple of _LANES.
-
-    Kept is what lies near enough to the box around the cell's particles: within the reach of the cell,
-    or within its own, 1 / packed[reach_row] (if reach_row >= 0).
-    """
-    west, east, south, north = _FAR, -_FAR, _FAR, -_FAR
-    for k in range(start[cell], start[cell + 1]):
-        west, east = min(west, packed[0, k]), max(east, packed[0, k])
-        south, north = min(south, packed[1, k]), max(north, packed[1, k])
-    row, column, w = cell // columns, cell % columns, window[cell]
-    within = reach[cell] * reach[cell]
-    m = 0
-    for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-        first = start[r * columns + max(column - w, 0)]
-        last = start[r * columns + min(column + w, columns - 1) + 1]
-        for k in range(first, last):
-            gap_x = max(max(west - packed[0, k], packed[0, k] - east), 0.0)
-            gap_y = max(max(south - packed[1, k], packed[1, k] - north), 0.0)
-            gap = gap_x * gap_x + gap_y * gap_y
-            if gap < within or (reach_row >= 0 and gap * packed[reach_row, k] ** 2 < 1.0):
-                for v in range(near.shape[0]):
-                    near[v, m] = packed[v, k]
-                m += 1
+def _neighbourhood(first, last, near, packed, scratch):
+    """Copy the particles near[first:last] into `scratch`; return their number, rounded up to whole vectors."""
+    m = last - first
+    for v in range(scratch.shape[0]):
+        for k in range(m):
+            scratch[v, k] = packed[v, near[first + k]]
     while m % _LANES:
-        for v in range(near.shape[0]):
-            near[v, m] = 0.0
-        near[0, m] = _FAR
+        for v in range(scratch.shape[0]):
+            scratch[v, m] = 0.0
+        scratch[0, m] = _FAR
         m += 1
     return m
 
 
 @kernel
 def _thickness(
-    first, last, order, start, reach, window, awake, columns, rows, packed, longest,
-    thickness, gradient_term, next_length,
+    first, last, order, start, near, near_start, packed, longest, thickness, gradient_term, next_length,
 ):  # fmt: skip
-    near = np.empty((4, order.size + _LANES))
+    scratch = np.empty((4, order.size + _LANES))
     for cell in range(first, last):
-        if not awake[cell]:
+        m = _neighbourhood(near_start[cell], near_start[cell + 1], near, packed, scratch)
+        if m == 0:
             continue
-        m = _neighbourhood(cell, start, reach, window, columns, rows, packed, -1, near)
         for k in range(start[cell], start[cell + 1]):
             i, volume = order[k], packed[3, k]
             xi, yi, zi, li = packed[0, k], packed[1, k], packed[2, k], packed[4, k]
             inverse = 0.5 / li
             total, change = 0.0, 0.0
             for j in range(m):
-                dx, dy, dz = xi - near[0, j], yi - near[1, j], zi - near[2, j]
+                dx, dy, dz = xi - scratch[0, j], yi - scratch[1, j], zi - scratch[2, j]
                 q = np.sqrt(dx * dx + dy * dy + dz * dz) * inverse
                 t = max(0.0, 1.0 - q)
-                t3 = t * t * t * near[3, j]
+                t3 = t * t * t * scratch[3, j]
                 total += t3 * t * (1.0 + 4.0 * q)
                 change += t3 * q * q
             own = (SELF_WEIGHT - 1.0) * volume
@@ -164,20 +144,20 @@ def sum_pressure_gradient(cells: Cells, x, y, z, velocity, volume, smoothing_len
         (x, y, z, *velocity, 0.5 / smoothing_length, reach, strength, celerity, thickness, volume)
     )[:, cells.order]  # fmt: skip
     over_cells(
-        _pressure_gradient, cells, threads, cells.order, cells.start, cells.reach, cells.window, cells.awake,
-        cells.columns, cells.rows, packed, viscosity, acceleration, thickening,
+        _pressure_gradient, cells, threads, cells.order, cells.start, cells.near, cells.near_start,
+        packed, viscosity, acceleration, thickening,
     )  # fmt: skip
 
 
 @kernel
 def _pressure_gradient(
-    first, last, order, start, reach, window, awake, columns, rows, packed, viscosity, acceleration, thickening,
+    first, last, order, start, near, near_start, packed, viscosity, acceleration, thickening,
 ):  # fmt: skip
-    near = np.empty((12, order.size + _LANES))
+    scratch = np.empty((12, order.size + _LANES))
     for cell in range(first, last):
-        if not awake[cell]:
+        m = _neighbourhood(near_start[cell], near_start[cell + 1], near, packed, scratch)
+        if m == 0:
             continue
-        m = _neighbourhood(cell, start, reach, window, columns, rows, packed, 6, near)
         for k in range(start[cell], start[cell + 1]):
             i, volume = order[k], packed[11, k]
             if volume < 0.0:  # a hole pulls, and is not moved: see model/release.py
@@ -187,16 +167,16 @@ def _pressure_gradient(
             inverse, own, si, ci, hi = packed[6, k], packed[7, k] / volume, packed[8, k], packed[9, k], packed[10, k]
             ax, ay, az, inflow = 0.0, 0.0, 0.0, 0.0
             for j in range(m):
-                dx, dy, dz = xi - near[0, j], yi - near[1, j], zi - near[2, j]
+                dx, dy, dz = xi - scratch[0, j], yi - scratch[1, j], zi - scratch[2, j]
                 r = np.sqrt(dx * dx + dy * dy + dz * dz)
-                ti, tj = max(0.0, 1.0 - r * inverse), max(0.0, 1.0 - r * near[6, j])
-                closing = -((ui - near[3, j]) * dx + (vi - near[4, j]) * dy + (wi - near[5, j]) * dz)
-                both = hi + near[10, j]
+                ti, tj = max(0.0, 1.0 - r * inverse), max(0.0, 1.0 - r * scratch[6, j])
+                closing = -((ui - scratch[3, j]) * dx + (vi - scratch[4, j]) * dy + (wi - scratch[5, j]) * dz)
+                both = hi + scratch[10, j]
                 approach = max(0.0, closing) / (r * both + 1e-300)  # speed over the sum of thicknesses
-                shock = 0.5 * viscosity * (ci + near[9, j] + 3.0 * approach * both) * approach
+                shock = 0.5 * viscosity * (ci + scratch[9, j] + 3.0 * approach * both) * approach
                 # grad W = -5 * 7/(4 pi l^4) (1 - q)^3 r
-                pull = own * near[11, j] * ti * ti * ti
-                push = pull * (si + shock) + near[7, j] * tj * tj * tj * (near[8, j] + shock)
+                pull = own * scratch[11, j] * ti * ti * ti
+                push = pull * (si + shock) + scratch[7, j] * tj * tj * tj * (scratch[8, j] + shock)
                 ax += push * dx
                 ay += push * dy
                 az += push * dz

@@ -1,0 +1,145 @@
+"""What a user would run first: the command line and the examples, shortened."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_allclose
+
+from landlab_debrisflow import InputError, cli, demo
+from landlab_debrisflow.model.physics import LAWS
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def load(name):
+    """Import an example as a module, with its folder on the path as when it is run."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.path.insert(0, str(EXAMPLES))
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        sys.path.remove(str(EXAMPLES))
+    return module
+
+
+# ---- the command line ----
+
+
+def test_demo_shows_that_the_ale_column_runs_farther(tmp_path, capsys):
+    assert cli.main(["demo", "--particles", "150", "--output-dir", str(tmp_path)]) == 0
+    told = capsys.readouterr()
+    assert told.err == ""  # no progress without a terminal
+    for words in (
+        "run-out of the front beyond the 100 m contour [m]",
+        "residual of the mass balance [m3]",
+        "CPU time [s]",
+    ):
+        assert words in told.out
+    with xr.open_dataset(tmp_path / "demo.nc") as both:
+        assert list(both.column.values) == ["ale", "classical"]
+        assert_allclose(both.budget_residual, 0.0, atol=1e-12 * 20_000)
+        assert_allclose(both.budget_eroded[0], both.budget_eroded[1], rtol=0.01)
+        reach = (both.debris_flow__deposit_depth > 0.0).any("y")
+        ale, classical = (float(both.x[reach.sel(column=name)].max()) for name in ("ale", "classical"))
+        assert ale > classical + 50.0
+    assert (tmp_path / "demo.png").read_bytes()[:4] == b"\x89PNG"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--output-dir", "missing"], "does not exist"),
+        (["--particles", "0"], "particle_count must lie in"),
+    ],
+)
+def test_user_errors_are_one_line_and_code_2_before_anything_runs(words, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(demo.DebrisFlow, "run_until_rest", lambda self: pytest.fail("it ran"))
+    assert cli.main(["demo", *words]) == 2
+    told = capsys.readouterr()
+    assert told.out == "" and told.err.count("\n") == 1
+    assert told.err.startswith("landlab-debrisflow: ") and said in told.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_info_lists_every_law_and_parameter(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "150")
+    assert cli.main(["info"]) == 0
+    told = capsys.readouterr().out
+    for kind, laws in LAWS.items():
+        for name, law in laws.items():
+            assert f"{kind}: {name}" in told
+            assert all(parameter in told for parameter in law.__dataclass_fields__)
+    line = next(line for line in told.splitlines() if "growth_rate" in line)
+    assert all(word in line for word in ("m-1", "0.003", "0 or more"))
+    line = next(line for line in told.splitlines() if "bed_pressure_ratio" in line)
+    assert all(word in line for word in ("0.65", "0 to 1"))
+
+
+def test_a_command_is_needed(capsys):
+    with pytest.raises(SystemExit) as stop:
+        cli.main([])
+    assert stop.value.code == 2
+    assert "command" in capsys.readouterr().err
+
+
+# ---- S-1000 ----
+
+
+@pytest.fixture(scope="module")
+def s1000():
+    module = load("s1000")
+    try:
+        module.find_data()
+    except InputError as error:
+        pytest.skip(f"the S-1000 rasters are not part of the project: {error}")
+    return module
+
+
+def test_s1000_shortened(s1000, tmp_path, capsys):
+    shown = s1000.main(particles=80, output_dir=tmp_path, quick=True)
+    seen = shown["observed"]
+    assert_allclose([seen["released"], seen["lowered outside"], seen["raised"]], [22481, 5126, 22543], atol=1.0)
+    assert_allclose(
+        [seen[key] for key in ("csi", "csi outside", "correlation", "run-out error")], [1, 1, 1, 0], atol=1e-12
+    )
+    for name in ("Coulomb", "Voellmy"):
+        ours = shown[name]
+        assert abs(ours["residual"]) < 1e-12 * 30_000
+        assert ours["eroded outside"] > 0.0 and ours["lowered outside"] > 0.0
+        assert 0.0 < ours["csi outside"] < 1.0
+    assert shown["Voellmy"]["eroded"] < shown["Coulomb"]["eroded"]  # drag shortens the way in the same time
+    baseline = shown["spread evenly"]
+    assert_allclose(baseline["raised"] - baseline["lowered outside"] + baseline["net"], baseline["raised"], atol=1.0)
+    assert_allclose(
+        [baseline["csi"], baseline["csi outside"], baseline["correlation"]], [0.478, 0.432, -0.11], atol=0.05
+    )
+    told = capsys.readouterr().out
+    assert "CUT SHORT" in told and "±.02" in told and "not rerun" in told
+    with xr.open_dataset(tmp_path / "s1000.nc") as stored:
+        assert stored.elevation_change.dims == ("run", "y", "x")
+        moving_aside = stored.elevation_change.where(stored.source == 0)
+        assert float(moving_aside.min()) >= -s1000.SOIL_DEPTH - 1e-9  # it never digs below the soil
+    assert (tmp_path / "s1000.png").stat().st_size > 10_000
+
+
+def test_s1000_parameters_are_those_written_down_before_scoring(s1000):
+    apparent = (990.0 / 1990.0) * np.tan(np.radians(s1000.BASAL_FRICTION_ANGLE)) * (1.0 - s1000.PRESSURE_RATIO)
+    assert_allclose(apparent, 0.21, atol=0.005)
+    assert (s1000.GROWTH_RATE, s1000.TURBULENT_COEFFICIENT, s1000.SOIL_DEPTH) == (1e-3, 500.0, 1.2)
+
+
+def test_missing_data_are_refused_with_the_places_looked_at(tmp_path):
+    with pytest.raises(InputError, match=f"no pre_runout_DEM.asc in {tmp_path} nor in {tmp_path}/s1000"):
+        load("s1000").find_data(tmp_path)
+
+
+def test_success_index_counts_hits_misses_and_false_alarms():
+    success = load("s1000_scores").success
+    modelled, observed = np.array([1, 1, 1, 0, 0], bool), np.array([1, 1, 0, 1, 0], bool)
+    assert success(modelled, observed) == 0.5
