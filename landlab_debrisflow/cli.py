@@ -84,7 +84,7 @@ def _show(console, title, declared):
         return
     table = Table(box=None, pad_edge=True, header_style="dim")
     for heading in ("parameter", "unit", "default", "allowed", "meaning"):
-        table.add_column(heading, overflow="fold")
+        table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names stay whole
     for parameter in parameters:
         meta = parameter.metadata
         table.add_row(parameter.name, meta["unit"], _plain(parameter.default), _allowed(meta), meta["meaning"])

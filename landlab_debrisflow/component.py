@@ -249,7 +249,7 @@ class DebrisFlow(Component):
         self._footprint = Footprint(
             nodes, {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}, self._numerics.arrival_depth
         )
-        self._ledger.open(nodes.core, soil)
+        self._ledger.watch_soil(nodes.core, soil)
         if failing:
             sim.release(release)
             self._footprint.record(sim.particles, sim.time)
@@ -280,7 +280,7 @@ class DebrisFlow(Component):
 
     def _finish(self):
         """Do the accounts; settle what rests."""
-        self._ledger.eroded -= self._ledger.change(self._soil)
+        self._ledger.watch_soil(None, None)
         self._simulation.warn_of_walls()
         if self.at_rest and self._numerics.settle and self._simulation.particles.count:
             self._settle()
@@ -288,10 +288,8 @@ class DebrisFlow(Component):
         self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
 
     def _settle(self):
-        elevation = self.grid.at_node["topographic__elevation"]
-        self._ledger.open(self._simulation.bed.nodes.core, elevation)
-        nodes, depth = self._simulation.settle()
-        self._ledger.deposited += self._ledger.change(elevation)
+        elevation, core = self.grid.at_node["topographic__elevation"], self._simulation.bed.nodes.core
+        nodes, depth = self._ledger.deposit(core, elevation, self._simulation.settle)
         self._settled[nodes] += depth
         self._footprint.clear()
 

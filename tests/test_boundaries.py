@@ -46,6 +46,8 @@ def test_closed_walls_hold_and_say_so(slope, caplog):
     flow = DebrisFlow(slope, numerics=COARSE)
     with caplog.at_level(logging.WARNING, "landlab_debrisflow"):
         assert flow.run_until_rest() is True
+    # a body pressed against a wall comes to rest like any other (here after 23 s), and does not erode there
+    assert flow.elapsed_time < 60.0 and flow.budget["eroded"] < 340.0
     assert flow.budget["outflow"] == 0.0 and not any(flow.outflow_by_edge.values())
     warnings = [record.getMessage() for record in caplog.records]
     assert len(warnings) == 1 and "m3 ran against closed or NODATA nodes" in warnings[0]

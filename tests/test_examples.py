@@ -68,7 +68,7 @@ def test_user_errors_are_one_line_and_code_2_before_anything_runs(words, said, t
 
 
 def test_info_lists_every_law_and_parameter(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "150")
+    monkeypatch.setenv("COLUMNS", "80")
     assert cli.main(["info"]) == 0
     told = capsys.readouterr().out
     for kind, laws in LAWS.items():

@@ -14,17 +14,30 @@ class Ledger:
 
     def __init__(self, area: float):
         self._area = area
-        self.released = self.eroded = self.deposited = 0.0
-        self._reference = None
+        self.released = self.deposited = 0.0
+        self._eroded = 0.0  # in earlier calls
+        self._core = self._soil = self._soil_before = None
 
-    def open(self, core, values) -> None:
-        """Remember field values, shape (nodes,) [m], to which the next entry is compared; None: no field."""
-        self._core = core
-        self._reference = None if values is None else values[core]
+    def watch_soil(self, core, soil) -> None:
+        """Measure erosion as the fall of a field of soil depth, shape (nodes,) [m], from now on; None: no field."""
+        self._eroded = self.eroded
+        self._core, self._soil = core, soil
+        self._soil_before = None if soil is None else soil[core]
 
-    def change(self, values) -> float:
-        """Return by how much volume the field has risen since `open` [m3]."""
-        return 0.0 if values is None else float(np.sum(values[self._core] - self._reference) * self._area)
+    @property
+    def eroded(self) -> float:
+        """Volume eroded so far [m3], also in the middle of a call."""
+        if self._soil is None:
+            return self._eroded
+        return self._eroded + float(np.sum(self._soil_before - self._soil[self._core]) * self._area)
+
+    def deposit(self, core, elevation, lay_down):
+        """Call `lay_down()` and count by how much volume `elevation`, shape (nodes,) [m], rises."""
+        self.watch_soil(None, None)
+        before = elevation[core]
+        result = lay_down()
+        self.deposited += float(np.sum(elevation[core] - before) * self._area)
+        return result
 
     def budget(self, simulation) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + eroded - moving - deposited - outflow."""
@@ -42,4 +55,5 @@ class Ledger:
 
     def restore(self, snapshot) -> None:
         """Go back to a snapshot."""
-        self.released, self.eroded, self.deposited = snapshot
+        self.released, self._eroded, self.deposited = snapshot
+        self._soil = None

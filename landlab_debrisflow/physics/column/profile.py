@@ -107,11 +107,7 @@ def _base_slope(first, second, third, cells):
 
 @kernel
 def _diffuse(profile, i, diffusion, prescribed, base, slope, modes, work):
-    """Let one column diffuse by ``diffusion`` = c_v t / h^2 with a prescribed or impermeable base.
-
-    The levels do not resolve how a slope at a base that has just become impermeable relaxes, so its
-    part is evolved with its own Fourier coefficients.
-    """
+    """Let one column diffuse by ``diffusion`` = c_v t / h^2; ``slope`` is what a closed base finds."""
     cells = profile.shape[1] - 1
     steady = base if prescribed else 0.0
     low, high = min(0.0, steady), max(0.0, steady)
@@ -135,7 +131,7 @@ def _diffuse(profile, i, diffusion, prescribed, base, slope, modes, work):
         for k in range(cells):
             amplitude += modes.shapes[kind, j, k] * work[k]
         amplitude *= decay
-        if slope != 0.0:
+        if slope != 0.0:  # its relaxation is not seen by the levels: put its own coefficients in
             mirrored, unseen = modes.mirror[j], modes.unseen[j]
             missing = mirrored * math.exp(-modes.mirror_rates[j] * diffusion) + (unseen - mirrored) * rest
             amplitude += slope * modes.shapes[0, j, 0] * (missing - unseen * decay)
@@ -175,9 +171,8 @@ def _bring(columns, i, volume, load, thickness, erodes, lower, scheme, work):
     prescribed = columns.eroding[i] > 0
     ratio, diffusion, old_base = columns.bed_ratio[i], columns.diffusion[i], profile[i, 0]
     shed = 0.5 * columns.erosion_load[i]
-    old_ratio = ratio
-    if columns.eroding[i] == PRESCRIBED and old_load > 0.0:
-        old_ratio = old_base / old_load
+    known = columns.eroding[i] == PRESCRIBED and old_load > 0.0
+    old_ratio = old_base / old_load if known else ratio
     middle_load, middle_ratio = 0.5 * (old_load + load), 0.5 * (old_ratio + ratio)
     middle = 0.5 * (start + volume)  # the middle in time, too, while the bed gives at a constant rate
     first, second = 1.0, 1.0
