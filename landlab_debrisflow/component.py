@@ -260,23 +260,22 @@ class DebrisFlow(Component):
         return self.grid.at_node["soil__depth"] if "soil__depth" in self.grid.at_node else None  # noqa: SIM401
 
     def _advance(self, duration, stop_at_rest):
-        """Run, stopping where an observer wants to look."""
+        """Run, stopping where an observer wants to look while there is an event."""
         sim, end = self._simulation, self._simulation.time + duration
-        looks = {o: o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in self._observers}
-
-        def after_step():
-            self._footprint.record(sim.particles, sim.time)
+        watching = self._observers if sim.particles.count else ()
+        looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
 
         while sim.time < end and not (stop_at_rest and self.at_rest):
-            until = min([end, *looks.values()])
-            sim.advance(until - sim.time, after_step, stop_at_rest)
-            done = sim.at_rest or sim.time >= end
-            for observer in self._observers:
-                if sim.time >= looks[observer] or (done and sim.at_rest):
+            until = min([end, *looks])
+            sim.advance(until - sim.time, lambda: self._footprint.record(sim.particles, sim.time), stop_at_rest)
+            for k, observer in enumerate(watching):
+                if sim.time >= looks[k] or sim.at_rest:
                     self._show()
                     observer.observe(self)
-                    while looks[observer] <= sim.time:
-                        looks[observer] += observer.interval
+                    while looks[k] <= sim.time:
+                        looks[k] += observer.interval
+            if sim.at_rest:
+                watching, looks = (), []
 
     def _finish(self):
         """Do the accounts; settle what rests."""

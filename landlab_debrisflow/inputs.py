@@ -90,8 +90,8 @@ def check_release(grid, name: str, depth, soil) -> None:
         if bad.size:
             n = bad[0]
             raise InputError(
-                f"{name} is deeper than soil__depth at {bad.size} nodes, the first is {_where(grid, n)}: {depth[n]:g} m "
-                f"> {soil[n]:g} m; raise soil__depth there, or clip the release with np.minimum"
+                f"{name} is deeper than soil__depth at {bad.size} nodes, the first is {_where(grid, n)}: "
+                f"{depth[n]:g} m > {soil[n]:g} m; raise soil__depth there, or clip the release with np.minimum"
             )
 
 

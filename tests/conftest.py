@@ -19,7 +19,7 @@ os.environ["NUMBA_CACHE_DIR"] = os.path.join(
 
 import pytest  # noqa: E402  numba must not be imported before the line above
 
-from .grids import inclined, release_slab
+from .grids import inclined, release_slab  # noqa: E402
 
 
 @pytest.fixture

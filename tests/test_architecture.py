@@ -122,8 +122,9 @@ def test_the_citation_is_bibtex():
     text = landlab_debrisflow.DebrisFlow._cite_as.strip()
     assert text.startswith("@article{") and text.endswith("}")
     assert text.count("{") == text.count("}")
-    landlab.registry.add(landlab_debrisflow.DebrisFlow)
-    assert "10.1002/nag.3339" in landlab.registry.format_citations()
+    registry = type(landlab.registry)()  # not the one of all: some of Landlab's own components break it
+    registry.add(landlab_debrisflow.DebrisFlow)
+    assert "10.1002/nag.3339" in registry.format_citations()
 
 
 def test_no_public_attribute_is_called_update():

@@ -131,7 +131,7 @@ def test_times_that_are_none(slope, flow, dt):
         ({"friction": "ice"}, ("friction: unknown law 'ice'", "coulomb", "voellmy")),
         ({"friction": {"law": "coulomb", "mu": 1}}, ("unknown key 'mu'", "basal_friction_angle [deg]")),
         ({"friction": {"law": "coulomb", "basal_friction_angle": 90.0}}, ("Coulomb", "[0, 89] deg", "90.0")),
-        ({"erosion": {"law": "growth", "growth_rate": -1.0}}, ("Growth: growth_rate must lie in [0, inf] m-1, got -1.0",)),
+        ({"erosion": {"law": "growth", "growth_rate": -1.0}}, ("growth_rate must lie in [0, inf] m-1, got -1.0",)),
         ({"material": {"porosity": 1.5}}, ("Material: porosity", "1.5")),
         ({"material": "sand"}, ("material must be a Material or a mapping", "'sand'")),
         ({"numerics": {"particles": 10}}, ("unknown key 'particles'", "particle_count [-]")),

@@ -161,9 +161,9 @@ def test_ten_short_steps_are_one_long_step(valley):
     for _ in range(10):
         short.run_one_step(1.0)
     assert short.elapsed_time == long.elapsed_time == 10.0
-    # only the lengths of the steps that reach a whole second differ: some steps in a hundred
-    assert short.budget["moving"] == pytest.approx(long.budget["moving"], rel=0.01)
-    assert float(short.particles.x.mean()) == pytest.approx(float(long.particles.x.mean()), abs=0.5)  # dx/10
+    # only the lengths of the steps that reach a whole second differ: measured 3e-5 and 6 mm of 80 m
+    assert short.budget["moving"] == pytest.approx(long.budget["moving"], rel=5e-4)
+    assert float(short.particles.x.mean()) == pytest.approx(float(long.particles.x.mean()), abs=0.05)
 
 
 @pytest.mark.parametrize("spacing", [(5.0, 4.0), (4.0, 5.0)])
@@ -177,7 +177,8 @@ def test_the_spacing_may_differ_between_the_axes(spacing):
     budget = flow.budget
     assert budget["released"] == released
     assert (grid.at_node[Z] - z).sum() * 20.0 == pytest.approx(
-        budget["deposited"] - budget["released"] - budget["eroded"], abs=1e-9  # 1440 elevations of 1e-14 m, 20 m2 each
+        budget["deposited"] - budget["released"] - budget["eroded"],
+        abs=1e-9,  # 1440 elevations of 1e-14 m, 20 m2 each
     )
 
 

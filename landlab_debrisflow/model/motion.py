@@ -46,7 +46,10 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
             factor = 0.0
         else:
             was = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
-            left = max(0.0, speed - dt * yield_stress[i] / mass[i]) / (1.0 + dt * drag[i] / mass[i])
+            left = speed - dt * yield_stress[i] / mass[i]
+            if left < 0.0:  # not max(): a NaN must survive
+                left = 0.0
+            left /= 1.0 + dt * drag[i] / mass[i]
             slowing = left * left < was
             factor = 0.0 if slowing and left < rest_speed else left / speed
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
@@ -54,7 +57,7 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
 
 @kernel
 def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_wall):
-    """Move the particles; slow them by the soil they took up; stop them at closed nodes.
+    """Move the particles, slowed by the soil they took up; nothing gets into closed nodes.
 
     Parameters
     ----------
@@ -62,7 +65,7 @@ def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_w
         Changed in place [m].
     velocity : ndarray, shape (3, n)
         Multiplied by `dilution`; the drift uses the mean of before and after, which keeps the pair
-        erosion-drift second-order. A component into a closed node is lost.
+        erosion-drift second-order.
     dilution : ndarray, shape (n,)
         Volume before over volume after entrainment [-].
     status : ndarray, shape (nodes,)
@@ -80,20 +83,36 @@ def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_w
         for k in range(3):
             velocity[k, i] *= dilution[i]
         node = _nearest(new_x, new_y, dx, dy, columns, rows)
-        if node >= 0 and status[node] == CLOSED:
+        if node >= 0 and status[node] == CLOSED:  # past a corner that `stop_at_walls` did not see
             touched_wall[i] = 1
-            along_x = _nearest(new_x, y[i], dx, dy, columns, rows)
-            along_y = _nearest(x[i], new_y, dx, dy, columns, rows)
-            if status[along_x] != CLOSED:
-                new_y, velocity[1, i] = y[i], 0.0
-            elif status[along_y] != CLOSED:
-                new_x, velocity[0, i] = x[i], 0.0
-            else:
-                new_x, new_y, velocity[0, i], velocity[1, i] = x[i], y[i], 0.0, 0.0
+            new_x, new_y = x[i], y[i]
+            velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
             node = _nearest(new_x, new_y, dx, dy, columns, rows)
         x[i], y[i] = new_x, new_y
         if node >= 0 and status[node] != CORE:
             left[i] = node
+
+
+@kernel
+def stop_at_walls(x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
+    """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
+
+    Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor
+    counts as moving.
+    """
+    rows = status.size // columns
+    for i in range(x.size):
+        new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
+        node = _nearest(new_x, new_y, dx, dy, columns, rows)
+        if node >= 0 and status[node] == CLOSED:
+            touched_wall[i] = 1
+            if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
+                velocity[1, i] = 0.0
+            elif status[_nearest(x[i], new_y, dx, dy, columns, rows)] != CLOSED:
+                velocity[0, i] = 0.0
+            else:
+                velocity[0, i], velocity[1, i] = 0.0, 0.0
+            velocity[2, i] = ground[1, i] * velocity[0, i] + ground[2, i] * velocity[1, i]
 
 
 @kernel

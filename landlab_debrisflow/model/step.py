@@ -10,7 +10,7 @@ from ..core.errors import SimulationError
 from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import sum_thickness
-from .motion import basal_state, count_still_steps, drift, kick, turn
+from .motion import basal_state, count_still_steps, drift, kick, stop_at_walls, turn
 
 STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
@@ -37,6 +37,10 @@ def friction_and_kick(sim, dt: float) -> None:
     sim.physics.friction.basal_resistance(_base(sim), yield_stress, drag)
     mass = material.density * p.thickness
     kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
+    nodes = sim.bed.nodes
+    stop_at_walls(
+        p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
+    )
 
 
 def entrain(sim, dt: float):

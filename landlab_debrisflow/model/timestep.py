@@ -32,5 +32,9 @@ def longest_step(particles, awake, cosine, gravity: float, courant_number: float
     celerity = np.sqrt(gravity * cosine * p.thickness)
     closing = np.maximum(p.thickening, 0.0) / p.thickness
     waves = np.max(np.where(awake, celerity / p.smoothing_length + closing, 0.0))
-    speed = np.sqrt(np.max(np.einsum("in,in->n", p.velocity, p.velocity)))
-    return min(courant_number / max(waves, 1e-300), TERRAIN_FRACTION * node_spacing / max(speed, 1e-300))
+    # v dt + 1/2 a dt^2 within the fraction, with the most that gravity and thrust can do
+    speed = np.sqrt(np.einsum("in,in->n", p.velocity, p.velocity))
+    gain = gravity * np.sqrt(1.0 - cosine**2) + np.sqrt(np.einsum("in,in->n", p.thrust, p.thrust))
+    way = TERRAIN_FRACTION * node_spacing
+    across = np.min(2.0 * way / (speed + np.sqrt(speed**2 + 2.0 * gain * way) + 1e-300))  # also of those asleep
+    return min(courant_number / max(waves, 1e-300), across)

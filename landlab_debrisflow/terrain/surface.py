@@ -32,6 +32,9 @@ class Surface:
     def move_to(self, nodes, elevation):
         """Set the elevation [m] of nodes given by their flat index."""
         _set(self.values, nodes, elevation)
+        v = self.values
+        v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
+        v[0], v[-1] = 2.0 * v[1] - v[2], 2.0 * v[-2] - v[-3]
 
     def sample(self, x, y):
         """Read the surface at points [m from the lower left node].
@@ -72,8 +75,10 @@ def _fill(values, invalid):
         for r, c in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
             one, two = shifted(v, r, c), shifted(v, 2 * r, 2 * c)
             z1, z2 = shifted(z, r, c), shifted(z, 2 * r, 2 * c)
-            total += np.where(one, np.where(two, 2.0 * z1 - z2, z1), 0.0)
-            count += one
+            # a single node counts only where no line through two can be drawn
+            weight = one * np.where(two, 1.0, 1e-30)
+            total += np.where(one, weight * np.where(two, 2.0 * z1 - z2, z1), 0.0)
+            count += weight
         new = ~valid & (count > 0)
         values[new] = total[new] / count[new]
         valid = valid | new

@@ -1,5 +1,6 @@
 """Choices that are no physics: they must not change the answer beyond their accuracy."""
 
+import itertools
 import math
 
 import numpy as np
@@ -50,7 +51,7 @@ def test_no_step_jumps_over_the_terrain(monkeypatch, depth):
 
     monkeypatch.setattr(Footprint, "record", watch)
     flow.run_one_step(5.0)
-    longest = max(np.hypot(*np.subtract(b, a)).max() for a, b in zip(steps, steps[1:], strict=False))
+    longest = max(np.hypot(*np.subtract(b, a)).max() for a, b in itertools.pairwise(steps))
     # the aim is a quarter of a spacing at the speed when the step begins; it may grow on the way
     assert 0.1 * 5.0 < longest < 0.5 * 5.0
 
@@ -67,5 +68,5 @@ def test_shorter_steps_change_little(valley):
         flow.run_until_rest()
         deposit = valley.at_node["debris_flow__deposit_depth"]
         centres.append((deposit * valley.x_of_node).sum() / deposit.sum())
-    # of 165 m of travel; measured 0.3 m, a hundred particles know it no better
-    assert abs(centres[0] - centres[1]) < 2.0
+    # of 258 m of travel; measured 1.6 mm: the splitting is second-order and friction implicit
+    assert abs(centres[0] - centres[1]) < 0.1

@@ -49,10 +49,10 @@ def test_a_slab_is_even(dx, dy, angle):
     p = flow.particles
     away = (abs(p.x - centre[0]) < 35.0) & (abs(p.y - centre[1]) < 35.0)
     noise = p.depth.values[away] - 1.0
-    # asked for: 2 % rms. Random seeding gives 20 %, and with it thrust that weakens Coulomb friction.
+    # asked for: 2 % rms; measured 0.3 to 0.43 %, mean 0.14 to 0.27 %. Noise makes thrust that weakens friction.
     assert away.sum() > 300
-    assert np.sqrt((noise**2).mean()) < 0.02
-    assert abs(noise.mean()) < 0.01
+    assert np.sqrt((noise**2).mean()) < 0.01
+    assert abs(noise.mean()) < 0.005
 
 
 def test_a_cap_has_its_shape():
@@ -62,7 +62,7 @@ def test_a_cap_has_its_shape():
     p = flow.particles
     r2 = ((p.x - 39.0) ** 2 + (p.y - 39.0) ** 2) / 900.0
     error = (p.depth - 2.0 * (1.0 - r2))[r2 < 0.8]
-    assert float(np.sqrt((error**2).mean())) < 0.04  # 2 % of the depth in the middle, as for a slab
+    assert float(np.sqrt((error**2).mean())) < 0.02  # measured 0.01 m, half a percent of the depth in the middle
     # <r^2> = R^2/3; measured 1.1 % less: the few particles of the thin rim stand at its inner side
     assert float(r2.mean()) == pytest.approx(1.0 / 3.0, rel=0.02)
 

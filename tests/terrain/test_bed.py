@@ -105,7 +105,8 @@ def test_the_surface_follows_the_bed(crowd):
     bed = make_bed(1.0)
     bed.erode(*crowd, np.full(40, 0.5))
     again = Surface(bed.elevation.reshape(SHAPE), (DX, DY))
-    np.testing.assert_array_equal(bed.surface.sample(*crowd[:2]), again.sample(*crowd[:2]))
+    # up to the edge; values of 100 m and their derivatives: round-off
+    np.testing.assert_allclose(bed.surface.sample(*crowd[:2]), again.sample(*crowd[:2]), rtol=0, atol=1e-12)
 
 
 def test_a_bed_without_soil_grants_nothing(crowd):

@@ -32,7 +32,7 @@ def test_a_circular_cap_spreads_at_the_exact_rate():
 
 
 def parabola(p, x, y):
-    """Return 1 - r^2/R^2 at the particles, R^2 = 6 <x^2>; measured median error .006."""
+    """Return 1 - r^2/R^2 at the particles, R^2 = 6 <x^2>; measured median error .012, at 2000 .005."""
     return 1.0 - ((p.x - p.x.mean()) / (x * COS)) ** 2 / 6.0 - ((p.y - p.y.mean()) / y) ** 2 / 6.0
 
 

@@ -207,9 +207,7 @@ def _bring(columns, i, volume, load, thickness, erodes, lower, scheme, work):
 
 
 @kernel
-def advance_columns(
-    columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure, scheme
-):
+def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure, scheme):
     """Account for one step of the flow, advance the columns for which it is due, write the base.
 
     Parameters
@@ -261,11 +259,7 @@ def advance_columns(
         strain = abs(load * old_volume - whole)
         closing = bases[i] == JUST_IMPERMEABLE
         due = strain * strain * diffusion > LOADED_DUE * whole * whole and not closing
-        limit = (
-            LAYER_DUE * width * width
-            if closing
-            else min(DIFFUSION_DUE * width, SHARE_DUE * since + LEAST_DUE)
-        )
+        limit = LAYER_DUE * width * width if closing else min(DIFFUSION_DUE * width, SHARE_DUE * since + LEAST_DUE)
         due = due or diffusion > limit
         if erodes:
             ratios[i] = bed_ratios[min(i, bed_ratios.size - 1)]

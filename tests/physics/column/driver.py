@@ -46,14 +46,10 @@ class Columns:
         before = self.volume.copy()
         self.volume = before + entrained
         self.thickness = self.thickness * (self.volume / before) * (1.0 + strain)
-        self.load = (
-            LOAD_PER_METRE * self.thickness if load is None else np.broadcast_to(load, before.shape).copy()
-        )
+        self.load = LOAD_PER_METRE * self.thickness if load is None else np.broadcast_to(load, before.shape).copy()
         self.ratio = np.broadcast_to(ratio, before.shape).astype(float)
         entrained = np.broadcast_to(entrained, before.shape).astype(float)
-        self.law.advance(
-            self.state, self.forcing(entrained), self.coefficient, WATER_TO_BUOYANT, dt, self.base
-        )
+        self.law.advance(self.state, self.forcing(entrained), self.coefficient, WATER_TO_BUOYANT, dt, self.base)
         return self.base.copy()
 
     def forcing(self, entrained=None):

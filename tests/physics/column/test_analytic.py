@@ -68,9 +68,7 @@ def test_consolidation_has_the_printed_digits():
     base = [float(analytic.consolidation(0.0, time)) for time in (0.05, 0.1, 0.2, 0.5, 1.0)]
     assert_allclose(base, [0.7477, 0.6432, 0.4959, 0.2360, 0.0687], atol=0.5e-4)
     # untouched layer h/10, h = 3.16 m, c_v = 4e-4 m2/s, after 32, 160 and 400 s
-    layer = [
-        float(analytic.consolidation(0.0, 4e-4 * t / 3.16**2, "basal_layer", 0.1)) for t in (32, 160, 400)
-    ]
+    layer = [float(analytic.consolidation(0.0, 4e-4 * t / 3.16**2, "basal_layer", 0.1)) for t in (32, 160, 400)]
     assert_allclose(layer, [0.95, 0.62, 0.42], atol=0.5e-2)
 
 

@@ -34,9 +34,7 @@ def test_pressure_stays_between_its_bounds(law, levels, source):
             base = columns.step(10.0 ** rng.uniform(-4, 3), entrained, strain, ratio=rng.random(n))
             assert np.all(base <= columns.load) and np.all(base >= -WATER_TO_BUOYANT * columns.load)
         ratio = columns.profile() / columns.load[:, None]
-        assert np.all(ratio <= eta(levels) + slack) and np.all(
-            ratio >= -WATER_TO_BUOYANT * eta(levels) - slack
-        )
+        assert np.all(ratio <= eta(levels) + slack) and np.all(ratio >= -WATER_TO_BUOYANT * eta(levels) - slack)
         assert np.all(columns.state.clipped >= 0.0)
 
 
@@ -45,9 +43,7 @@ def test_pressure_stays_between_its_bounds(law, levels, source):
 @pytest.mark.parametrize("dt", [1e-3, 0.1, 10.0, 1e4])
 def test_no_new_extreme_without_source(levels, coefficient, dt):
     """0 <= p <= p_b at any Peclet, Fourier and Courant number, from a jump at the base."""
-    columns = Columns(
-        ALE(levels=levels, loading_source="none"), np.zeros((1, levels)), [1.0], [1e6], coefficient
-    )
+    columns = Columns(ALE(levels=levels, loading_source="none"), np.zeros((1, levels)), [1.0], [1e6], coefficient)
     for step in range(40):
         base = columns.step(dt, entrained=0.02 * columns.volume * (step % 20 < 12), ratio=1e-6, load=1e6)
         assert -1e-12 <= base[0] <= 1.0 + 1e-12

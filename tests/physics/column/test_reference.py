@@ -41,9 +41,7 @@ def test_consolidation_of_a_column_at_rest(start, layer, atol):
             assert_allclose(base[0], consolidation(0.0, 1e-3 * step, start, layer), atol=atol)
 
 
-@pytest.mark.parametrize(
-    "time, ratio", [(0.05, 0.7477), (0.1, 0.6432), (0.2, 0.4959), (0.5, 0.2360), (1.0, 0.0687)]
-)
+@pytest.mark.parametrize("time, ratio", [(0.05, 0.7477), (0.1, 0.6432), (0.2, 0.4959), (0.5, 0.2360), (1.0, 0.0687)])
 @pytest.mark.parametrize("steps", [1, 7, 100])
 def test_base_after_a_linear_start(time, ratio, steps):
     """Terzaghi, to the digits printed, in one step or in a hundred: there is no error in time."""
@@ -153,9 +151,7 @@ def test_balance_of_a_growing_column(number):
         base = (1.0 - growing_column(tiny, t, number)) / (tiny * h)
         surface = growing_column(1.0 - tiny, t, number) / (tiny * h)
         source += (second - first) / steps * (base - surface + number)
-        columns.step(
-            (second - first) / steps, entrained=number * (second - first) / steps, ratio=LIGHT, load=HEAVY
-        )
+        columns.step((second - first) / steps, entrained=number * (second - first) / steps, ratio=LIGHT, load=HEAVY)
     # the stretch interpolates values, not contents
     assert_allclose(columns.content()[0] - before, source, rtol=1e-2)
 
@@ -170,9 +166,7 @@ def test_what_friction_feels_through_a_whole_event(source):
     histories = {}
     for levels in (11, 41, 161):
         start = initial_profile(np.array([LOAD_PER_METRE]), levels, 0.65, "linear", 0.1)
-        columns = Columns(
-            ALE(levels=levels, loading_source=source), start, [1.0], coefficient_of_consolidation=2e-3
-        )
+        columns = Columns(ALE(levels=levels, loading_source=source), start, [1.0], coefficient_of_consolidation=2e-3)
         history = []
         for step in range(800):
             columns.step(0.05, 2e-3 * (step % 200 < 120), 4e-3 * np.sin(0.05 * step))
@@ -186,14 +180,14 @@ def test_what_friction_feels_through_a_whole_event(source):
 
 
 def base_after_growth(number, passed):
-    """Return the basal pressure of a column grown to 2 m under 1 Pa, ``passed`` = c_v t/h^2 after it stopped."""
+    """Return the basal pressure of a column grown to 2 m under 1 Pa, ``passed`` = c_v t/h^2 later."""
     node, weight = np.polynomial.legendre.leggauss(1500)
     stretched = 0.5 * (node + 1.0)
     depth, weight = 1.0 - stretched**3, 1.5 * stretched**2 * weight  # crowded at the base
-    waves = (np.arange(1000) + 0.5) * np.pi
+    waves = (np.arange(500) + 0.5) * np.pi
     profile = growing_column(1.0 - depth, 1.0 / number, number)
-    amplitude = 2.0 * np.sin(np.outer(waves, depth)) @ (profile * weight) * np.sin(waves)
-    return np.exp(-np.outer(passed, waves**2)) @ amplitude
+    amplitude = 2.0 * np.einsum("wn,n", np.sin(np.outer(waves, depth)), profile * weight) * np.sin(waves)
+    return np.einsum("tw,w", np.exp(-np.outer(passed, waves**2)), amplitude)
 
 
 @pytest.mark.parametrize("number", [0.01, 1.0, 10.0, 32.0, 100.0, 320.0, 1e4])
