@@ -212,3 +212,11 @@ def test_without_soil_nothing_erodes_and_a_release_needs_none():
     flow.run_until_rest()
     assert flow.budget["eroded"] == 0.0 and flow.budget["released"] == 1125.0
     assert SOIL not in grid.at_node
+
+
+def test_without_consolidation_the_peclet_number_is_infinite_where_it_erodes(valley):
+    flow = DebrisFlow(valley, numerics=COARSE, material={"coefficient_of_consolidation": 0.0})
+    flow.run_one_step(5.0)
+    peclet, eroded = (valley.at_node[f"debris_flow__{name}"] for name in ("max_basal_peclet_number", "eroded_depth"))
+    assert np.all(np.isinf(peclet[eroded > 1e-3]))
+    assert not np.any(np.isnan(peclet))

@@ -76,7 +76,9 @@ def build_law(kind: str, value):
         value = {"law": value}
     if isinstance(value, Mapping):
         values = dict(value)
-        name = values.pop("law", None)
+        if "law" not in values:
+            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {', '.join(laws)}; got {value!r}")
+        name = values.pop("law")
         if name not in laws:
             raise ParameterError(f"{kind}: unknown law {name!r}; allowed: {', '.join(laws)}")
         return from_mapping(laws[name], values)

@@ -7,6 +7,7 @@ are those at the beginning of the next.
 import numpy as np
 
 from ..core.errors import SimulationError
+from ..physics.column.peclet import basal_peclet_number
 from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import sum_thickness
@@ -102,9 +103,8 @@ def consolidate(sim, dt: float) -> None:
         p.basal_excess_pore_pressure,
     )  # fmt: skip
     eroding = sim.granted > 0.0
-    with np.errstate(divide="ignore"):
-        peclet = p.entrainment_rate * p.thickness * sim.cosine / c_v
-    p.basal_peclet_number[:] = np.where(eroding, peclet, p.basal_peclet_number)
+    peclet = basal_peclet_number(p.entrainment_rate[eroding] * sim.cosine[eroding], p.thickness[eroding], c_v)
+    p.basal_peclet_number[eroding] = peclet
 
 
 def push(sim) -> None:

@@ -1,6 +1,7 @@
 """What the debris is made of, and the pore pressure it starts with."""
 
 from ..core.constants import GRAVITY
+from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter
 
 
@@ -35,7 +36,14 @@ class Material:
     basal_layer_fraction: float = parameter(
         "-", "thickness of the basal layer over that of the column", 0.1, (0.0, 1.0)
     )
-    gravity: float = parameter("m s-2", "acceleration of gravity", GRAVITY, (0.0, 1e3))
+    gravity: float = parameter("m s-2", "acceleration of gravity", GRAVITY, (1e-3, 1e3))
+
+    def _agree(self):
+        if self.solid_density <= self.water_density:
+            raise ParameterError(
+                f"Material: solid_density must exceed water_density, {self.water_density:g} kg m-3, got "
+                f"{self.solid_density:g}: debris that floats has no friction; for dry debris set water_density to 0"
+            )
 
     @property
     def density(self) -> float:

@@ -146,7 +146,8 @@ def test_defaults_are_those_of_tsing_shan():
 def test_an_unknown_law_lists_the_legal_ones(kind, value):
     with pytest.raises(ParameterError) as refusal:
         build_law(kind, value)
-    assert str(refusal.value).startswith(f"{kind}: unknown law")
+    why = "a mapping needs the key 'law'" if isinstance(value, dict) and "law" not in value else "unknown law"
+    assert str(refusal.value).startswith(f"{kind}: {why}")
     assert all(name in str(refusal.value) for name in LAWS[kind])
 
 
@@ -227,3 +228,8 @@ def test_voellmy_by_hand():
 def test_growth_by_hand():
     # 3e-3 per metre * 2.5 m (vertical) * 10 m/s
     assert entrainment(Growth(growth_rate=3e-3), hand_state())[0] == pytest.approx(0.075, rel=1e-14)
+
+
+def test_debris_that_floats_is_refused():
+    with pytest.raises(ParameterError, match=r"solid_density must exceed water_density, 1000 kg m-3, got 1000"):
+        Material(solid_density=1000.0)
