@@ -1,6 +1,7 @@
 """The Landlab component: fields of the grid on one side, the model on the other."""
 
 import logging
+from contextlib import contextmanager
 from typing import ClassVar
 
 import numpy as np
@@ -153,11 +154,10 @@ class DebrisFlow(Component):
         """
         if not self.at_rest:
             raise inputs.InputError("settle() lays down mass at rest, but the flow still moves; run_until_rest() first")
-        if self._simulation.particles.count:
-            self._begin()
+        with self._all_or_nothing():
+            self._begin(take_release=False)
             self._settle()
-            self._show()
-            self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
+            self._finish()
 
     @property
     def elapsed_time(self):
@@ -201,63 +201,62 @@ class DebrisFlow(Component):
     # ---- the life of a call ----
 
     def _run(self, duration, stop_at_rest):
-        fields = [f for f in self._info if f in self.grid.at_node and "out" in self._info[f]["intent"]]
-        before = {name: self.grid.at_node[name].copy() for name in fields}
-        state = self._simulation.snapshot(), self._ledger.snapshot(), self._settled.copy(), self._seen
-        try:
+        with self._all_or_nothing():
             self._begin()
             self._advance(duration, stop_at_rest)
+            self._ledger.watch_soil(None, None)
+            self._simulation.warn_of_walls()
+            if self.at_rest and self._numerics.settle:
+                self._settle()
             self._finish()
-        except BaseException:  # whatever it was, the grid must be as it was before the call
-            for name, values in before.items():
+
+    @contextmanager
+    def _all_or_nothing(self):
+        """Leave grid and model as they were if anything goes wrong inside, an interrupt included."""
+        names = [f for f in self._info if f in self.grid.at_node and "out" in self._info[f]["intent"]]
+        fields = {name: self.grid.at_node[name].copy() for name in names}
+        simulation, ledger = self._simulation.snapshot(), self._ledger.snapshot()
+        settled, seen = self._settled.copy(), self._seen
+        try:
+            yield
+        except BaseException:
+            for name, values in fields.items():
                 self.grid.at_node[name][:] = values
-            simulation, ledger, self._settled, self._seen = state
             self._simulation.restore(simulation)
             self._ledger.restore(ledger)
+            self._settled, self._seen = settled, seen
             raise
 
-    def _begin(self):
+    def _begin(self, take_release=True):
         """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
         grid, at, sim = self.grid, self.grid.at_node, self._simulation
-        elevation, soil = at["topographic__elevation"], self._soil
+        # not at_node.get(): it is a dict's and knows nothing of the fields
+        elevation, soil = at["topographic__elevation"], at["soil__depth"] if "soil__depth" in at else None
+        ratio = np.full(grid.number_of_nodes, self._physics.material.bed_pressure_ratio)
         if "bed__excess_pore_pressure_ratio" in at:
-            ratio = at["bed__excess_pore_pressure_ratio"]
-        else:
-            ratio = np.full(grid.number_of_nodes, self._physics.material.bed_pressure_ratio)
+            ratio[:] = at["bed__excess_pore_pressure_ratio"]
         inputs.check_boundaries(grid)
         inputs.check_terrain(grid, elevation, soil, ratio)
-        release = inputs.read_release(grid, soil)
+        release = inputs.read_release(grid, soil) if take_release else np.zeros(grid.number_of_nodes)
         status = np.array(grid.status_at_node, np.int64)
-        seen = (elevation.copy(), status)
-        changed = self._seen is None or not all(map(np.array_equal, self._seen, seen))
-        if failing := release.any():
+        changed = self._seen is None or not all(map(np.array_equal, self._seen, (elevation, status)))
+        if failing := bool(release.any()):
+            inputs.lower_ground(grid, release, soil)
             self._ledger.released += float(release.sum() * grid.dx * grid.dy)
-            elevation -= release
-            if soil is not None:
-                soil -= release
-            at["debris_flow__release_depth"][release > 0.0] = 0.0
-            if "mass__wasting_id" in at:
-                at["mass__wasting_id"][release > 0.0] = 0
         elif sim.particles.count == 0 and not self._said_nothing_to_do:
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
             self._said_nothing_to_do = True
         nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
         closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
         surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
-        eroded = at[OUTPUT_PREFIX + "eroded_depth"]
-        sim.on(Bed(nodes, surface, elevation, soil, eroded, ratio), status, changed or failing)
-        self._footprint = Footprint(
-            nodes, {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}, self._numerics.arrival_depth
-        )
+        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio)
+        sim.on(bed, status, changed or failing)
+        shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
+        self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth)
         self._ledger.watch_soil(nodes.core, soil)
         if failing:
             sim.release(release)
             self._footprint.record(sim.particles, sim.time)
-
-    @property
-    def _soil(self):
-        # not at_node.get(): it is a dict's and knows nothing of the fields
-        return self.grid.at_node["soil__depth"] if "soil__depth" in self.grid.at_node else None  # noqa: SIM401
 
     def _advance(self, duration, stop_at_rest):
         """Run, stopping where an observer wants to look while there is an event."""
@@ -277,20 +276,16 @@ class DebrisFlow(Component):
             if sim.at_rest:
                 watching, looks = (), []
 
-    def _finish(self):
-        """Do the accounts; settle what rests."""
-        self._ledger.watch_soil(None, None)
-        self._simulation.warn_of_walls()
-        if self.at_rest and self._numerics.settle and self._simulation.particles.count:
-            self._settle()
-        self._show()
-        self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
-
     def _settle(self):
         elevation, core = self.grid.at_node["topographic__elevation"], self._simulation.bed.nodes.core
         nodes, depth = self._ledger.deposit(core, elevation, self._simulation.settle)
         self._settled[nodes] += depth
         self._footprint.clear()
+
+    def _finish(self):
+        """Show the deposit, and remember the terrain to notice what other components change."""
+        self._show()
+        self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
 
     def _show(self):
         """Write the deposit: what has settled and what lies still now."""

@@ -1,4 +1,4 @@
-"""What the grid must be before anything is computed; every refusal says where and what to do."""
+"""What is read from the grid, and refused: every refusal says where, got, allowed and what to do."""
 
 from numbers import Real
 
@@ -63,6 +63,17 @@ def read_release(grid, soil):
         depth = np.where(grid.at_node["mass__wasting_id"] > 0, soil, 0.0)
         check_release(grid, "soil__depth where mass__wasting_id > 0", depth, soil)
     return depth
+
+
+def lower_ground(grid, release, soil) -> None:
+    """Take what fails, shape (nodes,) [m], off elevation and soil; the fields that said so become 0 there."""
+    elevation = grid.at_node["topographic__elevation"]
+    elevation -= release  # in place: other components hold this very array
+    if soil is not None:
+        soil -= release
+    grid.at_node["debris_flow__release_depth"][release > 0.0] = 0.0
+    if "mass__wasting_id" in grid.at_node:
+        grid.at_node["mass__wasting_id"][release > 0.0] = 0
 
 
 def check_release(grid, name: str, depth, soil) -> None:

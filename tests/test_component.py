@@ -220,3 +220,22 @@ def test_without_consolidation_the_peclet_number_is_infinite_where_it_erodes(val
     peclet, eroded = (valley.at_node[f"debris_flow__{name}"] for name in ("max_basal_peclet_number", "eroded_depth"))
     assert np.all(np.isinf(peclet[eroded > 1e-3]))
     assert not np.any(np.isnan(peclet))
+
+
+def test_settling_takes_no_new_release(valley):
+    flow = DebrisFlow(valley, numerics=COARSE | {"settle": False})
+    assert flow.run_until_rest()
+    release_slab(valley, (60.0, 50.0), 8.0, 0.2)
+    waiting = valley.at_node["debris_flow__release_depth"].copy()
+    moving = flow.budget["moving"]
+    flow.settle()
+    np.testing.assert_array_equal(valley.at_node["debris_flow__release_depth"], waiting)
+    assert flow.budget["deposited"] == pytest.approx(moving, rel=1e-12)  # round-off of the elevations
+
+
+def test_settling_nothing_changes_nothing(valley):
+    valley.at_node["debris_flow__release_depth"][:] = 0.0
+    flow = DebrisFlow(valley, numerics=COARSE)
+    before = copy_fields(valley)
+    flow.settle()
+    assert not changed_fields(valley, before)

@@ -42,6 +42,9 @@ class Simulation:
         self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = None
+        # what the stages of a step hand on to each other, per particle (model/step.py)
+        self.ground = self.cosine = self.cells = None
+        self.granted = self.granted_ratio = np.zeros(0)
 
     def on(self, bed: Bed, status, changed: bool) -> None:
         """Put the simulation on a bed for the call that follows.
