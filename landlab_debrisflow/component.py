@@ -231,7 +231,7 @@ class DebrisFlow(Component):
         """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
         grid, at, sim = self.grid, self.grid.at_node, self._simulation
         # not at_node.get(): it is a dict's and knows nothing of the fields
-        elevation, soil = at["topographic__elevation"], at["soil__depth"] if "soil__depth" in at else None
+        elevation, soil = at["topographic__elevation"], at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401
         ratio = np.full(grid.number_of_nodes, self._physics.material.bed_pressure_ratio)
         if "bed__excess_pore_pressure_ratio" in at:
             ratio[:] = at["bed__excess_pore_pressure_ratio"]
