@@ -56,20 +56,23 @@ class Bed:
         ratio : ndarray, shape (n,)
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
-        nothing = np.zeros(x.size)
-        if self.soil is None or not np.any(wanted > 0.0):
-            return nothing, nothing
+        granted, ratio = np.zeros((2, x.size))
+        asking = np.flatnonzero(wanted > 0.0)
+        if self.soil is None or asking.size == 0:
+            return granted, ratio
+        x, y, spread, wanted = x[asking], y[asking], spread[asking], wanted[asking]
         area = self.nodes.area
         at = scatter(self.nodes, x, y, spread, wanted[None, :], self._demand, self._touched)
         demand = self._demand[0, at]
         left = (self._soil[at] - self._taken[at]) * area
         share = np.minimum(1.0, left / demand)
         self._grant[0, at], self._grant[1, at] = share, share * self.pressure_ratio[at]
-        share_of, ratio = gather(self.nodes, x, y, spread, self._grant)
+        got, got_ratio = gather(self.nodes, x, y, spread, self._grant)
         self._take(at, share * demand / area)
         self._demand[0, at] = 0.0
         self._grant[:, at] = 0.0
-        return wanted * share_of, ratio / np.where(share_of > 0.0, share_of, 1.0)
+        granted[asking], ratio[asking] = wanted * got, got_ratio / np.where(got > 0.0, got, 1.0)
+        return granted, ratio
 
     def _take(self, at, depth):
         taken = np.minimum(self._taken[at] + depth, self._soil[at])
