@@ -25,7 +25,7 @@ PARTICLE_VARIABLES = (
     Variable("volume", "m3", "volume of debris carried"),
     Variable("depth", "m", "vertical flow depth"),
     Variable("thickness", "m", "slope-normal flow thickness"),
-    Variable("longest_smoothing_length", "m", "cap of the smoothing length", written=False),
+    Variable("least_thickness", "m", "thickness below which the smoothing length stays", written=False),
     Variable("smoothing_length", "m", "SPH smoothing length"),
     Variable("next_smoothing_length", "m", "SPH smoothing length of the next step", written=False),
     Variable("gradient_term", "-", "grad-h term Omega of the SPH sums", initial=1.0, written=False),

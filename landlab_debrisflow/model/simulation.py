@@ -16,9 +16,9 @@ from .timestep import longest_step
 
 log = logging.getLogger("landlab_debrisflow")
 
-LONGEST_SMOOTHING = 4.0
-"""Cap of the smoothing length over its value at the thickest part of the release: flow thinner than a
-sixteenth of that is seen with fixed length."""
+THICKNESS_RANGE = 1.0 / 64.0
+"""Thickness over that of the thickest part of the release, below which the smoothing length grows no more: a
+particle without neighbours has no thickness of its own."""
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -77,12 +77,11 @@ class Simulation:
         each = volume / count
         here = depth[np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)]
         normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
-        longest = LONGEST_SMOOTHING * SMOOTHING_RATIO * np.sqrt(each / normal.max())
+        least = THICKNESS_RANGE * normal.max()
         first = p.count
         p.append(
             count, x=x, y=y, z=ground[0], volume=each, depth=here, thickness=normal,
-            longest_smoothing_length=longest,
-            smoothing_length=np.minimum(longest, SMOOTHING_RATIO * np.sqrt(each / normal)),
+            least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
         )  # fmt: skip
         self._find_everything(FIRST_SWEEPS)
         new = slice(first, None)

@@ -10,7 +10,7 @@ from ..core.errors import SimulationError
 from ..physics.column.peclet import basal_peclet_number
 from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
-from ..spatial.summation import sum_thickness
+from ..spatial.summation import SMOOTHING_RATIO, sum_thickness
 from .motion import basal_state, count_still_steps, drift, kick, stop_at_walls, turn
 
 STEPS_TO_SLEEP = 4
@@ -86,8 +86,9 @@ def find_depth(sim) -> None:
     if p.count == 0:
         return
     sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length, p.still_steps < STEPS_TO_SLEEP)
+    longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
     sum_thickness(
-        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, p.longest_smoothing_length,
+        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, longest,
         (p.thickness, p.gradient_term, p.next_smoothing_length), sim.numerics.threads,
     )  # fmt: skip
     p.depth[:] = p.thickness / sim.cosine
