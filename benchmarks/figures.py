@@ -1,7 +1,8 @@
 """Print the figures the README quotes: ``python -m benchmarks.figures`` from the root of a checkout.
 
 Balance of volume and of elevation; travel of a cap on planes and of an eroding block against their closed
-forms; CPU time of the demo with a cold and a warm cache of kernels. The cases are those of the tests, with more
+forms; CPU time of the demo with a cold and a warm cache of kernels, and its run-out against the number of
+particles. The cases are those of the tests, with more
 particles. S-1000 is measured by ``python examples/s1000.py``.
 """
 
@@ -17,6 +18,7 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow.demo import MATERIAL, measure
 from landlab_debrisflow.terrains import tsing_shan_valley
 from tests.verification.test_block import MU, G, grown_block, sliding_cap
 
@@ -64,6 +66,21 @@ def demo_cpu():
     return times[0], np.median(times[1:], axis=0)
 
 
+def fronts(column: str) -> str:
+    """Return the run-out of the front in the demo beyond the 100 m contour for rising numbers of particles [m]."""
+    found = []
+    for particles in (750, 1500, 3000, 6000):
+        grid = tsing_shan_valley()
+        elevation, release = (
+            grid.at_node[name].reshape(grid.shape).copy()
+            for name in ("topographic__elevation", "debris_flow__release_depth")
+        )
+        flow = DebrisFlow(grid, column=column, material=MATERIAL, numerics={"particle_count": particles})
+        flow.run_until_rest()
+        found.append(measure(flow, elevation, release)["run-out of the front beyond the 100 m contour [m]"])
+    return " ".join(f"{one:.0f}" for one in found)
+
+
 def main():
     table = Table(title="Figures", title_justify="left")
     for heading in ("what", "measured", "to reach"):
@@ -81,6 +98,9 @@ def main():
     for word, (runs, process), most in (("a cold", cold, 20), ("a warm", warm, 5)):
         words = f"CPU of the demo's two runs with {word} cache (of the whole process) [s]"
         table.add_row(words, f"{runs:.1f} ({process:.1f})", f"{most}")
+    for column in ("ale", "classical"):
+        words = f"front of the demo's {column} run with 750, 1500, 3000, 6000 particles [m]"
+        table.add_row(words, fronts(column), "spread 5")
     Console().print(table)
 
 
