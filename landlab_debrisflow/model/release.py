@@ -10,7 +10,7 @@ from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, sum_pressure_gradient
 from ..terrain.surface import Surface
 
-SAMPLES_PER_PARTICLE = 8
+SAMPLES_PER_PARTICLE = 4
 SWEEPS = 30
 STEP = 0.5
 """Length of one relaxation step in l^2 times the logarithmic gradient: half of what is stable."""
