@@ -1,4 +1,4 @@
-"""Accuracy and cost of the pore-pressure columns: python benchmarks/column.py
+"""Accuracy and cost of the pore-pressure columns: python -m benchmarks.column
 
 Accuracy: a column doubles its thickness under a constant basal pressure, from cold or from a uniform
 start, in 400 flow steps; erosion stops. The basal pressure that friction feels is compared at *every*
@@ -53,8 +53,8 @@ def friction_base(levels: int, start: float) -> np.ndarray:
         volume = np.full(count, 1.0 + min(step, STEPS) / STEPS)
         entrained = np.full(count, 1.0 / STEPS if step <= STEPS else 0.0)
         # time in units of the erosion time: c_v = h_0^2 / Pe, here by the thickness
-        forcing = ColumnForcing(volume, np.sqrt(PECLET) * volume, load, entrained, ratio)
-        law.advance(state, forcing, 1.0, 0.0, 1.0 / STEPS, base)
+        forcing = ColumnForcing(volume, np.sqrt(PECLET) * volume, load, entrained, ratio, 1.0, 0.0)
+        law.advance(state, forcing, 1.0 / STEPS, base)
         history.append(base.copy())
     return np.array(history[STEPS:])
 
@@ -70,8 +70,8 @@ def cost(levels: int, number: float, count: int = 5000) -> tuple[float, float]:
         for entrained in (np.full(count, 1.0 / STEPS), np.zeros(count)):
             for step in range(STEPS):
                 volume = np.full(count, 1.0 + (step + 1) / STEPS if entrained[0] else 2.0)
-                forcing = ColumnForcing(volume, np.sqrt(number) * volume, load, entrained, ratio)
-                law.advance(state, forcing, 1.0, 0.0, 1.0 / STEPS, base)
+                forcing = ColumnForcing(volume, np.sqrt(number) * volume, load, entrained, ratio, 1.0, 0.0)
+                law.advance(state, forcing, 1.0 / STEPS, base)
             marks.append(time.process_time())
         times.append(np.diff(marks) / count / STEPS * 1e9)
     return tuple(statistics.median(column) for column in zip(*times, strict=True))
@@ -84,9 +84,9 @@ def lump(levels: int, erodes: bool, count: int = 2000) -> float:
     for _ in range(60):
         volume = volume * (1.01 if erodes else 1.0)
         entrained = volume * (1.0 - 1.0 / 1.01) if erodes else np.zeros(count)
-        forcing = ColumnForcing(volume, np.ones(count), load, entrained, ratio)
+        forcing = ColumnForcing(volume, np.ones(count), load, entrained, ratio, 1.0, 0.0)
         before = time.process_time()
-        law.advance(state, forcing, 1.0, 0.0, 0.1, base)  # one step of 0.1 h^2/c_v: always due
+        law.advance(state, forcing, 0.1, base)  # one step of 0.1 h^2/c_v: always due
         times.append((time.process_time() - before) / count * 1e9)
     return statistics.median(times)
 

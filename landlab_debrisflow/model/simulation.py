@@ -206,10 +206,7 @@ class Simulation:
         now = Simulation(self.physics, self.numerics)
         now.particles = self.particles.copy()
         now.granted, now.granted_ratio = np.zeros((2, now.particles.count))
-        material = self.physics.material
-        self.physics.column.synchronise(
-            step.columns(now.particles), step.forcing(now), material.water_density / material.buoyant_density
-        )
+        self.physics.column.synchronise(step.columns(now.particles), step.forcing(now))
         return now.particles.excess_pore_pressure
 
     def settle(self):

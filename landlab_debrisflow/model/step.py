@@ -99,10 +99,7 @@ def consolidate(sim, dt: float) -> None:
     """Advance the pore-pressure columns with what the flow did to them."""
     p, material = sim.particles, sim.physics.material
     c_v = material.coefficient_of_consolidation
-    sim.physics.column.advance(
-        columns(p), forcing(sim), c_v, material.water_density / material.buoyant_density, dt,
-        p.basal_excess_pore_pressure,
-    )  # fmt: skip
+    sim.physics.column.advance(columns(p), forcing(sim), dt, p.basal_excess_pore_pressure)
     eroding = sim.granted > 0.0
     peclet = basal_peclet_number(p.entrainment_rate[eroding] * sim.cosine[eroding], p.thickness[eroding], c_v)
     p.basal_peclet_number[eroding] = peclet
@@ -138,8 +135,11 @@ def columns(p) -> ColumnState:
 
 def forcing(sim) -> ColumnForcing:
     """Return what the last step did to the columns."""
-    p = sim.particles
-    return ColumnForcing(p.volume, p.thickness, p.liquefaction_pressure, sim.granted, sim.granted_ratio)
+    p, material = sim.particles, sim.physics.material
+    return ColumnForcing(
+        p.volume, p.thickness, p.liquefaction_pressure, sim.granted, sim.granted_ratio,
+        material.coefficient_of_consolidation, material.water_density / material.buoyant_density,
+    )  # fmt: skip
 
 
 def _base(sim) -> BasalState:

@@ -52,6 +52,8 @@ class ColumnForcing(NamedTuple):
     liquefaction_pressure: Array  # after the step [Pa]
     entrained: Array  # volume granted by the bed in the step [m3]; > 0 means eroding
     bed_pressure_ratio: Array  # of the soil that came in, or of the bed below [-]
+    coefficient_of_consolidation: float  # [m2 s-1]
+    water_to_buoyant: float  # density of water over buoyant density: lower bound of the pressure ratio [-]
 
 
 class FrictionLaw(Protocol):
@@ -78,18 +80,10 @@ class ColumnLaw(Protocol):
     def levels(self) -> int:
         """Number of levels of a column, at least 2."""
 
-    def advance(
-        self,
-        columns: ColumnState,
-        forcing: ColumnForcing,
-        coefficient_of_consolidation: float,
-        water_to_buoyant: float,
-        dt: float,
-        basal_pressure: Array,
-    ) -> None:
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure: Array) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
 
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Bring every profile to the present in place, for output, a change of volume or the end."""
 
 

@@ -28,20 +28,10 @@ class ALE:
         "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
     )
 
-    def advance(
-        self,
-        columns: ColumnState,
-        forcing: ColumnForcing,
-        coefficient_of_consolidation: float,
-        water_to_buoyant: float,
-        dt: float,
-        basal_pressure,
-    ) -> None:
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
-        scheme, c_v = scheme_of(True, self.loading_source, self.levels), coefficient_of_consolidation
-        advance_columns(columns, forcing, c_v, water_to_buoyant, dt, basal_pressure, scheme)
+        advance_columns(columns, forcing, dt, basal_pressure, scheme_of(True, self.loading_source, self.levels))
 
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Bring every profile to the present in place."""
-        scheme = scheme_of(True, self.loading_source, self.levels)
-        bring_columns(columns, forcing, water_to_buoyant, scheme)
+        bring_columns(columns, forcing, scheme_of(True, self.loading_source, self.levels))

@@ -25,19 +25,11 @@ class ConstantRatio:
         """Number of levels of a column: base and surface, the profile is linear."""
         return 2
 
-    def advance(
-        self,
-        columns: ColumnState,
-        forcing: ColumnForcing,
-        coefficient_of_consolidation: float,
-        water_to_buoyant: float,
-        dt: float,
-        basal_pressure,
-    ) -> None:
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
         """Write the pressure at the base [Pa]."""
         np.multiply(forcing.liquefaction_pressure, self.ratio, out=basal_pressure)
 
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Write the linear profile [Pa]."""
         eta = np.linspace(1.0, 0.0, columns.profile.shape[1])
         columns.profile[:] = self.ratio * forcing.liquefaction_pressure[:, None] * eta

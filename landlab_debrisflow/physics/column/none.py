@@ -19,18 +19,10 @@ class NoExcessPressure:
         """Number of levels of a column: base and surface."""
         return 2
 
-    def advance(
-        self,
-        columns: ColumnState,
-        forcing: ColumnForcing,
-        coefficient_of_consolidation: float,
-        water_to_buoyant: float,
-        dt: float,
-        basal_pressure,
-    ) -> None:
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
         """Write no pressure at the base [Pa]."""
         basal_pressure[:] = 0.0
 
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing, water_to_buoyant: float) -> None:
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Write no pressure at any level [Pa]."""
         columns.profile[:] = 0.0

@@ -207,7 +207,7 @@ def _bring(columns, i, volume, load, thickness, erodes, lower, scheme, work):
 
 
 @kernel
-def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buoyant, dt, basal_pressure, scheme):
+def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     """Account for one step of the flow, advance the columns for which it is due, write the base.
 
     Parameters
@@ -216,10 +216,6 @@ def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buo
         Written in place.
     forcing : ColumnForcing
         The step; ``bed_pressure_ratio`` has one value or one per column.
-    coefficient_of_consolidation : float
-        c_v [m2 s-1].
-    water_to_buoyant : float
-        Density of water over the buoyant density of the mixture: lower bound of the ratio [-].
     dt : float
         Duration [s].
     basal_pressure : ndarray, shape (n,)
@@ -230,6 +226,7 @@ def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buo
     # arrays of a tuple are taken out once: numba counts references at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, bed_ratios = forcing.entrained, forcing.bed_pressure_ratio
+    coefficient_of_consolidation, water_to_buoyant = forcing.coefficient_of_consolidation, forcing.water_to_buoyant
     profile, last_volumes, last_loads = columns.profile, columns.volume, columns.load
     current_loads, pendings, sinces = columns.current_load, columns.diffusion, columns.diffusion_since_switch
     erosion_loads, bases, ratios = columns.erosion_load, columns.eroding, columns.bed_ratio
@@ -283,10 +280,10 @@ def advance_columns(columns, forcing, coefficient_of_consolidation, water_to_buo
 
 
 @kernel
-def bring_columns(columns, forcing, water_to_buoyant, scheme):
+def bring_columns(columns, forcing, scheme):
     """Bring every column to the present; arguments as in `advance_columns`."""
     work = np.empty(columns.profile.shape[1])
     for i in range(columns.volume.size):
         volume, load, thickness = forcing.volume[i], forcing.liquefaction_pressure[i], forcing.thickness[i]
-        _bring(columns, i, volume, load, thickness, columns.eroding[i] > 0, water_to_buoyant, scheme, work)
+        _bring(columns, i, volume, load, thickness, columns.eroding[i] > 0, forcing.water_to_buoyant, scheme, work)
         columns.current_load[i] = load

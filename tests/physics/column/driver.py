@@ -49,18 +49,19 @@ class Columns:
         self.load = LOAD_PER_METRE * self.thickness if load is None else np.broadcast_to(load, before.shape).copy()
         self.ratio = np.broadcast_to(ratio, before.shape).astype(float)
         entrained = np.broadcast_to(entrained, before.shape).astype(float)
-        self.law.advance(self.state, self.forcing(entrained), self.coefficient, WATER_TO_BUOYANT, dt, self.base)
+        self.law.advance(self.state, self.forcing(entrained), dt, self.base)
         return self.base.copy()
 
     def forcing(self, entrained=None):
         """Return what the law is told, as of now."""
         entrained = np.zeros_like(self.volume) if entrained is None else entrained
-        return ColumnForcing(self.volume, self.thickness, self.load, entrained, self.ratio)
+        arrays = self.volume, self.thickness, self.load, entrained, self.ratio
+        return ColumnForcing(*arrays, self.coefficient, WATER_TO_BUOYANT)
 
     def profile(self):
         """Return the profiles brought to the present, without touching the columns [Pa]."""
         copy = ColumnState(*(array.copy() for array in self.state))
-        self.law.synchronise(copy, self.forcing(), WATER_TO_BUOYANT)
+        self.law.synchronise(copy, self.forcing())
         return copy.profile
 
     def content(self):
