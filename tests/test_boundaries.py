@@ -8,7 +8,7 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
 
-from .grids import COARSE, copy_fields, inclined, place, release_slab
+from .grids import COARSE, copy_fields, dry_block, inclined, place, release_slab
 
 Z, SOIL = "topographic__elevation", "soil__depth"
 
@@ -92,3 +92,24 @@ def test_terrain_changed_by_others_is_read_at_each_call(slope):
     slope.at_node[Z][:] = 0.5 * (295.0 - slope.x_of_node[::-1])  # now it falls towards the west
     flow.run_one_step(3.0)
     assert np.all(flow.particles.velocity_x < 0.0)
+
+
+def test_a_neighbour_that_leaves_wakes_those_asleep():
+    """What lies still is not summed again, unless what it was summed over has gone."""
+    grid = inclined((12, 12), 5.0, 0.0)
+    release_slab(grid, (45.0, 30.0), 8.0, 1.0, on_top=True)
+    flow = place(DebrisFlow(grid, **dry_block(0.6, particle_count=100)))
+    sim = flow._simulation
+    p = sim.particles
+    p.x += 52.4 - p.x.max()  # the open nodes take over at 52.5 m
+    p.velocity[:] = 0.0
+    p.velocity[0, np.argmax(p.x)] = 30.0
+    sim._find_everything(8)
+    p.still_steps[:], sim._arrested = 1000, False
+    sim.advance(0.01)
+    assert p.count == 99 and sim.outflow
+    after = p.thickness.copy()
+    p.still_steps[:] = 0
+    sim._find_everything(8)
+    # a neighbour is worth some 10 % of the thickness beside it; the Newton step of one time step leaves 1 %
+    np.testing.assert_allclose(after, p.thickness, rtol=0.03)

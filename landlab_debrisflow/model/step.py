@@ -67,6 +67,7 @@ def move(sim, dt: float, dilution) -> None:
     if gone.any():
         sim.count_outflow(left[gone], p.volume[gone])
         p.keep(~gone)
+        p.still_steps[:] = 0  # those beside it have lost a neighbour, and may be asleep
         sim.granted, sim.granted_ratio = sim.granted[~gone], sim.granted_ratio[~gone]
 
 
