@@ -1,9 +1,10 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component."""
 
+from .column import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
 from .model.numerics import Numerics
 from .physics.material import Material
 
-__all__ = ["DebrisFlow", "InputError", "Material", "Numerics", "ParameterError", "SimulationError"]
+__all__ = ["DebrisFlow", "InputError", "Material", "Numerics", "ParameterError", "SimulationError", "solve_column"]
 __version__ = "0.1.0"

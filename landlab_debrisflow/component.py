@@ -236,7 +236,8 @@ class DebrisFlow(Component):
         if "bed__excess_pore_pressure_ratio" in at:
             ratio[:] = at["bed__excess_pore_pressure_ratio"]
         inputs.check_boundaries(grid)
-        inputs.check_terrain(grid, elevation, soil, ratio)
+        drained = at["bed__drained"] if "bed__drained" in at else None  # noqa: SIM401
+        inputs.check_terrain(grid, elevation, soil, ratio, drained)
         release = inputs.read_release(grid, soil) if take_release else np.zeros(grid.number_of_nodes)
         status = np.array(grid.status_at_node, np.int64)
         changed = self._seen is None or not all(map(np.array_equal, self._seen, (elevation, status)))
@@ -249,7 +250,7 @@ class DebrisFlow(Component):
         nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
         closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
         surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
-        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio)
+        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, None if drained is None else drained == 1)
         sim.on(bed, status, changed or failing)
         shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
         self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth)

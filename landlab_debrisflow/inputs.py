@@ -30,7 +30,7 @@ def check_boundaries(grid) -> None:
             )
 
 
-def check_terrain(grid, elevation, soil, ratio) -> None:
+def check_terrain(grid, elevation, soil, ratio, drained=None) -> None:
     """Refuse values that cannot be computed with, at every node that is not closed."""
     used = grid.status_at_node != CLOSED
     nodata = np.flatnonzero(used & (elevation == NODATA))
@@ -45,6 +45,13 @@ def check_terrain(grid, elevation, soil, ratio) -> None:
         _check_finite(grid, "soil__depth", soil, used, "close the node or set a depth >= 0")
         _check_range(grid, "soil__depth", soil, used, 0.0, np.inf, "m")
     _check_range(grid, "bed__excess_pore_pressure_ratio", ratio, used, 0.0, 1.0, "-")
+    if drained is not None:
+        bad = np.flatnonzero(used & (drained != 0.0) & (drained != 1.0))
+        if bad.size:
+            raise InputError(
+                f"bed__drained must be 0 or 1, got {drained[bad[0]]:g} at {_where(grid, bad[0])}; "
+                "set 1 where a drain holds the excess pore pressure at 0"
+            )
 
 
 def read_release(grid, soil):

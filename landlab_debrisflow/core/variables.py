@@ -2,6 +2,9 @@
 
 from typing import NamedTuple
 
+COLUMN_MEMORY = 21
+"""Numbers a column law may keep per column from call to call."""
+
 
 class Variable(NamedTuple):
     """One number per particle, three for a vector, or one per level of its column."""
@@ -14,6 +17,7 @@ class Variable(NamedTuple):
     written: bool = True  # appears in output
     per_level: bool = False
     vector: bool = False
+    width: int = 0  # numbers per particle, if more than one and no vector
 
 
 PARTICLE_VARIABLES = (
@@ -37,14 +41,7 @@ PARTICLE_VARIABLES = (
     Variable("basal_excess_pore_pressure", "Pa", "excess pore pressure at the base"),
     Variable("entrainment_rate", "m s-1", "erosion rate granted by the bed, per map area"),
     Variable("basal_peclet_number", "-", "erosion rate times thickness over c_v, of the last erosion"),
-    Variable("column_volume", "m3", "volume when the column was last advanced", written=False),
-    Variable("column_load", "Pa", "liquefaction pressure when the column was last advanced", written=False),
-    Variable("column_current_load", "Pa", "liquefaction pressure the column last heard of", written=False),
-    Variable("column_bed_ratio", "-", "pressure ratio of the soil that came in last", written=False),
-    Variable("column_erosion_load", "Pa", "load added by entrained soil since then", written=False),
-    Variable("column_diffusion", "-", "diffusion owed to the column", written=False),
-    Variable("column_diffusion_since_switch", "-", "diffusion since the base closed", written=False),
-    Variable("column_eroding", "-", "1 while the bed prescribes the base", "i1", 0, written=False),
+    Variable("column_memory", "-", "what the column law remembers", written=False, width=COLUMN_MEMORY),
     Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
@@ -85,6 +82,9 @@ NODE_FIELDS = (
     NodeField(
         "bed__excess_pore_pressure_ratio", "in", "-",
         "Excess pore pressure of the bed over its liquefaction value", True,
+    ),
+    NodeField(
+        "bed__drained", "in", "-", "1 where a drain holds the excess pore pressure at the base of a flow at 0, else 0", True
     ),
     NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
     NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),

@@ -8,7 +8,7 @@ from ..core.variables import PARTICLE_VARIABLES
 class Particles:
     """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
 
-    Scalars have shape (n,), vectors (3, n), columns (n, levels).
+    Scalars have shape (n,), vectors (3, n), columns (n, levels), their memory (n, width).
 
     Parameters
     ----------
@@ -29,7 +29,8 @@ class Particles:
             setattr(self, variable.name, self._new(variable, 0))
 
     def _new(self, variable, count):
-        shape = (3, count) if variable.vector else (count, self.levels) if variable.per_level else (count,)
+        width = self.levels if variable.per_level else variable.width
+        shape = (3, count) if variable.vector else (count, width) if width else (count,)
         return np.full(shape, variable.initial, variable.dtype)
 
     @property

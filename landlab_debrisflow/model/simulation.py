@@ -45,6 +45,7 @@ class Simulation:
         # what the stages of a step hand on to each other, per particle (model/step.py)
         self.ground = self.cosine = self.cells = None
         self.granted = self.granted_ratio = np.zeros(0)
+        self.drained = None  # where the base is, if anywhere
 
     def on(self, bed: Bed, status, changed: bool) -> None:
         """Put the simulation on a bed for the call that follows.
@@ -90,7 +91,6 @@ class Simulation:
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
             material.basal_layer_fraction,
         )  # fmt: skip
-        p.column_volume[new], p.column_load[new], p.column_current_load[new] = p.volume[new], load, load
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         step.consolidate(self, 0.0)
         self._peak_energy, self._arrested = 0.0, False

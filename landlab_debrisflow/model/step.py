@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.peclet import basal_peclet_number
-from ..physics.contracts import BasalState, ColumnForcing, ColumnState, FlowState
+from ..physics.contracts import BASE_BY_EROSION, BASE_PRESCRIBED, BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, sum_thickness
 from .motion import basal_state, count_still_steps, drift, kick, stop_at_walls, turn
@@ -16,6 +16,12 @@ from .motion import basal_state, count_still_steps, drift, kick, stop_at_walls, 
 STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
 smoothing length has then settled."""
+
+BY_EROSION = np.array([BASE_BY_EROSION], np.int8)
+"""What columns stand on where nothing is drained."""
+
+NO_SOURCE = np.zeros(1)
+"""Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
 
 def advance(sim, dt: float) -> None:
@@ -77,6 +83,7 @@ def find_ground(sim) -> None:
     sim.ground = sim.bed.surface.sample(p.x, p.y)
     sim.cosine = 1.0 / np.sqrt(1.0 + sim.ground[1] ** 2 + sim.ground[2] ** 2)
     p.z[:] = sim.ground[0]
+    sim.drained = sim.bed.is_drained(p.x, p.y)
     turn(p.velocity, sim.ground, sim.cosine)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
@@ -131,15 +138,20 @@ def check(sim) -> None:
 
 def columns(p) -> ColumnState:
     """Return the particles' arrays as the column law knows them."""
-    return ColumnState(p.excess_pore_pressure, *(getattr(p, f"column_{name}") for name in ColumnState._fields[1:]))
+    return ColumnState(p.excess_pore_pressure, p.column_memory, p.column_clipped)
 
 
 def forcing(sim) -> ColumnForcing:
     """Return what the last step did to the columns."""
     p, material = sim.particles, sim.physics.material
+    bed_pressure, base = sim.granted_ratio * p.liquefaction_pressure, BY_EROSION
+    if sim.drained is not None:
+        bed_pressure[sim.drained] = 0.0
+        base = np.where(sim.drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
     return ColumnForcing(
-        p.volume, p.thickness, p.liquefaction_pressure, sim.granted, sim.granted_ratio,
-        material.coefficient_of_consolidation, material.water_density / material.buoyant_density,
+        p.volume, p.thickness, p.liquefaction_pressure, sim.granted, bed_pressure, base,
+        NO_SOURCE, np.array([material.coefficient_of_consolidation]),
+        material.water_density / material.buoyant_density, True,
     )  # fmt: skip
 
 

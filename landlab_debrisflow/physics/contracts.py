@@ -27,33 +27,34 @@ class BasalState(NamedTuple):
 class ColumnState(NamedTuple):
     """The pore-pressure columns of n particles, written by the column law.
 
-    ``profile`` is the excess pore pressure [Pa] at equally spaced levels, index 0 at the base and the
-    last at the surface, *as it was when the column was last advanced*; the other arrays say when that
-    was, so that a law may leave a column alone while nothing is missed.
+    ``profile`` and ``memory`` are what the law makes of them, so that it may leave a column alone, or
+    keep it in another form, while nothing is missed; a law's ``synchronise`` turns them into pressures.
+    A new column has its pressure at equally spaced levels in ``profile``, index 0 at the base and the
+    last at the surface, and zeros in ``memory``; its first ``advance``, of 0 seconds, tells it its load.
     """
 
     profile: Array  # (n, levels) [Pa]
-    volume: Array  # of the particle then [m3]
-    load: Array  # liquefaction pressure then [Pa]
-    current_load: Array  # liquefaction pressure at the end of the last call [Pa]
-    erosion_load: Array  # liquefaction pressure added by entrained soil since [Pa]
-    diffusion: Array  # integral of c_v / h_n^2 dt since [-]
-    diffusion_since_switch: Array  # the same since the base became impermeable [-]
-    eroding: Array  # > 0: the bed prescribes the base; the rest is the law's own business (int8, 0 at start)
-    bed_ratio: Array  # of the soil that came in last [-]
-    clipped: Array  # pressure removed by the bounds, times thickness, so far [Pa m]
+    memory: Array  # (n, core.variables.COLUMN_MEMORY), the law's own
+    clipped: Array  # (n,), pressure taken off by the bounds, times thickness, so far [Pa m]
+
+
+BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED = 0, 1, 2
+"""What a column stands on: prescribed while it erodes and else impermeable; always the one; always the other."""
 
 
 class ColumnForcing(NamedTuple):
-    """What the flow did to n columns in one step."""
+    """What the flow did to n columns in one step; arrays have length n, those marked (1) also 1."""
 
     volume: Array  # after the step [m3]
     thickness: Array  # after the step, slope-normal [m]
     liquefaction_pressure: Array  # after the step [Pa]
     entrained: Array  # volume granted by the bed in the step [m3]; > 0 means eroding
-    bed_pressure_ratio: Array  # of the soil that came in, or of the bed below [-]
-    coefficient_of_consolidation: float  # [m2 s-1]
+    bed_pressure: Array  # (1) of the soil that came in, or of the bed below [Pa]
+    base: Array  # (1) BASE_BY_EROSION or what else it is (int8)
+    porosity_source: Array  # (1) pressure made by a change of porosity, everywhere in the column [Pa s-1]
+    coefficient_of_consolidation: Array  # (1) [m2 s-1]
     water_to_buoyant: float  # density of water over buoyant density: lower bound of the pressure ratio [-]
+    bounded: bool  # whether pressure is held between suction and liquefaction
 
 
 class FrictionLaw(Protocol):

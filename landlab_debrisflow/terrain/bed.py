@@ -27,11 +27,14 @@ class Bed:
         Cumulative erosion [m], changed in place.
     pressure_ratio : ndarray, shape (nodes,)
         Excess pore pressure of the bed over its liquefaction value [-].
+    drained : ndarray of bool, shape (nodes,), or None
+        Where a drain holds the excess pore pressure at 0; None: nowhere.
     """
 
-    def __init__(self, nodes: Nodes, surface: Surface, elevation, soil, eroded_depth, pressure_ratio):
+    def __init__(self, nodes: Nodes, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None):
         self.nodes, self.surface, self.elevation, self.soil = nodes, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
+        self.drained = drained
         self._elevation, self._eroded_depth = elevation.copy(), eroded_depth.copy()
         self._soil = None if soil is None else soil.copy()
         self._taken = np.zeros(elevation.size)  # depth eroded in this call [m]
@@ -73,6 +76,14 @@ class Bed:
         self._grant[:, at] = 0.0
         granted[asking], ratio[asking] = wanted * got, got_ratio / np.where(got > 0.0, got, 1.0)
         return granted, ratio
+
+    def is_drained(self, x, y):
+        """Return whether the node nearest to each particle is drained, or None if there is no drain anywhere."""
+        if self.drained is None:
+            return None
+        nodes = self.nodes
+        row, column = np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)
+        return self.drained[row * nodes.columns + column]
 
     def _take(self, at, depth):
         taken = np.minimum(self._taken[at] + depth, self._soil[at])

@@ -2,7 +2,8 @@
 
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
-from .profile import LOADING, advance_columns, bring_columns, scheme_of
+from .scheme import BED_CONTACT, LOADING
+from .schemes import ADVANCE, advance, check_scheme, synchronise
 
 
 @declared
@@ -14,19 +15,34 @@ class Classical:
 
     Examples
     --------
-    >>> Classical(loading_source="none")
-    Classical(levels=11, loading_source='none')
+    >>> Classical(loading_source="none").loading_source
+    'none'
     """
 
     levels: int = parameter("-", "levels of a column, base and surface included", 11, (3, 1001), kind=int)
     loading_source: str = parameter(
         "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
     )
+    scheme: str = parameter("-", "how the equation is solved", "default", choices=tuple(ADVANCE))
+    bed_contact: str = parameter(
+        "-", "whether the bed prescribes the pressure of a base that erodes, or what flows in", "dirichlet",
+        choices=BED_CONTACT,
+    )  # fmt: skip
+    tolerance: float = parameter(
+        "-", "error over the load that leaving columns alone may make, 0: none; default as levels: 0.3/(levels - 1)^2",
+        None, (0.0, 0.1),
+    )  # fmt: skip
+    source_includes_erosion: bool = parameter(
+        "-", "load grains by soil that comes in below them, to replicate eqs. 19 and 38", False, kind=bool
+    )
+
+    def _agree(self):
+        check_scheme(self)
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
-        advance_columns(columns, forcing, dt, basal_pressure, scheme_of(False, self.loading_source, self.levels))
+        advance(self, False, columns, forcing, dt, basal_pressure)
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Bring every profile to the present in place."""
-        bring_columns(columns, forcing, scheme_of(False, self.loading_source, self.levels))
+        synchronise(self, False, columns, forcing)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
 
 WATER_TO_BUOYANT = 1000.0 / 990.0
@@ -20,26 +21,24 @@ class Columns:
         At the start [m]; the volume is the same number, as if on one square metre.
     load : array_like, shape (n,), optional
         Liquefaction pressure [Pa]; `LOAD_PER_METRE` times the thickness if absent.
+    coefficient_of_consolidation : float, optional
+        [m2 s-1].
+    bounded : bool, optional
+        Whether the law holds the pressure between suction and liquefaction.
     """
 
-    def __init__(self, law, profile, thickness, load=None, coefficient_of_consolidation=0.0):
+    def __init__(self, law, profile, thickness, load=None, coefficient_of_consolidation=0.0, bounded=True):
         self.law, self.coefficient = law, coefficient_of_consolidation
         self.volume = np.array(thickness, dtype=float)
         self.thickness = self.volume.copy()
         self.load = LOAD_PER_METRE * self.volume if load is None else np.array(load, dtype=float)
-        none = np.zeros((6, self.volume.size))
+        count = self.volume.size
         self.state = ColumnState(
-            np.array(profile, dtype=float),
-            self.volume.copy(),
-            self.load.copy(),
-            self.load.copy(),
-            *none[:3],
-            np.zeros(self.volume.size, np.int8),
-            none[3],
-            none[4],
+            np.array(profile, dtype=float), np.zeros((count, COLUMN_MEMORY)), np.zeros(count)
         )
-        self.base = none[5]
-        self.ratio = np.zeros(self.volume.size)
+        self.base, self.bed = np.zeros(count), np.zeros(count)
+        self.standing, self.source, self.bounded = np.zeros(1, np.int8), np.zeros(1), bounded
+        self.law.advance(self.state, self.forcing(), 0.0, self.base)
 
     def step(self, dt, entrained=0.0, strain=0.0, ratio=0.65, load=None):
         """Let the base give ``entrained`` [m3] and the flow thicken by a factor 1 + ``strain``."""
@@ -47,7 +46,7 @@ class Columns:
         self.volume = before + entrained
         self.thickness = self.thickness * (self.volume / before) * (1.0 + strain)
         self.load = LOAD_PER_METRE * self.thickness if load is None else np.broadcast_to(load, before.shape).copy()
-        self.ratio = np.broadcast_to(ratio, before.shape).astype(float)
+        self.bed = ratio * self.load
         entrained = np.broadcast_to(entrained, before.shape).astype(float)
         self.law.advance(self.state, self.forcing(entrained), dt, self.base)
         return self.base.copy()
@@ -55,8 +54,8 @@ class Columns:
     def forcing(self, entrained=None):
         """Return what the law is told, as of now."""
         entrained = np.zeros_like(self.volume) if entrained is None else entrained
-        arrays = self.volume, self.thickness, self.load, entrained, self.ratio
-        return ColumnForcing(*arrays, self.coefficient, WATER_TO_BUOYANT)
+        arrays = self.volume, self.thickness, self.load, entrained, self.bed, self.standing, self.source
+        return ColumnForcing(*arrays, np.array([self.coefficient]), WATER_TO_BUOYANT, self.bounded)
 
     def profile(self):
         """Return the profiles brought to the present, without touching the columns [Pa]."""

@@ -63,7 +63,7 @@ def test_a_liquefied_column_stays_liquefied(law, erodes):
 
 def test_without_diffusion_old_soil_keeps_its_depth_and_new_soil_its_pressure():
     """Pure erosion: the front stays at the material depth h_0; eq. 54 of the paper, with p_b ~ load."""
-    columns = Columns(ALE(levels=101), np.zeros((1, 101)), [1.0])
+    columns = Columns(ALE(levels=101, tolerance=1e-3), np.zeros((1, 101)), [1.0])
     for _ in range(400):
         columns.step(0.05, entrained=1.0 / 400.0)
     depth = eta(101) * columns.thickness
@@ -76,14 +76,13 @@ def test_without_diffusion_old_soil_keeps_its_depth_and_new_soil_its_pressure():
 
 
 def test_the_classical_column_spreads_what_it_erodes():
-    """A grain keeps its fraction of the depth, and soil that comes in below loads nobody."""
+    """A grain keeps its fraction of the depth, and soil that comes in below loads nobody: friction alone sees it."""
     start = 0.65 * LOAD_PER_METRE * eta(11)
     columns = Columns(Classical(), start[None], [1.0])
     for _ in range(100):
-        columns.step(0.05, entrained=0.02)
-    profile = columns.profile()[0]
-    assert_allclose(profile[1:], start[1:], atol=ROUNDING * columns.load[0])
-    assert_allclose(profile[0], 0.65 * columns.load[0], rtol=ROUNDING)
+        base = columns.step(0.05, entrained=0.02)
+    assert_allclose(base, 0.65 * columns.load, rtol=ROUNDING)
+    assert_allclose(columns.profile()[0], start, atol=ROUNDING * columns.load[0])
 
 
 def test_the_literal_source_is_not_made():
@@ -138,15 +137,11 @@ def test_inputs_are_untouched_and_columns_do_not_mix(law):
         assert_array_equal(array, copy)
 
 
-def test_the_bed_ratio_may_be_one_number():
+def test_the_bed_pressure_may_be_one_number():
     columns, other = (Columns(ALE(), np.zeros((2, 11)), np.ones(2)) for _ in range(2))
     columns.step(0.1, entrained=0.1, ratio=0.4)
-    other.volume, other.thickness, other.load, other.ratio = (
-        columns.volume,
-        columns.thickness,
-        columns.load,
-        np.array([0.4]),
-    )
+    other.volume, other.thickness, other.load = columns.volume, columns.thickness, columns.load
+    other.bed = 0.4 * columns.load[:1]
     other.law.advance(other.state, other.forcing(np.full(2, 0.1)), 0.1, other.base)
     assert_array_equal(other.base, columns.base)
 

@@ -1,0 +1,159 @@
+"""A column over an impermeable base: kept as the waves it decays in, exact after any time.
+
+Friction needs its pressure at every step, but between two looks at the waves a parabola serves, whose
+error the waves bound. Loads since the last look lift the base by what it bears; what it loses of them to
+the column above goes with the square root of time.
+"""
+
+import math
+
+from ...core.jit import kernel
+from .memory import (
+    BEND, CONTACT, CLOSED, DIFFUSION, GAIN, HIGH, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE,
+    SLOPE, SWING, TAIL,
+)  # fmt: skip
+from .scheme import OVERBURDEN, PROPORTIONAL
+from .waves import BRIEF, IMPERMEABLE, limits, tail_left
+
+DIFFUSION_CAP = 1e3  # c_v t / h^2 that leaves nothing
+LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
+
+
+@kernel
+def base_slope(profile, i, cells):
+    """Return dp/d(eta) at the base as seen from inside, no steeper than twice the lowest cell [Pa]."""
+    step, next_step = profile[i, 0] - profile[i, 1], profile[i, 1] - profile[i, 2]
+    slope = 1.5 * step - 0.5 * next_step
+    return min(max(slope, min(0.0, 2.0 * step)), max(0.0, 2.0 * step)) * cells
+
+
+@kernel
+def close(profile, memory, i, waves, work):
+    """Turn the levels of one column into the waves it decays in over an impermeable base."""
+    cells = profile.shape[1] - 1
+    slope = base_slope(profile, i, cells)
+    low, high, least, most = limits(profile, i, 0.0, 0.0, waves.eta)
+    levels = work[0]
+    for k in range(cells):
+        levels[k] = profile[i, k] - slope * waves.eta[k]
+    for j in range(cells):
+        amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
+        for k in range(cells):
+            amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
+        profile[i, j] = amplitude
+    memory[i, CONTACT] = CLOSED
+    memory[i, TAIL], memory[i, SLOPE], memory[i, DIFFUSION] = 0.0, slope * waves.pattern[IMPERMEABLE, 0], 0.0
+    memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST] = low, high, least, most
+    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN], memory[i, SWING] = 0.0, 0.0, 1.0, 0.0, 0.0
+    look(profile, memory, i, waves, work)
+
+
+@kernel
+def open_up(profile, memory, i, waves, work):
+    """Turn the waves of one column into pressures at levels."""
+    look(profile, memory, i, waves, work)
+    cells = profile.shape[1] - 1
+    levels = work[0]
+    tail = memory[i, TAIL] + memory[i, SLOPE] * tail_left(memory[i, DIFFUSION], cells, waves.tail[IMPERMEABLE])
+    tail /= waves.pattern[IMPERMEABLE, 0]
+    low, high, least, most = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST]
+    for k in range(cells):
+        levels[k] = tail * waves.pattern[IMPERMEABLE, k]
+    for j in range(cells):
+        for k in range(cells):
+            levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
+    for k in range(cells):
+        eta = waves.eta[k]
+        profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
+    profile[i, cells] = 0.0
+    memory[i, CONTACT] = LEVELS
+
+
+@kernel
+def look(profile, memory, i, waves, work):
+    """Let the waves of one column decay by what has passed since the last look, under the loads since then."""
+    ramp, uniform, squares = waves.ramp[IMPERMEABLE], waves.uniform[IMPERMEABLE], waves.squares
+    cells = profile.shape[1] - 1
+    passed, lift, scale, gain = memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
+    factors = work[1]
+    decay = math.exp(-0.25 * math.pi * math.pi * passed)
+    square = decay * decay
+    factor = square * square
+    factor = factor * factor
+    ratio = factor
+    for j in range(cells):  # exp(-wave^2 passed), with one exponential for all
+        factors[j] = decay
+        decay *= ratio
+        ratio *= factor
+    if lift != 0.0 or gain != 0.0:
+        # what a wave gains: exactly, but linear in time where that formula cancels
+        brief = passed < BRIEF
+        rate, now = (0.0, 0.5) if brief else (1.0 / passed, 0.0)
+        for j in range(cells):
+            settled = rate * (lift * ramp[1, j] + gain * uniform[1, j])
+            gained = now * (lift * ramp[0, j] + gain * uniform[0, j])
+            profile[i, j] = (profile[i, j] * scale - settled + gained) * factors[j] + settled + gained
+    else:
+        for j in range(cells):
+            profile[i, j] *= scale * factors[j]
+    # the tail of a ramp, as one wave of the rate that answers a slow one rightly
+    decay = decay * decay * decay
+    tail = memory[i, TAIL] * scale * decay + 0.5 * (1.0 + decay) * lift * waves.pattern[IMPERMEABLE, 0]
+    since = min(memory[i, DIFFUSION] + passed, DIFFUSION_CAP)
+    memory[i, TAIL], memory[i, DIFFUSION] = tail, since
+    memory[i, SLOPE] *= scale if tail_left(since, cells, waves.tail[IMPERMEABLE]) > 0.0 else 0.0
+    fast = 3.0 * (math.pi * (cells + 0.5)) ** 2
+    pressure, rate, bend, remainder = tail, fast * tail, fast * fast * tail, fast * fast * fast * abs(tail)
+    for j in range(cells):
+        square, amplitude = squares[j], profile[i, j]
+        first = square * amplitude
+        second = square * first
+        pressure += amplitude
+        rate += first
+        bend += second
+        remainder += square * abs(second)
+    low, high, least, most = gained_limits(memory, i)
+    memory[i, LOW], memory[i, HIGH] = low, high
+    memory[i, LEAST], memory[i, MOST] = least + cells * min(gain, 0.0), most + cells * max(gain, 0.0)
+    memory[i, PRESSURE] = pressure
+    memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
+    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN], memory[i, SWING] = 0.0, 0.0, 1.0, 0.0, 0.0
+
+
+@kernel
+def gained_limits(memory, i):
+    """Return the limits of one column with what has been put on it since the last look; see `waves.limits`."""
+    lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
+    fall, rise = min(lift, 0.0) + min(gain, 0.0), max(lift, 0.0) + max(gain, 0.0)
+    return (
+        memory[i, LOW] * scale + fall, memory[i, HIGH] * scale + rise,
+        min(memory[i, LEAST] * scale + lift + min(gain, 0.0), 0.0),
+        max(memory[i, MOST] * scale + lift + max(gain, 0.0), 0.0),
+    )  # fmt: skip
+
+
+@kernel
+def closed_pressure(memory, i, passed, load, old_load, gain, loading, cells, kink):
+    """Put one step on a column; return its pressure at the base, and by how much that may be wrong.
+
+    The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly; ``kink`` is how
+    the tail of a base that has just closed decays (`Waves.tail`).
+    """
+    passed = min(memory[i, PASSED] + passed, DIFFUSION_CAP)
+    lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN] + gain
+    swing = memory[i, SWING] + abs(gain - memory[i, GAIN])
+    if loading == OVERBURDEN:
+        lift += load - old_load
+        swing += abs(load - old_load)
+    elif loading == PROPORTIONAL and old_load > 0.0:
+        scale *= load / old_load
+    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE] = passed, lift, scale
+    memory[i, GAIN], memory[i, SWING] = gain, swing
+    lost = LOSS * math.sqrt(passed)
+    pressure = scale * (memory[i, PRESSURE] + passed * (memory[i, RATE] + passed * memory[i, BEND]))
+    pressure += lift * max(1.0 - lost, 0.0) + gain
+    if memory[i, SLOPE] != 0.0:
+        pressure += memory[i, SLOPE] * scale * tail_left(memory[i, DIFFUSION] + passed, cells, kink)
+    error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
+    low, high, least, most = gained_limits(memory, i)
+    return min(max(pressure, low, least), high, most), error
