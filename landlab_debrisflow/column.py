@@ -1,6 +1,5 @@
 """Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
 
-import dataclasses
 import math
 from numbers import Real
 
@@ -14,8 +13,6 @@ from .physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from .physics.material import Material
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
-PASSED = 500.0  # largest c_v t / h^2 in one advance with a source: a law counts no more than 1000 of it
-VARIED = 0.02  # what bed pressure and source may vary, over the largest so far, between two advances
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
 BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
 WATER_TO_BUOYANT = Material().water_density / Material().buoyant_density
@@ -150,10 +147,6 @@ class _Columns:
         self.first_eroded = np.where(inputs.entrainment_rate.at(0.0) > 0.0, 0.0, np.nan)
         inputs.law.advance(self.state, self.forcing(0.0, np.zeros(n)), 0.0, self.base)
         self.varies = any(isinstance(field, History) and field.varies for field in inputs)
-        self.watched = [history for history in (inputs.bed, inputs.porosity_source) if history.varies]
-        self.seen = [history.at(0.0) for history in self.watched]
-        self.largest = [np.abs(seen) for seen in self.seen]
-        self.varied, self.passed = 0.0, 0.0
 
     def advance_to(self, end: float) -> None:
         """Take steps that land on `end` [s]."""
@@ -179,8 +172,6 @@ class _Columns:
             middle = self.time + 0.5 * dt
             growth, strain = inputs.entrainment_rate.at(middle) / self.thickness, inputs.divergence_rate.at(middle)
             fastest = max(growth.max(), np.abs(strain).max()) / CHANGE
-            if inputs.porosity_source.at(middle).any():
-                fastest = max(fastest, (inputs.coefficient_of_consolidation / self.thickness**2).max() / PASSED)
             if dt * fastest <= 1.0 + 1e-9:
                 break
             dt = 1.0 / fastest
@@ -204,30 +195,10 @@ class _Columns:
                 f"t = {end:g} s; both must stay in ({low:g}, {high:g}): lower divergence_rate or entrainment_rate, or "
                 "end times before that"
             )
-        self.passed += dt * (inputs.coefficient_of_consolidation / self.thickness**2).max()
         self.thickness, self.volume = thickness, volume
         self.first_eroded = np.where(np.isnan(self.first_eroded) & (rate > 0.0), self.time, self.first_eroded)
         self.time = end
-        self._law_now().advance(self.state, self.forcing(end, entrained, middle), dt, self.base)
-
-    def _law_now(self):
-        """Return the law, or one that leaves nothing alone where bed or source have varied by too much.
-
-        A law takes them to have changed evenly, or with the load, since it last advanced a column.
-        """
-        law = self.inputs.law
-        if getattr(law, "tolerance", 0.0) == 0.0:
-            return law
-        for k, history in enumerate(self.watched):
-            now = history.at(self.time)
-            self.largest[k] = np.maximum(self.largest[k], np.abs(now))
-            self.varied += (np.abs(now - self.seen[k]) / np.maximum(self.largest[k], 1e-300)).max()
-            self.seen[k] = now
-        sourced = self.inputs.porosity_source.varies or self.inputs.porosity_source.value.any()
-        if self.varied <= VARIED and not (sourced and self.passed > PASSED):
-            return law
-        self.varied = self.passed = 0.0
-        return dataclasses.replace(law, tolerance=0.0)
+        inputs.law.advance(self.state, self.forcing(end, entrained, middle), dt, self.base)
 
     def forcing(self, time: float, entrained, middle: float | None = None) -> ColumnForcing:
         """Return what a law is told of a step that ends at `time`."""

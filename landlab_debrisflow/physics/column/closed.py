@@ -15,7 +15,7 @@ from .memory import (
 from .scheme import OVERBURDEN, PROPORTIONAL
 from .waves import BRIEF, IMPERMEABLE, limits, tail_left
 
-DIFFUSION_CAP = 1e3  # c_v t / h^2 that leaves nothing
+DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
 LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
 
 

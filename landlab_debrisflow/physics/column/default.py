@@ -10,19 +10,20 @@ import math
 import numpy as np
 
 from ...core.jit import kernel
-from ..contracts import BASE_BY_EROSION, BASE_PRESCRIBED
+from ..contracts import BASE_IMPERMEABLE, BASE_PRESCRIBED
 from .closed import DIFFUSION_CAP, close, closed_pressure, gained_limits, look, open_up
 from .eroding import bring
 from .memory import (
-    BASE, BED_PRESSURE, CLOSED, CONTACT, CURRENT_LOAD, DIFFUSION, ERODING, FLUX, HELD, JUST, LEVELS, LOAD, OWED,
+    BASE, BED_PRESSURE, CLOSED, CONTACT, CURRENT_LOAD, DIFFUSION, ERODING, FLUX, HELD, JUST, LEVELS, LOAD, OWED, SEALED,
     SOURCE, TOUCHED, VOLUME,
 )  # fmt: skip
 from .waves import IMPERMEABLE
 
 STRIDE = 1.5  # growth of a column in one advance over the square root of the tolerance (benchmarks/column.py)
-LOOK_SHARE = 0.25
-GRADED = 0.25
-LAYER_CELLS, LAYER_STRIDES = 1.5, 0.0  # the layer over a base that has just changed is made in one advance up to these
+LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
+BED_SHARE = 0.25  # of that growth: pressure of the bed or by a source since the last advance, over the load
+GRADED = 0.25  # growth in one advance over that since the base changed: the layer over it is young at first
+LAYER_CELLS = 1.5  # of the layer over a base that has just changed, from which levels can follow it
 ROUNDING = 1e-9  # of the bounds, within which a wave need not be looked at
 
 
@@ -45,9 +46,11 @@ def contact_of(base, entrained, flux):
     """Return what a column stands on, a value of CONTACT."""
     if base == BASE_PRESCRIBED:
         return HELD
-    if base == BASE_BY_EROSION and entrained > 0.0:
-        return FLUX if flux else ERODING
-    return CLOSED
+    if entrained <= 0.0:
+        return CLOSED
+    if base == BASE_IMPERMEABLE:
+        return SEALED
+    return FLUX if flux else ERODING
 
 
 @kernel
@@ -126,7 +129,10 @@ def account(memory, forcing, dt, basal_pressure, scheme, due):
             memory[i, SOURCE] += gain
             is_due = volume - start > min(stride * start, GRADED * (start - memory[i, TOUCHED]))
             is_due |= abs(load * start - whole) > stride * whole
-            is_due |= stride == 0.0 or memory[i, CONTACT] == FLUX
+            old_load, least = memory[i, LOAD], BED_SHARE * stride * load
+            is_due |= abs(pressure * old_load - memory[i, BASE] * load) > least * old_load
+            is_due |= abs(memory[i, SOURCE]) > least
+            is_due |= stride == 0.0 or memory[i, CONTACT] >= FLUX
         basal_pressure[i] = pressure
         if is_due:
             due[count] = i
@@ -157,19 +163,20 @@ def advance_due(columns, i, forcing, scheme, work):
         cells, kink = waves.eta.size, waves.tail[IMPERMEABLE]
         pressure, _ = closed_pressure(memory, i, 0.0, load, load, 0.0, scheme.loading, cells, kink)
         return min(max(pressure, -lower * load), load) if forcing.bounded else pressure
-    if contact == FLUX or memory[i, JUST] == 0.0 or layer_is_due(memory, i, volume, scheme):
+    if contact == SEALED:
+        memory[i, BASE] = memory[i, BED_PRESSURE] = profile[i, 0]
+    if contact >= FLUX or memory[i, JUST] == 0.0 or layer_is_due(memory, i, volume, scheme):
         bring(profile, memory, i, volume, load, False, scheme, work)
         if forcing.bounded:
             hold(columns, i, load, thickness, lower)
-    return profile[i, 0] if contact == FLUX else memory[i, BED_PRESSURE]
+    return profile[i, 0] if contact >= FLUX else memory[i, BED_PRESSURE]
 
 
 @kernel
 def layer_is_due(memory, i, volume, scheme):
-    """Return whether levels, and steps of the usual length, can follow the layer over a base that has just changed."""
+    """Return whether levels can follow the layer over a base that has just changed."""
     grown = 1.0 - memory[i, VOLUME] / volume if scheme.stretching else 0.0
-    least = max(LAYER_CELLS / scheme.waves.eta.size, LAYER_STRIDES * STRIDE * math.sqrt(scheme.tolerance))
-    return grown + 2.0 * math.sqrt(memory[i, DIFFUSION]) > least
+    return scheme.waves.eta.size * (grown + 2.0 * math.sqrt(memory[i, DIFFUSION])) > LAYER_CELLS
 
 
 @kernel

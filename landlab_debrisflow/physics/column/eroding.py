@@ -53,7 +53,7 @@ def _diffuse(profile, memory, i, growth, load, strained, ending, scheme, work):
     for k in range(cells):
         profile[i, k] *= scale
     just = memory[i, JUST] > 0.0
-    if memory[i, CONTACT] == FLUX:
+    if memory[i, CONTACT] >= FLUX:
         evolve(profile, i, IMPERMEABLE, passed, 0.0, 0.0, 0.0, lift, memory[i, SOURCE], scheme.waves, work[0])
     else:
         kink = (touched - base) * scale if just else 0.0
@@ -63,7 +63,7 @@ def _diffuse(profile, memory, i, growth, load, strained, ending, scheme, work):
         )  # fmt: skip
     for k in range(cells):
         profile[i, k] *= scale
-    if memory[i, CONTACT] != FLUX:
+    if memory[i, CONTACT] < FLUX:
         profile[i, 0] = new_base
         if just and ending:  # of the half cell of the base level only a part was reached
             carried = touched * scale * scale + lift
@@ -81,7 +81,7 @@ def _grow(profile, memory, i, stretch, load, strained, ending, scheme, work):
     cells, waves = profile.shape[1] - 1, scheme.waves
     old_load, touched = memory[i, LOAD], profile[i, 0]
     base, new_base = memory[i, BASE], memory[i, BED_PRESSURE]
-    diffusion, flux = memory[i, DIFFUSION], memory[i, CONTACT] == FLUX
+    diffusion, flux = memory[i, DIFFUSION], memory[i, CONTACT] >= FLUX
     kind = IMPERMEABLE if flux else PRESCRIBED
     after = passed_after(diffusion, kind)
     # the thickness was another one before the stretching than after it
@@ -96,12 +96,16 @@ def _grow(profile, memory, i, stretch, load, strained, ending, scheme, work):
         entry = entry * strained
     if flux:
         evolve(profile, i, kind, first, 0.0, 0.0, 0.0, 0.0, source, waves, work[0])
-        held = weight * load - scale * (weight * old_load - profile[i, 0])
+        held = scale * (weight * old_load - profile[i, 0])
+        content = scale * _effective(profile, i, weight * old_load)
+        content = stretch * content + (1.0 - stretch) * 0.5 * (entry + new_entry)
         stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work[0])
+        # the base level takes what the content lacks: with diffusion from below left out, it must not drift
+        profile[i, 0] = weight * load
+        lacking = 2.0 * cells * (content - _effective(profile, i, weight * load))
+        profile[i, 0] -= min(max(lacking, min(held, new_entry)), max(held, new_entry))
         if scheme.literal:
             _load_literally(profile, i, stretch, load)
-        # into the half cell of the base level
-        profile[i, 0] = held + min(2.0 * cells * (1.0 - stretch), 1.0) * (new_base - held)
         evolve(profile, i, kind, last, 0.0, 0.0, 0.0, 0.0, last_source, waves, work[0])
         memory[i, SOURCE] = memory[i, OWED] = 0.0
         return
@@ -123,6 +127,16 @@ def _grow(profile, memory, i, stretch, load, strained, ending, scheme, work):
         loaded = weight * old_load * (strained - 1.0)
         share = _add_layer(profile, i, jump, 1.0 - stretch, diffusion * stretch, loaded, limit, waves.eta)
     profile[i, 0] = inside + (share if ending else 1.0) * (new_base - inside)
+
+
+@kernel
+def _effective(profile, i, load):
+    """Return the mean of ``load * eta - p`` of one column [Pa]."""
+    cells = profile.shape[1] - 1
+    content = 0.5 * (load - profile[i, 0])
+    for k in range(1, cells):
+        content += load * (cells - k) / cells - profile[i, k]
+    return content / cells
 
 
 @kernel

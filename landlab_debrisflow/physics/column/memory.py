@@ -5,7 +5,7 @@
 # closed, since it closed.
 CONTACT, JUST, VOLUME, LOAD, CURRENT_LOAD, DIFFUSION = range(6)
 
-# while the base prescribes (or, FLUX, gives): pressure of the bed now, that at the base at the last advance, pressure
+# while the base prescribes or gives: pressure of the bed now, that at the base at the last advance, pressure
 # by a porosity source, diffusion left over, volume when this contact began
 BED_PRESSURE, BASE, SOURCE, OWED, TOUCHED = range(6, 11)
 
@@ -17,5 +17,6 @@ TAIL, SLOPE, LOW, HIGH, LEAST, MOST, PRESSURE, RATE, BEND, REMAINDER = range(6, 
 # evenly, and all gains taken positive
 PASSED, LIFT, SCALE, GAIN, SWING = range(16, 21)
 
-# LEVELS is a closed base too, of a column kept at levels
-LEVELS, CLOSED, ERODING, HELD, FLUX = 0.0, 1.0, 2.0, 3.0, 4.0
+# LEVELS is a closed base too, of a column kept at levels; from FLUX on, soil that comes in brings its own pressure and no
+# more: SEALED, under an impermeable base, that of the base
+LEVELS, CLOSED, ERODING, HELD, FLUX, SEALED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
