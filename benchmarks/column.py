@@ -1,115 +1,216 @@
-"""Accuracy and cost of the pore-pressure columns: python -m benchmarks.column
+"""Accuracy of the pore-pressure columns against their cost: python -m benchmarks.column
 
-Accuracy: a column doubles its thickness under a constant basal pressure, from cold or from a uniform
-start, in 400 flow steps; erosion stops. The basal pressure that friction feels is compared at *every*
-one of the next 1600 steps with the closed form: the growing column of theory section 6, decaying in
-its Fourier series. Error in units of the basal pressure, over Peclet numbers 1e-3 ... 1e4.
+Error: the basal pressure that friction sees at every stored flow step (all of the first 40 after a switch
+and every fifth), over the pressure of the bed, and the same of the depth mean; the worst of eight Peclet
+numbers 1e-3 ... 1e4, against `benchmarks/column_reference.py`, a solver of another kind converged to 2e-10.
+400 flow steps per erosion time. Cost: CPU time of one thread per column and step over the whole history of
+a case, median of five; the schemes take turns, so that their ratios are of one run.
 
-Cost: CPU time of one thread, per column and step, over the same two phases; median of some repeats.
-A lump is the advance of one column that is due.
+Writes docs/column.png and benchmarks/column.txt.
 """
 
+import math
 import statistics
 import time
+from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
+from scipy.integrate import solve_ivp
 
-from landlab_debrisflow.physics.column import ALE
-from landlab_debrisflow.physics.column.analytic import growing_column
+from benchmarks.column_reference import CASES, FILE, PER_UNIT
 from landlab_debrisflow.core.variables import COLUMN_MEMORY
+from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
 
-HEAVY, LIGHT = 1.0, 1.0  # load and bed pressure [Pa]
-STEPS, AFTER = 400, 4
-PECLET = np.logspace(-3, 4, 29)
+LEVELS, SCHEMES = (11, 21, 41), ("default", "every step", "upwind", "lax_wendroff")
+REFERENCE = np.load(FILE)
+PECLET = REFERENCE["peclet"]
+DEAREST = 20_000  # explicit sub-steps in one step of the flow, beyond which a case is not run
+BOTH = np.zeros(1, np.int8)
 
 
-def columns(count: int, levels: int, start: float) -> ColumnState:
-    """Return columns of one cubic metre with a uniform pressure [Pa]."""
-    profile = np.full((count, levels), start)
-    profile[:, -1] = 0.0
-    return ColumnState(profile, np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+def law_of(case, scheme: str, levels: int):
+    """Return the law of a case."""
+    choices = {"levels": levels, "loading_source": case.loading}
+    if scheme == "every step":
+        choices["tolerance"] = 0.0
+    elif scheme != "default":
+        choices["scheme"] = scheme
+    return (ALE if case.law == "ale" else Classical)(**choices)
 
 
-def step(volume, thickness, load, entrained, bed):
-    """Return what a law is told of a step, c_v = 1 m2/s."""
-    return ColumnForcing(
-        volume, thickness, load, entrained, bed, np.zeros(1, np.int8), np.zeros(1), np.ones(1), 0.0, False
-    )
+def history(case):
+    """Return thickness, volume and bed pressure of a case at every step, the start included."""
+    steps = round(case.duration * PER_UNIT)
+    times = np.arange(steps + 1) / PER_UNIT
+    limits = sorted({0.0, case.duration, *case.switches})
+    thickness, volume = np.ones(steps + 1), np.ones(steps + 1)
+    for begin, end in zip(limits, limits[1:], strict=False):
+        inside = (times > begin + 1e-9) & (times < end + 1e-9)
+        at = np.flatnonzero(inside)[0] - 1
+
+        def rates(t, y, begin=begin, end=end):
+            t = min(max(t, begin + 1e-9), end - 1e-9)
+            erosion = case.erosion_rate(t)
+            return [erosion - case.divergence_rate(t) * y[0], erosion / y[0] * y[1]]
+
+        found = solve_ivp(
+            rates, (begin, end), (thickness[at], volume[at]), "DOP853", np.append(times[inside][:-1], end), rtol=1e-12,
+            atol=1e-12,
+        )  # fmt: skip
+        thickness[inside], volume[inside] = found.y
+    bed = np.array([case.base_pressure(t, h) for t, h in zip(times, thickness, strict=True)])
+    return thickness, volume, bed
 
 
-def exact_base(number: float, start: float) -> np.ndarray:
-    """Return the basal pressure at the steps after erosion stopped [Pa]."""
-    node, weight = np.polynomial.legendre.leggauss(2500)
-    stretched = 0.5 * (node + 1.0)
-    eta, weight = 1.0 - stretched**3, 1.5 * stretched**2 * weight  # crowded at the base
-    waves = (np.arange(800) + 0.5) * np.pi
-    profile = growing_column(1.0 - eta, 1.0 / number, number, start)
-    amplitude = 2.0 * np.sin(np.outer(waves, eta)) @ (profile * weight) * np.sin(waves)
-    passed = np.arange(1, AFTER * STEPS + 1) / STEPS / number / 4.0  # c_v t / h^2 with h = 2 h_0
-    return np.exp(-np.outer(passed, waves**2)) @ amplitude
+class Run:
+    """Columns of a case, some for each of given Peclet numbers."""
+
+    def __init__(self, case, scheme, levels, peclet, each=1):
+        self.case, self.law, self.peclet = case, law_of(case, scheme, levels), np.repeat(peclet, each)
+        self.thickness, self.volume, self.bed = history(case)
+        eta, count = np.linspace(1.0, 0.0, levels), self.peclet.size
+        start = {"cold": 0.0 * eta, "warm": np.where(eta > 0.0, 1.0, 0.0), "linear": case.start_base * eta}[case.start]
+        self.state = ColumnState(np.tile(start, (count, 1)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+        self.base, self.at = np.zeros(count), 0
+        self.advance(0)
+
+    def forcing(self, k):
+        """Return what a law is told of step ``k``."""
+        entrained = self.volume[k] - self.volume[k - 1] if k else 0.0
+        if entrained < 1e-13:  # rounding
+            entrained = 0.0
+        ones = np.ones_like(self.base)
+        load = self.thickness[k] if self.case.base_pressure(0.5, 2.0) != 1.0 else 1.0
+        return ColumnForcing(
+            self.volume[k] * ones, self.thickness[k] * ones, load * ones, entrained * ones, self.bed[k : k + 1], BOTH,
+            np.zeros(1), 1.0 / self.peclet, 0.0, False,
+        )  # fmt: skip
+
+    def advance(self, k):
+        """Take step ``k``."""
+        self.law.advance(self.state, self.forcing(k), 1.0 / PER_UNIT if k else 0.0, self.base)
+        self.at = k
+
+    def mean(self):
+        """Return the depth mean of the profiles, which stay as they are."""
+        copy = ColumnState(*(array.copy() for array in self.state))
+        self.law.synchronise(copy, self.forcing(self.at))
+        return (copy.profile[:, 1:-1].sum(axis=1) + 0.5 * copy.profile[:, 0]) / (copy.profile.shape[1] - 1)
 
 
-def friction_base(levels: int, start: float) -> np.ndarray:
-    """Return the same as the law gives it, shape (time, column) [Pa]."""
-    law, count = ALE(levels=levels, loading_source="none"), PECLET.size
-    state, base, history = columns(count, levels, start), np.zeros(count), []
-    load, ratio = np.full(count, HEAVY), np.ones(count)
-    for number_of_step in range(1, (1 + AFTER) * STEPS + 1):
-        volume = np.full(count, 1.0 + min(number_of_step, STEPS) / STEPS)
-        entrained = np.full(count, 1.0 / STEPS if number_of_step <= STEPS else 0.0)
-        # time in units of the erosion time: c_v = h_0^2 / Pe, here by the thickness
-        forcing = step(volume, np.sqrt(PECLET) * volume, load, entrained, ratio)
-        law.advance(state, forcing, 1.0 / STEPS, base)
-        history.append(base.copy())
-    return np.array(history[STEPS:])
+def affordable(scheme, levels):
+    """Return which Peclet numbers an explicit scheme is run at."""
+    if scheme != "lax_wendroff":
+        return np.ones(PECLET.size, bool)
+    return 2.0 * (levels - 1) ** 2 / PECLET / PER_UNIT < DEAREST
 
 
-def cost(levels: int, number: float, count: int = 5000) -> tuple[float, float]:
-    """Return the CPU time while eroding and after it [ns per column and step]."""
-    law = ALE(levels=levels, loading_source="none")
+def errors(name, scheme, levels):
+    """Return the worst error of the basal pressure and of the depth mean, each by Peclet number."""
+    case, used = CASES[name], affordable(scheme, levels)
+    run = Run(case, scheme, levels, PECLET[used])
+    stored = dict(zip(REFERENCE[f"{name}/steps"].tolist(), range(10**6), strict=False))
+    base, mean = np.full((2, PECLET.size), np.nan)
+    base[used] = mean[used] = 0.0
+    for k in range(1, run.volume.size):
+        run.advance(k)
+        if (at := stored.get(k)) is None:
+            continue
+        exact = REFERENCE[f"{name}/p_base"][at, used]
+        base[used] = np.fmax(base[used], np.abs(run.base - exact) / run.bed[k])
+        if k % 20 == 0:
+            exact = REFERENCE[f"{name}/depth_mean"][at, used]
+            mean[used] = np.fmax(mean[used], np.abs(run.mean() - exact) / run.bed[k])
+    return base, mean
+
+
+def cost(name, scheme, levels, peclet, repeats=5):
+    """Return the CPU time per column and step [ns]."""
+    substeps = 2.0 * (levels - 1) ** 2 / peclet / PER_UNIT
+    count = max(2, int(4000 / (1.0 + substeps))) if scheme == "lax_wendroff" else 2000
     times = []
-    for _ in range(5):
-        state, base = columns(count, levels, 0.0), np.zeros(count)
-        load, ratio = np.full(count, HEAVY), np.ones(count)
-        marks = [time.process_time()]
-        for entrained in (np.full(count, 1.0 / STEPS), np.zeros(count)):
-            for number_of_step in range(STEPS):
-                volume = np.full(count, 1.0 + (number_of_step + 1) / STEPS if entrained[0] else 2.0)
-                forcing = step(volume, np.sqrt(number) * volume, load, entrained, ratio)
-                law.advance(state, forcing, 1.0 / STEPS, base)
-            marks.append(time.process_time())
-        times.append(np.diff(marks) / count / STEPS * 1e9)
-    return tuple(statistics.median(column) for column in zip(*times, strict=True))
-
-
-def lump(levels: int, erodes: bool, count: int = 2000) -> float:
-    """Return the CPU time of advancing one column [ns]."""
-    law, state, base = ALE(levels=levels), columns(count, levels, 0.5), np.zeros(count)
-    volume, load, ratio, times = np.ones(count), np.full(count, HEAVY), np.full(count, 0.5), []
-    for _ in range(60):
-        volume = volume * (1.01 if erodes else 1.0)
-        entrained = volume * (1.0 - 1.0 / 1.01) if erodes else np.zeros(count)
-        forcing = step(volume, np.ones(count), load, entrained, ratio)
-        before = time.process_time()
-        law.advance(state, forcing, 0.1, base)  # one step of 0.1 h^2/c_v: always due
-        times.append((time.process_time() - before) / count * 1e9)
+    for _ in range(repeats if substeps < 10.0 or scheme != "lax_wendroff" else 1):
+        run = Run(CASES[name], scheme, levels, np.array([peclet]), count)
+        told = [run.forcing(k) for k in range(run.volume.size)]
+        begin = time.process_time()
+        for forcing in told[1:]:
+            run.law.advance(run.state, forcing, 1.0 / PER_UNIT, run.base)
+        times.append((time.process_time() - begin) / count / (len(told) - 1) * 1e9)
     return statistics.median(times)
 
 
 def main() -> None:
-    exact = {start: np.array([exact_base(number, start) for number in PECLET]).T for start in (0.0, 1.0)}
-    print(
-        "levels | worst error, cold  warm |"
-        " ns eroding / after, Pe =  1        10       100      1000 | lump eroding / not"
-    )
-    for levels in (11, 21, 41):
-        error = [np.abs(friction_base(levels, start) - exact[start]).max() for start in (0.0, 1.0)]
-        costs = "  ".join("{:3.0f} / {:3.0f}".format(*cost(levels, number)) for number in (1.0, 10.0, 100.0, 1000.0))
-        print(
-            f"{levels:6d} |          {error[0]:.1e}  {error[1]:.1e} |                  {costs} |"
-            f" {lump(levels, True):.0f} / {lump(levels, False):.0f}"
-        )
+    lines, worst, dear = [], {}, {}
+
+    def put(line):
+        print(line, flush=True)
+        lines.append(line)
+
+    put(f"error of p_b over the bed's, worst of the flow steps and of Pe = {PECLET[0]:g} ... {PECLET[-1]:g} / of the mean")
+    put("case                               " + "".join(f"{s} {n}".rjust(20) for s in SCHEMES for n in LEVELS))
+    for name in CASES:
+        row = []
+        for scheme in SCHEMES:
+            for levels in LEVELS:
+                if scheme == "lax_wendroff" and levels == 41 and not name.startswith("A"):
+                    row.append("-")
+                    continue
+                base, mean = errors(name, scheme, levels)
+                worst[name, scheme, levels] = base, mean
+                row.append(f"{np.nanmax(base):.1e} / {np.nanmax(mean):.1e}")
+        put(f"{name:35s}" + "".join(text.rjust(20) for text in row))
+    put("")
+    for name in ("A_cold", "D_switches", "E_swing_overburden"):
+        put(f"ns per column and step, {name}; Pe = " + "  ".join(f"{number:g}" for number in PECLET))
+        for levels in LEVELS:
+            for scheme in SCHEMES:
+                if scheme == "lax_wendroff" and (levels == 41 or name != "A_cold"):
+                    continue
+                used = affordable(scheme, levels)
+                found = [cost(name, scheme, levels, number) if ok else math.nan for number, ok in zip(PECLET, used, strict=True)]
+                dear[name, scheme, levels] = np.array(found)
+                put(f"  {levels:3d} {scheme:14s}" + "".join(f"{value:10.1f}" for value in found))
+    put("")
+    for levels in LEVELS:
+        put(f"{levels} levels: {8 * (levels + COLUMN_MEMORY + 2)} bytes per column, its basal pressure included")
+    many = Run(CASES["A_cold"], "default", 11, np.array([10.0]), 1_000_000)
+    begin = time.process_time()
+    for k in range(1, 21):
+        many.advance(k)
+    put(f"1e6 columns, 11 levels, 20 steps with their forcing: {(time.process_time() - begin) / 20e6 * 1e9:.0f} ns each")
+    Path(__file__).with_suffix(".txt").write_text("\n".join(lines) + "\n")
+    draw(worst, dear)
+
+
+def draw(worst, dear) -> None:
+    """Draw error against cost and against the Peclet number."""
+    figure, axes = plt.subplots(1, 3, figsize=(15, 5), constrained_layout=True)
+    colours = dict(zip(SCHEMES, ("tab:blue", "tab:cyan", "tab:orange", "tab:red"), strict=True))
+    marks = {11: "o", 21: "s", 41: "^"}
+    for scheme in SCHEMES:
+        for levels in LEVELS:
+            if ("A_cold", scheme, levels) not in dear:
+                continue
+            times = dear["A_cold", scheme, levels]
+            bases = np.maximum(worst["A_cold", scheme, levels][0], worst["A_warm", scheme, levels][0])
+            axes[0].plot(times, np.maximum(bases, 1e-5), marks[levels], color=colours[scheme], alpha=0.7, label=f"{scheme}, {levels}")
+    for scheme in SCHEMES:
+        for levels, style in ((11, "-"), (41, ":")):
+            for axis, which in ((axes[1], 0), (axes[2], 1)):
+                found = [value[which] for (_, s, n), value in worst.items() if (s, n) == (scheme, levels)]
+                found = np.nanmax(found, axis=0) if found else np.full(PECLET.size, np.nan)
+                axis.plot(PECLET, np.maximum(found, 1e-5), style, marker=".", color=colours[scheme], label=f"{scheme}, {levels}")
+    axes[0].plot([15.0], [4e-3], "k*", ms=12, label="aim at 11 levels")
+    axes[0].plot([25.0], [1.5e-3], "k+", ms=12, mew=2, label="aim at 21 levels")
+    axes[0].set(xscale="log", yscale="log", xlabel="CPU time per column and step (ns)", ylabel="worst error of the basal pressure (-)",
+                title="One stop of erosion, one mark per Peclet number")  # fmt: skip
+    axes[1].set(xscale="log", yscale="log", xlabel="Peclet number (-)", ylabel="worst error of the basal pressure (-)", title="All cases")
+    axes[2].set(xscale="log", yscale="log", xlabel="Peclet number (-)", ylabel="worst error of the depth mean (-)", title="All cases")
+    axes[0].legend(fontsize=7, title="scheme, levels")
+    axes[1].legend(fontsize=7, title="scheme, levels")
+    figure.savefig(Path(__file__).parents[1] / "docs" / "column.png", dpi=110)
 
 
 if __name__ == "__main__":

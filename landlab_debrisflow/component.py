@@ -190,8 +190,9 @@ class DebrisFlow(Component):
 
     @property
     def columns(self):
-        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), now."""
-        return columns_dataset(self._simulation.columns_now(), self.elapsed_time)
+        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), and what shapes it."""
+        sim, c_v = self._simulation, self._physics.material.coefficient_of_consolidation
+        return columns_dataset(sim.columns_now(), sim.particles, c_v, self.elapsed_time)
 
     @property
     def maps(self):

@@ -81,7 +81,7 @@ class Simulation:
         least = THICKNESS_RANGE * normal.max()
         first = p.count
         p.append(
-            count, x=x, y=y, z=ground[0], volume=each, depth=here, thickness=normal,
+            count, x=x, y=y, z=ground[0], volume=each, released_volume=each, depth=here, thickness=normal,
             least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
         )  # fmt: skip
         self._find_everything(FIRST_SWEEPS)

@@ -58,6 +58,7 @@ def entrain(sim, dt: float):
     wanted = p.entrainment_rate * p.volume / p.depth * dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x, p.y, p.spread, wanted)
     p.entrainment_rate[:] = sim.granted * p.depth / (p.volume * dt)
+    p.first_erosion_time[(sim.granted > 0.0) & np.isnan(p.first_erosion_time)] = sim.time
     before = p.volume.copy()
     p.volume += sim.granted
     return before / p.volume

@@ -5,6 +5,7 @@ import xarray as xr
 
 from ..core.parameters import describe
 from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX, PARTICLE_VARIABLES
+from ..physics.column.peclet import consolidation_time, erosion_time
 
 
 def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
@@ -25,16 +26,31 @@ def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
     return xr.Dataset(data, {"particle": np.arange(particles.count)}, {"elapsed_time [s]": time})
 
 
-def columns_dataset(profile, time: float) -> xr.Dataset:
+def columns_dataset(profile, particles, coefficient_of_consolidation: float, time: float) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa]."""
     n, levels = profile.shape
+    p, grown = particles, particles.volume / particles.released_volume
+    data = {
+        "thickness": (p.thickness.copy(), "m", "slope-normal thickness"),
+        "consolidation_time": (
+            consolidation_time(p.thickness, coefficient_of_consolidation), "s",
+            "thickness squared over coefficient of consolidation",
+        ),
+        "erosion_time": (erosion_time(p.depth, p.entrainment_rate), "s", "thickness over erosion rate"),
+        "basal_peclet_number": (p.basal_peclet_number.copy(), "-", "consolidation time over erosion time, of the last erosion"),
+        "initial_peclet_number": (p.basal_peclet_number / grown, "-", "the same with the thickness before any erosion"),
+        "front_height": (1.0 - 1.0 / grown, "-", "height over thickness of the front between released and eroded soil"),
+        "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
+        "clipped_pressure": (p.column_clipped.copy(), "Pa m", "pressure taken off by the bounds times thickness, so far"),
+    }
     level = xr.DataArray(
         np.linspace(0.0, 1.0, levels), dims="level",
         attrs=_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface"),
     )  # fmt: skip
     words = _attributes("Pa", "excess pore pressure")
     return xr.Dataset(
-        {"excess_pore_pressure": (("particle", "level"), profile, words)},
+        {"excess_pore_pressure": (("particle", "level"), profile, words)}
+        | {name: ("particle", values, _attributes(unit, text)) for name, (values, unit, text) in data.items()},
         {"particle": np.arange(n), "level": level},
         {"elapsed_time [s]": time},
     )
@@ -60,7 +76,7 @@ def maps_dataset(grid, physics, numerics, budget, time: float) -> xr.Dataset:
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(physics, kind)
         attributes[kind] = type(law).__name__
-        attributes |= {f"{kind} {key}": value for key, value in describe(law).items()}
+        attributes |= {f"{kind} {key}": _plain(value) for key, value in describe(law).items()}
     attributes |= {f"numerics {key}": _plain(value) for key, value in describe(numerics).items()}
     return xr.Dataset(data, coordinates, attributes)
 

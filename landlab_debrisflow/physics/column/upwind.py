@@ -11,7 +11,7 @@ and leaves through the surface is what the content changes by, to rounding.
 import numpy as np
 
 from ...core.jit import kernel
-from .lax_wendroff import CONTACT, GROWTH, INFLOW, PASSED, PRESCRIBED, begin_step, end_step
+from .every_step import CONTACT, GROWTH, INFLOW, PASSED, PRESCRIBED, begin_step, end_step
 
 
 @kernel

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from scipy.special import erfc
 
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.physics.column import ALE, Classical
@@ -45,16 +46,27 @@ def test_order_in_levels(scheme, number, times, cells, order):
 
 @both
 @pytest.mark.parametrize("coefficient", [0.0, 1e-4, 1.0])
-@pytest.mark.parametrize("ratio, strain", [(0.65, 0.0), (1.0, 0.03)])
-def test_a_constant_ratio_survives_erosion(scheme, coefficient, ratio, strain):
-    """p = r_b rho' g y, and liquefied columns under strain too; upwind has its error where it does not diffuse."""
-    columns = loaded(ALE(scheme=scheme), ratio * eta(11), coefficient)
+@pytest.mark.parametrize("ratio, by, strain", [(0.6, "overburden", 0), (1, "overburden", 3), (0.6, "proportional", 3)])
+def test_a_constant_ratio_survives_erosion(scheme, coefficient, ratio, by, strain):
+    """p = r_b rho' g y, under strain too where it should; upwind has its error where it does not diffuse."""
+    columns = loaded(ALE(scheme=scheme, loading_source=by), ratio * eta(11), coefficient)
+    columns.state.memory[:] = 0.0  # a new column may erode in its first step
     for step in range(300):
         burst = 0.3 * (step == 150 and scheme == LAX_WENDROFF)  # in three sub-steps
-        columns.step(0.05, 1e-3 * (1.0 + np.sin(0.1 * step) ** 2) + burst, strain * np.cos(0.3 * step), ratio)
+        columns.step(0.05, 1e-3 * (1.0 + np.sin(0.1 * step) ** 2) + burst, 0.01 * strain * np.sin(0.3 * step), ratio)
     atol = ROUNDING if scheme == LAX_WENDROFF else (1e-5 if coefficient == 1.0 else 2e-2)
     assert_allclose(columns.profile()[0], ratio * columns.load * eta(11), atol=atol * columns.load[0])
     assert_array_equal(columns.base, columns.bed)
+
+
+def test_lax_wendroff_moves_a_prescribed_base_evenly():
+    """From 1 Pa to 0 in one step of many sub-steps, below 0.2 Pa that a change of porosity made."""
+    columns, z = unloaded(LAX_WENDROFF, eta(41), 1.0), (1.0 - eta(41)) / np.sqrt(0.08)
+    columns.standing[0], columns.source[0] = BASE_PRESCRIBED, 10.0
+    columns.step(0.0, **UNIT)
+    columns.step(0.02, ratio=0.0, load=UNIT["load"])
+    fallen = (1.0 + 2.0 * z**2) * erfc(z) - 2.0 * z * np.exp(-(z**2)) / np.sqrt(np.pi)
+    assert_allclose(columns.profile()[0], eta(41) - fallen + 0.2 * (1.0 - erfc(z) - erfc(z[::-1])), atol=0.015)
 
 
 @both
@@ -126,8 +138,7 @@ def test_only_the_literal_source_makes_pressure_out_of_nothing(scheme, literal):
     for _ in range(400):
         columns.step(0.05, entrained=0.0025, ratio=0.0)
     exact = literal * 2.0 * eta(41) * -np.log(np.maximum(0.5, eta(41)))  # with a kink at h_0
-    atol = {LAX_WENDROFF: 0.03, UPWIND: 0.08}[scheme] if literal else ROUNDING
-    assert_allclose(columns.profile()[0] / LOAD_PER_METRE, exact, atol=atol)
+    assert_allclose(columns.profile()[0] / LOAD_PER_METRE, exact, atol=0.08 if literal else ROUNDING)
 
 
 @both
@@ -137,15 +148,16 @@ def test_porosity_and_a_base_that_is_prescribed(scheme):
     columns.source[0] = 2.0
     assert columns.step(0.25, load=UNIT["load"])[0] == 0.5
     columns.standing[0] = BASE_PRESCRIBED
-    for pressure in (1.0, 0.0):
-        assert columns.step(0.25, ratio=1e-9 * pressure, load=UNIT["load"])[0] == pressure
-    assert_array_equal(columns.profile()[0], 1.5 * (eta(11) % 1.0 > 0.0))
+    assert columns.step(0.25, ratio=0.0, load=UNIT["load"])[0] == 0.0
+    assert_array_equal(columns.profile()[0], eta(11) % 1.0 > 0.0)
 
 
 @both
 def test_what_is_clipped_is_counted(scheme):
     columns = loaded(ALE(scheme=scheme), np.zeros(11))
-    columns.step(0.1, strain=-0.9)
+    columns.step(0.1, strain=-0.501)  # within WATER_TO_BUOYANT
+    assert columns.state.clipped[0] == 0.0
+    columns.step(0.1, strain=0.1 / 0.499 - 1.0)
     low = -WATER_TO_BUOYANT * columns.load * eta(11)
     removed = 0.1 * 0.5 * (low[0] + 0.9 * LOAD_PER_METRE)  # half a cell at the base: eta has the mean 0.5
     assert_allclose(columns.state.clipped[0], removed, rtol=ROUNDING)
@@ -185,14 +197,3 @@ def test_the_classical_column_does_not_advect(scheme):
     columns = loaded(Classical(scheme=scheme), 0.65 * eta(11) ** 2)
     columns.step(0.05, entrained=2.0)
     assert_allclose(columns.profile()[0, 1:] / LOAD_PER_METRE, 0.65 * eta(11)[1:] ** 2, atol=ROUNDING)
-
-
-@both
-def test_soil_in_the_first_call_and_neighbours(scheme):
-    """A column whose first call entrains is as one that was known; columns do not mix."""
-    start = np.array([0.65, 0.1])[:, None] * LOAD_PER_METRE * eta(11) ** 2
-    known, new = loaded(ALE(scheme=scheme), 0.1 * eta(11) ** 2), Columns(ALE(scheme=scheme), start, np.ones(2))
-    new.state.memory[:] = 0.0
-    known.step(0.1, entrained=0.2)
-    new.step(0.1, entrained=np.array([0.0, 0.2]))
-    assert_allclose(new.profile(), [start[0], known.profile()[0]], rtol=ROUNDING)
