@@ -14,7 +14,7 @@ How the paper was read where it leaves a choice:
 - Pressure: over p_b, which is 1 in the paper's unit rho_w g h0.
 - Péclet number: e_R h0/c_v, with the initial thickness; that of figure 8 is 0.01, which is printed as 001.
 - Times: those of figure 7 are used in figures 8 and 9 too, for which the text names none but 0.5.
-- Figure 6 is a sketch, with one time and without numbers: times are ours.
+- Figure 6 is a sketch with one time, as far as its caption tells; times here are ours.
 """
 
 import argparse
@@ -27,7 +27,7 @@ from matplotlib.lines import Line2D
 from rich.console import Console
 from rich.table import Table
 
-from landlab_debrisflow import InputError, solve_column
+from landlab_debrisflow import InputError, ParameterError, solve_column
 from landlab_debrisflow.physics.column.analytic import front, growing_column
 from landlab_debrisflow.record.files import check_writable
 from landlab_debrisflow.record.plots import save_figure
@@ -41,11 +41,12 @@ TIMES = (0.01, 0.05, 0.1, 0.5, 1.0, 5.0)
 """Of figures 7 to 9, over the consolidation time [-]."""
 
 PECLET = {"Fig. 7": 10.0, "Fig. 8": 0.01, "Fig. 9": 1.0}
+REGIME = {"Fig. 7": "mostly advection", "Fig. 8": "mostly diffusion", "Fig. 9": "both"}
 
 FRONT_TIMES = (0.25, 1.0, 3.0)
 """Of the profiles of figure 6 (A), over the erosion time [-]."""
 
-FRONT_PATH = np.arange(0.25, 4.01, 0.25)
+FRONT_PATH = np.array([0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0])
 """Of the fronts of figure 6 (B), over the erosion time [-]; those of the profiles are among them."""
 
 MEASURES = {
@@ -160,16 +161,17 @@ def draw(advection, profiles, levels):
     lower = figure.add_subplot(parts[1], sharex=upper)
     draw_fronts(upper, advection)
     draw_characteristics(lower, advection)
-    titles = {
-        "Fig. 7": "Fig. 7: advection dominates, Pe = 10",
-        "Fig. 8": "Fig. 8: diffusion dominates, Pe = 0.01",
-        "Fig. 9": "Fig. 9: both, Pe = 1",
-    }
     cells = dict(zip(profiles, (grid[0, 1], grid[1, 0], grid[1, 1]), strict=True))
     for name, column in profiles.items():
         axes = figure.add_subplot(cells[name])
         draw_profiles(axes, column, PECLET[name])
-        axes.set_title(titles[name], fontsize="medium")
+        grown = float(column.thickness[-1, 0]) / THICKNESS
+        axes.set_title(
+            f"{name}: Pe = {PECLET[name]:g}, {REGIME[name]}; $h$ grows to {grown:.3g} $h_0$", fontsize="medium"
+        )
+        if name == "Fig. 8":
+            words = "$t/T_c$ = 0.5, 1 and 5 are all\nclose to $p/p_b = 1 - x/h$"
+            axes.text(0.97, 0.9, words, ha="right", va="top")
     add_legend(figure, levels)
     figure.suptitle("Excess pore pressure in a column that erodes: Pastor et al. (2022), figures 6 to 9")
     return figure
@@ -178,9 +180,8 @@ def draw(advection, profiles, levels):
 MARKERS = "os^Dv*"
 
 
-def colours(count):
-    """Return as many colours, from dark to light."""
-    return colormaps["plasma"](np.linspace(0.0, 0.82, count))
+COLOURS = colormaps["plasma"](np.linspace(0.0, 0.82, len(TIMES)))
+FRONT_COLOURS = "tab:blue", "tab:green", "tab:brown"  # other times, other colours
 
 
 def marked(colour, marker):
@@ -191,13 +192,15 @@ def marked(colour, marker):
 def draw_fronts(axes, column):
     """Figure 6 (A): pressure over depth, a front that travels away from the base."""
     depth = 1.0 - column.level.values
-    for time, colour, marker in zip(FRONT_TIMES, colours(3), MARKERS, strict=False):
+    for time, colour, marker in zip(FRONT_TIMES, FRONT_COLOURS, MARKERS, strict=False):
         y = 1.0 - front(time)
         axes.plot([0.0, y, y, 1.0], [0.0, 0.0, 1.0, 1.0], color=colour)
-        axes.plot(depth, pressure(column)[FRONT_PATH == time][0], **marked(colour, marker))
+        axes.plot(depth, pressure(column)[time == FRONT_PATH][0], **marked(colour, marker))
+        axes.text(y + 0.01, 0.22, f"$t/T_e$ = {time:g}", color=colour)
+    axes.text(0.02, 0.85, "(A)")
     axes.set(ylabel="pressure $p/p_b$ [-]", xlim=(0.0, 1.0), ylim=(-0.06, 1.06))
     axes.tick_params(labelbottom=False)
-    axes.set_title("Fig. 6: advection alone, Pe = ∞", fontsize="medium")
+    axes.set_title("Fig. 6: Pe = ∞, advection alone; (A) front, (B) characteristics", fontsize="medium")
 
 
 def draw_characteristics(axes, column):
@@ -211,18 +214,22 @@ def draw_characteristics(axes, column):
     axes.plot(1.0 - front(times), times, color="k")
     level = column.level.values
     for time, profile in zip(FRONT_PATH, pressure(column), strict=True):
+        colour = dict(zip(FRONT_TIMES, FRONT_COLOURS, strict=True)).get(time, "0.45")
         ends = [1.0 - height_where(profile, level, value) for value in (0.1, 0.9)]
-        axes.plot(ends, [time, time], color="k", lw=0.8)
-        axes.plot(1.0 - height_where(profile, level, 0.5), time, **marked("k", "o"))
-    for time, colour in zip(FRONT_TIMES, colours(3), strict=True):
-        axes.axhline(time, color=colour, ls=":")
-    axes.set(xlabel="depth below the surface $y/h$ [-]", ylabel="time $t/T_e$ [-]", ylim=(0.0, 4.1))
+        axes.plot(ends, [time, time], color=colour, lw=1.2)
+        axes.plot(1.0 - height_where(profile, level, 0.5), time, **marked(colour, "o"))
+    box = {"boxstyle": "square,pad=0.2", "fc": "w", "ec": "none"}
+    axes.text(0.02, 3.5, "(B)", bbox=box)
+    axes.text(0.03, 0.35, "old soil, $p = 0$", bbox=box)
+    axes.text(0.97, 2.55, "new soil, $p = p_b$", ha="right", bbox=box)
+    axes.text(0.97, 3.4, "bars: $0.1 < p/p_b < 0.9$", ha="right", bbox=box)
+    axes.set(xlabel="depth below the surface $y/h$ [-]", ylabel="time $t/T_e$ [-]", ylim=(0.0, 4.2))
 
 
 def draw_profiles(axes, column, number):
     """Figures 7 to 9: pressure over height, with the base on the left."""
     xi = np.linspace(0.0, 1.0, 1001)
-    for k, (time, colour) in enumerate(zip(TIMES, colours(len(TIMES)), strict=True)):
+    for k, (time, colour) in enumerate(zip(TIMES, COLOURS, strict=True)):
         axes.plot(xi, growing_column(xi, time, number), color=colour)
         axes.plot(column.level, pressure(column)[k], **marked(colour, MARKERS[k]))
     axes.set(
@@ -231,11 +238,18 @@ def draw_profiles(axes, column, number):
 
 
 def add_legend(figure, levels):
-    """Put one legend for figures 7 to 9 below all panels, where it hides nothing."""
-    handles = [Line2D([], [], color="0.3", label="closed form"), Line2D([], [], label=f"{levels} levels", **marked("0.3", "o"))]
-    for time, colour, marker in zip(TIMES, colours(len(TIMES)), MARKERS, strict=True):
+    """Put one legend below all panels, where it hides nothing; its times are those of figures 7 to 9."""
+    handles = [
+        Line2D([], [], color="0.3", label="closed form"),
+        Line2D([], [], label=f"solve_column,\n{levels} levels", **marked("0.3", "o")),
+    ]
+    for time, colour, marker in zip(TIMES, COLOURS, MARKERS, strict=True):
         handles.append(Line2D([], [], color=colour, marker=marker, mfc="none", label=f"$t/T_c$ = {time:g}"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize="small", frameon=False)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=len(handles), fontsize="small", frameon=False,
+        title="$T_c = h_0^2/c_v$,  $T_e = h_0/e_R$,  Pe $= T_c/T_e$;  $h = h_0 + e_R t$ is the present thickness, "
+        "$p_b$ the excess pore pressure of the bed", title_fontsize="small",
+    )  # fmt: skip
 
 
 if __name__ == "__main__":
@@ -245,5 +259,5 @@ if __name__ == "__main__":
     words = parser.parse_args()
     try:
         main(words.output, words.levels)
-    except InputError as error:
+    except (InputError, ParameterError) as error:
         sys.exit(f"paper_columns: {error}")

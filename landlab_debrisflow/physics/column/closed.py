@@ -9,11 +9,11 @@ import math
 
 from ...core.jit import kernel
 from .memory import (
-    BEND, CONTACT, CLOSED, DIFFUSION, GAIN, HIGH, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE,
-    SLOPE, SWING, TAIL,
+    BEND, CLOSED, CONTACT, GAIN, HIGH, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE, SWING,
+    TAIL,
 )  # fmt: skip
 from .scheme import OVERBURDEN, PROPORTIONAL
-from .waves import BRIEF, IMPERMEABLE, limits, tail_left
+from .waves import BRIEF, IMPERMEABLE, OCTAVES, limits
 
 DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
 LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
@@ -41,8 +41,9 @@ def close(profile, memory, i, waves, work):
         for k in range(cells):
             amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
         profile[i, j] = amplitude
+    for octave in range(OCTAVES):
+        memory[i, TAIL + octave] = slope * waves.octaves[octave]
     memory[i, CONTACT] = CLOSED
-    memory[i, TAIL], memory[i, SLOPE], memory[i, DIFFUSION] = 0.0, slope * waves.pattern[IMPERMEABLE, 0], 0.0
     memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST] = low, high, least, most
     memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN], memory[i, SWING] = 0.0, 0.0, 1.0, 0.0, 0.0
     look(profile, memory, i, waves, work)
@@ -54,7 +55,9 @@ def open_up(profile, memory, i, waves, work):
     look(profile, memory, i, waves, work)
     cells = profile.shape[1] - 1
     levels = work[0]
-    tail = memory[i, TAIL] + memory[i, SLOPE] * tail_left(memory[i, DIFFUSION], cells, waves.tail[IMPERMEABLE])
+    tail = 0.0
+    for octave in range(OCTAVES):
+        tail += memory[i, TAIL + octave]
     tail /= waves.pattern[IMPERMEABLE, 0]
     low, high, least, most = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST]
     for k in range(cells):
@@ -96,14 +99,23 @@ def look(profile, memory, i, waves, work):
     else:
         for j in range(cells):
             profile[i, j] *= scale * factors[j]
-    # the tail of a ramp, as one wave of the rate that answers a slow one rightly
-    decay = decay * decay * decay
-    tail = memory[i, TAIL] * scale * decay + 0.5 * (1.0 + decay) * lift * waves.pattern[IMPERMEABLE, 0]
-    since = min(memory[i, DIFFUSION] + passed, DIFFUSION_CAP)
-    memory[i, TAIL], memory[i, DIFFUSION] = tail, since
-    memory[i, SLOPE] *= scale if tail_left(since, cells, waves.tail[IMPERMEABLE]) > 0.0 else 0.0
-    fast = 3.0 * (math.pi * (cells + 0.5)) ** 2
-    pressure, rate, bend, remainder = tail, fast * tail, fast * fast * tail, fast * fast * fast * abs(tail)
+    pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
+    square = waves.octave_rate
+    decay = math.exp(-square * passed)
+    for octave in range(OCTAVES):
+        x = square * passed
+        evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
+        amplitude = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
+        memory[i, TAIL + octave] = amplitude
+        first = square * amplitude
+        second = square * first
+        pressure += amplitude
+        rate += first
+        bend += second
+        remainder += square * abs(second)
+        decay *= decay
+        decay *= decay
+        square *= 4.0
     for j in range(cells):
         square, amplitude = squares[j], profile[i, j]
         first = square * amplitude
@@ -133,11 +145,10 @@ def gained_limits(memory, i):
 
 
 @kernel
-def closed_pressure(memory, i, passed, load, old_load, gain, loading, cells, kink):
+def closed_pressure(memory, i, passed, load, old_load, gain, loading):
     """Put one step on a column; return its pressure at the base, and by how much that may be wrong.
 
-    The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly; ``kink`` is how
-    the tail of a base that has just closed decays (`Waves.tail`).
+    The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly.
     """
     passed = min(memory[i, PASSED] + passed, DIFFUSION_CAP)
     lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN] + gain
@@ -152,8 +163,6 @@ def closed_pressure(memory, i, passed, load, old_load, gain, loading, cells, kin
     lost = LOSS * math.sqrt(passed)
     pressure = scale * (memory[i, PRESSURE] + passed * (memory[i, RATE] + passed * memory[i, BEND]))
     pressure += lift * max(1.0 - lost, 0.0) + gain
-    if memory[i, SLOPE] != 0.0:
-        pressure += memory[i, SLOPE] * scale * tail_left(memory[i, DIFFUSION] + passed, cells, kink)
     error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
     low, high, least, most = gained_limits(memory, i)
     return min(max(pressure, low, least), high, most), error

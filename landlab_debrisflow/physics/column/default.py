@@ -17,12 +17,11 @@ from .memory import (
     BASE, BED_PRESSURE, CLOSED, CONTACT, CURRENT_LOAD, DIFFUSION, ERODING, FLUX, HELD, JUST, LEVELS, LOAD, OWED, SEALED,
     SOURCE, TOUCHED, VOLUME,
 )  # fmt: skip
-from .waves import IMPERMEABLE
 
 STRIDE = 1.5  # growth of a column in one advance over the square root of the tolerance (benchmarks/column.py)
 LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
 BED_SHARE = 0.25  # of that growth: pressure of the bed or by a source since the last advance, over the load
-GRADED = 0.25  # growth in one advance over that since the base changed: the layer over it is young at first
+GRADED = 0.5  # growth in one advance over that since the base changed: the layer over it is young at first
 LAYER_CELLS = 1.5  # of the layer over a base that has just changed, from which levels can follow it
 ROUNDING = 1e-9  # of the bounds, within which a wave need not be looked at
 
@@ -109,14 +108,13 @@ def account(memory, forcing, dt, basal_pressure, scheme, due):
     entrained, beds, sources = forcing.entrained, forcing.bed_pressure, forcing.porosity_source
     coefficients, lower, bounded = forcing.coefficient_of_consolidation, forcing.water_to_buoyant, forcing.bounded
     loading, tolerance, stride, count = scheme.loading, scheme.tolerance, STRIDE * math.sqrt(scheme.tolerance), 0
-    kink, cells = scheme.waves.tail[IMPERMEABLE], scheme.waves.eta.size
     for i in range(basal_pressure.size):
         volume, load, old_load = volumes[i], loads[i], memory[i, CURRENT_LOAD]
         coefficient, gain = coefficients[min(i, coefficients.size - 1)], sources[min(i, sources.size - 1)] * dt
         passed = passed_in(coefficient * dt, thicknesses[i], volume, volume - entrained[i])
         memory[i, CURRENT_LOAD] = load
         if memory[i, CONTACT] == CLOSED:
-            pressure, error = closed_pressure(memory, i, passed, load, old_load, gain, loading, cells, kink)
+            pressure, error = closed_pressure(memory, i, passed, load, old_load, gain, loading)
             is_due = error > LOOK_SHARE * tolerance * load
             if bounded:
                 is_due |= beyond(memory, i, load, lower)
@@ -160,8 +158,7 @@ def advance_due(columns, i, forcing, scheme, work):
             open_up(profile, memory, i, waves, work)
             hold(columns, i, load, thickness, lower)
             close(profile, memory, i, waves, work)
-        cells, kink = waves.eta.size, waves.tail[IMPERMEABLE]
-        pressure, _ = closed_pressure(memory, i, 0.0, load, load, 0.0, scheme.loading, cells, kink)
+        pressure, _ = closed_pressure(memory, i, 0.0, load, load, 0.0, scheme.loading)
         return min(max(pressure, -lower * load), load) if forcing.bounded else pressure
     if contact == SEALED:
         memory[i, BASE] = memory[i, BED_PRESSURE] = profile[i, 0]

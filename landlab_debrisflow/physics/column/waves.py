@@ -17,6 +17,7 @@ from ...core.jit import kernel
 
 IMPERMEABLE, PRESCRIBED = 0, 1
 TAIL_END, TAIL_POINTS = 1.6, 256  # the table of the tail runs over sqrt(c_v t / h^2) * cells: exp(-pi^2 1.6^2) = 1e-11
+OCTAVES = 4  # of waves too short for the levels, seen at an impermeable base
 BRIEF = 1e-6  # c_v t / h^2 below which the gain of a wave is taken as linear in time (its formula cancels)
 
 
@@ -31,6 +32,8 @@ class Waves(NamedTuple):
     tail: np.ndarray  # (2, points): how that part decays
     eta: np.ndarray  # (levels but the surface,)
     squares: np.ndarray  # (waves,), squared wave numbers over an impermeable base
+    octaves: np.ndarray  # (OCTAVES,), what eta has at an impermeable base of the waves too short for the levels, by octave
+    octave_rate: float  # at which the first of these decays; the next four times as fast, and so on
 
 
 @lru_cache(maxsize=8)
@@ -67,7 +70,17 @@ def waves_of(levels: int) -> Waves:
     return Waves(
         shapes, np.ascontiguousarray(project.transpose(0, 2, 1)), np.stack([ramp, ramp / squares], 1), np.stack([uniform, uniform / squares], 1), pattern,
         np.array([_tail(cells, kind) for kind in (IMPERMEABLE, PRESCRIBED)]), eta, squares[0],
+        _octaves(cells, pattern[IMPERMEABLE, 0]), 2.0 * (np.pi * cells) ** 2,
     )  # fmt: skip
+
+
+def _octaves(cells: int, whole: float) -> np.ndarray:
+    """Return what eta has at the base in octaves of waves, from the number of cells on; the last has all the rest."""
+    parts = [
+        np.sum(2.0 / ((np.arange(cells << octave, cells << octave + 1) + 0.5) * np.pi) ** 2)
+        for octave in range(OCTAVES - 1)
+    ]
+    return np.array([*parts, whole - sum(parts)])
 
 
 def _tail(cells: int, kind: int) -> np.ndarray:
