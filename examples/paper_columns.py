@@ -3,7 +3,7 @@
     python examples/paper_columns.py --output paper_columns.png
 
 A column without pressure, h0 thick, erodes at a constant rate e_R ground whose pressure is p_b. Lines are closed
-forms, markers numbers. All is the ALE model: the text of the paper has no classical model before its figure 17.
+forms, markers numbers. All is the ALE model: captions and text know no classical model in these figures.
 
 How the paper was read where it leaves a choice:
 

@@ -14,8 +14,8 @@ BOUNDS = {
     "Fig. 6 (A)": LEVEL,  # straight lines between levels cannot turn a step sharper than half a level
     "Fig. 6 (B)": 0.25 * LEVEL,  # the front travels without lag, but is seen through two or three levels
     "Fig. 7": 3e-2,  # at t/T_c = 0.01 the new soil is just one level thick
-    "Fig. 8": 5e-4,  # the modes decay without error in time; advection moves a grain by 5 % at most
-    "Fig. 9": 5e-3,  # smooth: second order in the distance of levels
+    "Fig. 8": 5e-4,  # nearly pure diffusion, whose modes decay without error; what is left comes from the time steps
+    "Fig. 9": 5e-3,  # smooth, but a column left alone until it is due may be off by about 0.3 (1/10)^2 = 3e-3
 }
 
 
@@ -40,8 +40,8 @@ def test_numbers_are_close_to_closed_forms(example, tmp_path, capsys):
 
 def test_more_levels_come_closer(example, capsys):
     coarse, fine = example.main(), example.main(levels=21)
-    for name in ("Fig. 6 (A)", "Fig. 6 (B)", "Fig. 7", "Fig. 9"):  # figure 8 is at its error in time already
-        assert fine[name] < 0.75 * coarse[name], name
+    for name in ("Fig. 6 (A)", "Fig. 6 (B)", "Fig. 7", "Fig. 9"):  # the error of figure 8 comes from the time steps
+        assert fine[name] < 0.8 * coarse[name], name
 
 
 def test_a_missing_folder_is_refused_before_anything_runs(example, tmp_path, monkeypatch):

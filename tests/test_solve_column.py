@@ -29,6 +29,8 @@ def profile(ds, column=0, time=-1):
 def test_growing_column(number, time, atol, advance):
     ds = solve_column(entrainment_rate=number, coefficient_of_consolidation=1.0, times=[time], advance=advance)
     exact = growing_column(ds.level.values, time, number)
+    if advance == "lazy":
+        atol += 3e-3  # the tolerance of the law at 11 levels
     assert_allclose(profile(ds)[1:], exact[1:], atol=atol)
     assert_allclose(profile(ds)[0], exact[0], atol=max(atol, 0.04))  # a level that fills only at first
     assert_allclose(ds.basal_excess_pore_pressure, 1.0, rtol=ROUNDING)
@@ -40,7 +42,7 @@ def test_units_do_not_matter():
         thickness=10.0, entrainment_rate=1e-4, coefficient_of_consolidation=1e-3, basal_pressure=6e4, times=[1e5]
     )
     assert_allclose(ds.initial_peclet_number, 1.0, rtol=ROUNDING)
-    assert_allclose(profile(ds) / 6e4, growing_column(ds.level.values, 1.0, 1.0), atol=3e-3)
+    assert_allclose(profile(ds) / 6e4, growing_column(ds.level.values, 1.0, 1.0), atol=6e-3)
 
 
 @pytest.mark.parametrize("loading_source", ["overburden", "proportional"])
@@ -462,3 +464,27 @@ def test_refusals(given, words):
         solve_column(**{"times": [10.0]} | given)
     assert words in str(refusal.value)
     assert isinstance(refusal.value, ValueError)
+
+
+@pytest.mark.parametrize("scheme", ["default", "upwind"])
+def test_soil_that_comes_in_over_an_impermeable_base_loads_nobody(scheme):
+    """It has the pressure of the base, which grows by nothing; old soil keeps its depth, where levels can see it."""
+    ds = solve_column(
+        coefficient_of_consolidation=0.0, basal_pressure=5.0, times=[100.0], initial="linear", initial_pressure=1.0,
+        base="impermeable", loading=1.0, levels=41, scheme=scheme,
+    )  # fmt: skip
+    pressure = ds.excess_pore_pressure.values[0, 0]
+    old = np.linspace(0.0, 1.0, 41) > 0.75  # the upper half is old soil; below it the kink is smoothed
+    assert_allclose(pressure[old], 2.0 * (1.0 - np.linspace(0.0, 1.0, 41))[old], atol=0.03)
+    assert np.all((pressure >= 0.0) & (pressure[0] < 3.0))
+
+
+@pytest.mark.parametrize("scheme", ["default", "upwind"])
+def test_over_a_flux_base_the_content_is_what_came_in_at_eleven_levels(scheme):
+    ds = solve_column(
+        coefficient_of_consolidation=0.0, basal_pressure=1.0, times=[50.0, 100.0, 300.0], bed_contact="flux",
+        scheme=scheme,
+    )  # fmt: skip
+    pressure = ds.excess_pore_pressure.values[:, 0]
+    content = (pressure[:, 1:].sum(axis=1) + 0.5 * pressure[:, 0]) / 10.0 * ds.thickness.values[:, 0]
+    assert_allclose(content, [0.5, 1.0, 3.0], atol=0.012)  # a quarter of a half cell, lost where the base fills it

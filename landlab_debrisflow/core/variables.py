@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-COLUMN_MEMORY = 22
+COLUMN_MEMORY = 26
 """Numbers a column law may keep per column from call to call."""
 
 

@@ -8,8 +8,9 @@ the column above goes with the square root of time.
 import math
 
 from ...core.jit import kernel
+from .layer import base_share, layer, wave_of_layer
 from .memory import (
-    BEND, CLOSED, CONTACT, GAIN, HIGH, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE, SWING,
+    BED_PRESSURE, BEND, CLOSED, CONTACT, GAIN, HIGH, LAYER, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE, SWING,
     TAIL,
 )  # fmt: skip
 from .scheme import OVERBURDEN, PROPORTIONAL
@@ -28,19 +29,37 @@ def base_slope(profile, i, cells):
 
 
 @kernel
-def close(profile, memory, i, waves, work):
-    """Turn the levels of one column into the waves it decays in over an impermeable base."""
+def close(profile, memory, i, jump, content, waves, work):
+    """Turn the levels of one column into the waves it decays in over an impermeable base.
+
+    Over the base there may be a layer that levels hardly see, of this ``jump`` and ``content`` (`eroding.bring`). It is
+    taken as what has diffused from a base held at that jump, and goes into the waves by itself.
+    """
     cells = profile.shape[1] - 1
+    passed = 0.25 * math.pi * content * content
+    bed = memory[i, BED_PRESSURE] if jump != 0.0 else profile[i, 0]
+    low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
+    if jump != 0.0:
+        profile[i, 0] -= jump * base_share(cells, 0.0, passed)
+        for k in range(1, cells if passed > 0.0 else 0):
+            profile[i, k] -= jump * layer(k / cells, 0.0, passed)
     slope = base_slope(profile, i, cells)
-    low, high, least, most = limits(profile, i, 0.0, 0.0, waves.eta)
-    levels = work[0]
+    levels, unseen = work[0], bed - profile[i, 0]
     for k in range(cells):
         levels[k] = profile[i, k] - slope * waves.eta[k]
     for j in range(cells):
         amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
         for k in range(cells):
             amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
+        if jump != 0.0:
+            part = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
+            amplitude, unseen = amplitude + part, unseen - part
         profile[i, j] = amplitude
+    for octave in range(OCTAVES):  # by the wave in its middle; the last has what is left
+        part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
+        part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), jump)
+        memory[i, LAYER + octave] = part
+        unseen -= part
     for octave in range(OCTAVES):
         memory[i, TAIL + octave] = slope * waves.octaves[octave]
     memory[i, CONTACT] = CLOSED
@@ -51,7 +70,7 @@ def close(profile, memory, i, waves, work):
 
 @kernel
 def open_up(profile, memory, i, waves, work):
-    """Turn the waves of one column into pressures at levels."""
+    """Turn the waves of one column into pressures at levels, which see of a thin layer no more than its content."""
     look(profile, memory, i, waves, work)
     cells = profile.shape[1] - 1
     levels = work[0]
@@ -105,8 +124,9 @@ def look(profile, memory, i, waves, work):
     for octave in range(OCTAVES):
         x = square * passed
         evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
-        amplitude = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
-        memory[i, TAIL + octave] = amplitude
+        memory[i, LAYER + octave] *= scale * decay
+        memory[i, TAIL + octave] = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
+        amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
         first = square * amplitude
         second = square * first
         pressure += amplitude

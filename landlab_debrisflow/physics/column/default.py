@@ -13,16 +13,17 @@ from ...core.jit import kernel
 from ..contracts import BASE_IMPERMEABLE, BASE_PRESCRIBED
 from .closed import DIFFUSION_CAP, close, closed_pressure, gained_limits, look, open_up
 from .eroding import bring
+from .layer import is_seen
 from .memory import (
     BASE, BED_PRESSURE, CLOSED, CONTACT, CURRENT_LOAD, DIFFUSION, ERODING, FLUX, HELD, JUST, LEVELS, LOAD, OWED, SEALED,
     SOURCE, TOUCHED, VOLUME,
 )  # fmt: skip
+from .scheme import UNLOADED
 
 STRIDE = 1.5  # growth of a column in one advance over the square root of the tolerance (benchmarks/column.py)
 LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
 BED_SHARE = 0.25  # of that growth: pressure of the bed or by a source since the last advance, over the load
 GRADED = 0.5  # growth in one advance over that since the base changed: the layer over it is young at first
-LAYER_CELLS = 1.5  # of the layer over a base that has just changed, from which levels can follow it
 ROUNDING = 1e-9  # of the bounds, within which a wave need not be looked at
 
 
@@ -83,17 +84,20 @@ def switch(columns, i, forcing, scheme, work):
     if old_load == 0.0:  # nothing is remembered of it
         old_load = load * volume / forcing.volume[i] if forcing.volume[i] > 0.0 else load
         memory[i, CURRENT_LOAD] = old_load
+    jump, content = 0.0, 0.0
     if memory[i, CONTACT] == CLOSED:
         open_up(profile, memory, i, scheme.waves, work)
     elif memory[i, CONTACT] != LEVELS:
-        bring(profile, memory, i, volume, old_load, True, scheme, work)
+        jump, content = bring(profile, memory, i, volume, old_load, True, scheme, work)
         if forcing.bounded:
             hold(columns, i, old_load, forcing.thickness[i], forcing.water_to_buoyant)
     contact = contact_of(forcing.base[min(i, forcing.base.size - 1)], forcing.entrained[i], scheme.flux)
     if contact == CLOSED:
-        close(profile, memory, i, scheme.waves, work)
+        close(profile, memory, i, jump, content, scheme.waves, work)
         return
-    bed = forcing.bed_pressure[min(i, forcing.bed_pressure.size - 1)] * (old_load / load if load > 0.0 else 1.0)
+    bed = forcing.bed_pressure[min(i, forcing.bed_pressure.size - 1)]
+    if scheme.loading != UNLOADED and load > 0.0:  # a bed of constant ratio had it before the step too
+        bed *= old_load / load
     memory[i, CONTACT], memory[i, JUST] = contact, 1.0
     memory[i, VOLUME], memory[i, LOAD], memory[i, DIFFUSION] = volume, old_load, 0.0
     memory[i, BED_PRESSURE] = memory[i, BASE] = bed
@@ -157,23 +161,17 @@ def advance_due(columns, i, forcing, scheme, work):
         if forcing.bounded and beyond(memory, i, load, lower):
             open_up(profile, memory, i, waves, work)
             hold(columns, i, load, thickness, lower)
-            close(profile, memory, i, waves, work)
+            close(profile, memory, i, 0.0, 0.0, waves, work)
         pressure, _ = closed_pressure(memory, i, 0.0, load, load, 0.0, scheme.loading)
         return min(max(pressure, -lower * load), load) if forcing.bounded else pressure
     if contact == SEALED:
         memory[i, BASE] = memory[i, BED_PRESSURE] = profile[i, 0]
-    if contact >= FLUX or memory[i, JUST] == 0.0 or layer_is_due(memory, i, volume, scheme):
+    grown = 1.0 - memory[i, VOLUME] / volume if scheme.stretching else 0.0
+    if contact >= FLUX or memory[i, JUST] == 0.0 or is_seen(waves.eta.size, grown, memory[i, DIFFUSION]):
         bring(profile, memory, i, volume, load, False, scheme, work)
         if forcing.bounded:
             hold(columns, i, load, thickness, lower)
     return profile[i, 0] if contact >= FLUX else memory[i, BED_PRESSURE]
-
-
-@kernel
-def layer_is_due(memory, i, volume, scheme):
-    """Return whether levels can follow the layer over a base that has just changed."""
-    grown = 1.0 - memory[i, VOLUME] / volume if scheme.stretching else 0.0
-    return scheme.waves.eta.size * (grown + 2.0 * math.sqrt(memory[i, DIFFUSION])) > LAYER_CELLS
 
 
 @kernel

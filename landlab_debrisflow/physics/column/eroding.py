@@ -11,9 +11,9 @@ jump on a switch, and a base that chatters pumps nothing in.
 import math
 
 from ...core.jit import kernel
-from .layer import layer, layer_content
+from .layer import base_share, is_seen, layer, layer_content
 from .memory import BASE, BED_PRESSURE, CONTACT, DIFFUSION, FLUX, JUST, LOAD, OWED, SOURCE, VOLUME
-from .scheme import OVERBURDEN, PROPORTIONAL
+from .scheme import OVERBURDEN, PROPORTIONAL, UNLOADED
 from .stretch import stretch_profile
 from .waves import IMPERMEABLE, PRESCRIBED, evolve, limits
 
@@ -26,17 +26,21 @@ def bring(profile, memory, i, volume, load, ending, scheme, work):
     """Bring one column kept at levels from where it was last advanced to ``volume`` and ``load``.
 
     Unless the contact is ``ending``, diffusion that is to come after the stretching is left to the next
-    time.
+    time. Returns the jump at a base that has just changed, which levels do not see if the contact ends
+    now, and the content of the layer over it, over that jump and the thickness; else 0 and 0.
     """
     start, old_load = memory[i, VOLUME], memory[i, LOAD]
     # change of the load but by erosion
     strained = load * start / (old_load * volume) if old_load > 0.0 and volume > 0.0 else 1.0
     if scheme.stretching and volume > start:
-        _grow(profile, memory, i, max(start / volume, LEAST_STRETCH), load, strained, ending, scheme, work)
+        stretch = max(start / volume, LEAST_STRETCH)
+        layer_now = _grow(profile, memory, i, stretch, load, strained, ending, scheme, work)
     else:
-        _diffuse(profile, memory, i, volume / start if start > 0.0 else 1.0, load, strained, ending, scheme, work)
+        growth = volume / start if start > 0.0 else 1.0
+        layer_now = _diffuse(profile, memory, i, growth, load, strained, ending, scheme, work)
     memory[i, JUST], memory[i, VOLUME], memory[i, LOAD] = 0.0, volume, load
     memory[i, BASE], memory[i, DIFFUSION] = memory[i, BED_PRESSURE], 0.0
+    return layer_now
 
 
 @kernel
@@ -63,12 +67,23 @@ def _diffuse(profile, memory, i, growth, load, strained, ending, scheme, work):
         )  # fmt: skip
     for k in range(cells):
         profile[i, k] *= scale
-    if memory[i, CONTACT] < FLUX:
-        profile[i, 0] = new_base
-        if just and ending:  # of the half cell of the base level only a part was reached
-            carried = touched * scale * scale + lift
-            profile[i, 0] = carried + min(4.0 * cells * math.sqrt(passed / math.pi), 1.0) * (new_base - carried)
     memory[i, SOURCE] = memory[i, OWED] = 0.0
+    if memory[i, CONTACT] >= FLUX:
+        return 0.0, 0.0
+    profile[i, 0] = new_base
+    if not (just and ending) or is_seen(cells, 0.0, passed):
+        return 0.0, 0.0
+    # of the half cell of the base level only a part was reached
+    carried = touched * scale * scale + lift
+    jump, first_jump = new_base - carried, (base - touched) * scale * scale
+    if jump == 0.0:
+        return 0.0, 0.0
+    # what came evenly since then is as two jumps of half of it (Gauss), and has sent two thirds as much into the column
+    evenly = min(max(1.0 - first_jump / jump, 0.0), 1.0)
+    late, early = base_share(cells, 0.0, 0.2113 * passed), base_share(cells, 0.0, 0.7887 * passed)
+    share = (1.0 - evenly) * base_share(cells, 0.0, passed) + 0.5 * evenly * (late + early)
+    profile[i, 0] = carried + share * jump
+    return jump, (1.0 - evenly / 3.0) * layer_content(0.0, passed)
 
 
 @kernel
@@ -99,34 +114,46 @@ def _grow(profile, memory, i, stretch, load, strained, ending, scheme, work):
         held = scale * (weight * old_load - profile[i, 0])
         content = scale * _effective(profile, i, weight * old_load)
         content = stretch * content + (1.0 - stretch) * 0.5 * (entry + new_entry)
-        stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work[0])
-        # the base level takes what the content lacks: with diffusion from below left out, it must not drift
-        profile[i, 0] = weight * load
-        lacking = 2.0 * cells * (content - _effective(profile, i, weight * load))
-        profile[i, 0] -= min(max(lacking, min(held, new_entry)), max(held, new_entry))
+        stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work)
+        _restore(profile, i, weight * load, content, min(held, new_entry), max(held, new_entry))
         if scheme.literal:
             _load_literally(profile, i, stretch, load)
         evolve(profile, i, kind, last, 0.0, 0.0, 0.0, 0.0, last_source, waves, work[0])
         memory[i, SOURCE] = memory[i, OWED] = 0.0
-        return
+        return 0.0, 0.0
     # over a base that has just changed: the column as if it had not, and the layer that forms over it
     fresh = memory[i, JUST] > 0.0 and diffusion < LAYER_END
-    limit = limits(profile, i, min(base, new_base), max(base, new_base), waves.eta)
-    held, jump = (touched, scale * (weight * old_load - touched) - entry) if fresh else (base, 0.0)
-    entry, new_entry = entry + jump, new_entry + jump
+    low, high, least, most = limits(profile, i, base, base, waves.eta)
+    held, jump, new_jump = base, 0.0, 0.0
+    if fresh:  # what would have come in has the ratio of the base, so that a constant ratio stays one
+        held, carried = touched, scale * (weight * old_load - touched)
+        growth = 1.0 if scheme.loading == UNLOADED else 1.0 / stretch
+        jump, new_jump = carried - entry, carried * growth - new_entry
+        entry, new_entry = carried, carried * growth
     evolve(profile, i, kind, first, held, held, touched - held, 0.0, source, waves, work[0])
-    stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work[0])
+    stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work)
     if scheme.literal:
         _load_literally(profile, i, stretch, load)
-    inside, share = weight * load - new_entry, 1.0
+    inside = weight * load - new_entry
     memory[i, SOURCE], memory[i, OWED] = last_source, last
     if ending or fresh:
         evolve(profile, i, kind, last, inside, inside, 0.0, 0.0, last_source, waves, work[0])
         memory[i, SOURCE] = memory[i, OWED] = 0.0
-    if fresh:
-        loaded = weight * old_load * (strained - 1.0)
-        share = _add_layer(profile, i, jump, 1.0 - stretch, diffusion * stretch, loaded, limit, waves.eta)
-    profile[i, 0] = inside + (share if ending else 1.0) * (new_base - inside)
+    profile[i, 0] = new_base
+    if not fresh:
+        return 0.0, 0.0
+    # what encloses the column moves as its grains and their load do, and must enclose the base
+    loaded, grown, passed = weight * (load - old_load / stretch), 1.0 - stretch, diffusion * stretch
+    larger, pull = max(scale, 1.0), scale / stretch
+    limit = (
+        min(low * larger, new_base) + min(loaded, 0.0), max(high * larger, new_base) + max(loaded, 0.0),
+        min(least * pull + loaded, new_base), max(most * pull + loaded, new_base),
+    )  # fmt: skip
+    _add_layer(profile, i, jump, new_jump, grown, passed, limit, waves.eta)
+    if not ending or is_seen(cells, grown, passed):
+        return 0.0, 0.0
+    profile[i, 0] = inside + base_share(cells, grown, passed) * (new_base - inside)
+    return new_base - inside, layer_content(grown, passed)
 
 
 @kernel
@@ -137,6 +164,28 @@ def _effective(profile, i, load):
     for k in range(1, cells):
         content += load * (cells - k) / cells - profile[i, k]
     return content / cells
+
+
+@kernel
+def _restore(profile, i, load, content, low, high):
+    """Give one column what its content lacks: nothing diffuses in from the bed, so that it must not drift.
+
+    The base level takes it between ``low`` and ``high``, and what is left goes to the levels above, none of which goes
+    beyond the one below it, over eta.
+    """
+    cells = profile.shape[1] - 1
+    profile[i, 0] = load
+    lacking = cells * (content - _effective(profile, i, load))
+    below = min(max(2.0 * lacking, low), high)
+    profile[i, 0] = load - below
+    lacking -= 0.5 * below
+    for k in range(1, cells):
+        carried = load * (cells - k) / cells - profile[i, k]
+        below *= (cells - k) / (cells - k + 1.0)
+        taken = min(max(lacking, min(below - carried, 0.0)), max(below - carried, 0.0))
+        profile[i, k] -= taken
+        lacking -= taken
+        below = carried + taken
 
 
 @kernel
@@ -162,21 +211,16 @@ def _load_literally(profile, i, stretch, load):
 
 
 @kernel
-def _add_layer(profile, i, jump, grown, passed, loaded, limit, eta):
-    """Add what a base that has just changed by ``jump`` has sent into a column.
+def _add_layer(profile, i, jump, new_jump, grown, passed, limit, eta):
+    """Add what a base that has just changed by ``jump``, and in the end by ``new_jump``, has sent into a column.
 
-    ``limit`` holds the least and largest pressure, and over eta, that the column had and has at its base;
-    ``loaded`` is what has been added to it by loading, over eta. Returns the share of the base level.
+    ``limit`` holds the least and largest pressure, and over eta, that it may have.
     """
     cells = profile.shape[1] - 1
     low, high, least, most = limit
-    low, high = low + min(loaded, 0.0), high + max(loaded, 0.0)
-    least, most = least + min(loaded, 0.0), most + max(loaded, 0.0)
-    content = layer_content(grown, passed) * cells
     for k in range(1, cells):
         distance = 1.0 - eta[k]
         share = layer(distance, grown, passed) - layer(2.0 - distance, grown, passed)
-        pressure = profile[i, k] + share * jump
+        early = min(distance / grown, 1.0) if grown > 0.0 else 0.0
+        pressure = profile[i, k] + share * (new_jump + early * (jump - new_jump))
         profile[i, k] = min(max(pressure, low, least * eta[k]), high, most * eta[k])
-        content -= share
-    return min(max(2.0 * content, 0.0), 1.0)

@@ -14,8 +14,9 @@ LOW, HIGH, LEAST, MOST, PRESSURE, RATE, BEND, REMAINDER = range(5, 13)
 # while closed, since that look: c_v t / h^2, what every grain gained over eta, by what it was scaled, what it gained
 # evenly, and all gains taken positive
 PASSED, LIFT, SCALE, GAIN, SWING = range(13, 18)
-# while closed, of the last look: what the waves too short for the levels do at the base, by octave (`Waves.octaves`)
-TAIL = 18
+# while closed, of the last look: what the waves too short for the levels do at the base, by octave (`Waves.octaves`);
+# the same of a layer thinner than a level that the base had when it closed
+TAIL, LAYER = 18, 22
 
 # LEVELS is a closed base too, of a column kept at levels; from FLUX on, soil that comes in brings its own pressure and no
 # more: SEALED, under an impermeable base, that of the base

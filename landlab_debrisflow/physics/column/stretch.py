@@ -11,8 +11,11 @@ from ...core.jit import kernel
 
 
 @kernel
-def interpolate(values, cells, position):
-    """Return the cubic through four of ``values``, held between the two that enclose ``position``."""
+def interpolate(values, ratios, cells, position):
+    """Return the cubic through four of ``values``, held between the two that enclose ``position``.
+
+    Its ratio to the position is held as well, between that of the two (beside the surface, of the two next to it).
+    """
     low = min(int(position), cells - 1)
     if cells < 3:
         cubic = values[low] + (position - low) * (values[low + 1] - values[low])
@@ -23,7 +26,9 @@ def interpolate(values, cells, position):
             (x - 2.0) * (x - 3.0) * (x * values[first + 1] - (x - 1.0) / 3.0 * values[first])
             + x * (x - 1.0) * ((x - 2.0) / 3.0 * values[first + 3] - (x - 3.0) * values[first + 2])
         )
-    return min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+    cubic = min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+    one, other = ratios[max(low, 1)], ratios[low + 1 if low > 0 else 2]
+    return min(max(cubic, min(one, other) * position), max(one, other) * position)
 
 
 @kernel
@@ -42,18 +47,20 @@ def stretch_profile(profile, i, stretch, load, new_load, weight, scale, entry, n
         ``weight * load * eta - p`` is carried along with the grains, times ``scale``.
     entry, new_entry : float
         The same of the soil that comes in first and last, at the base [Pa].
-    work : ndarray, shape (levels,)
+    work : ndarray, shape (2, levels)
         Scratch.
     """
     cells = profile.shape[1] - 1
-    old = work
+    old, ratios = work[0], work[1]
     width, pull = 1.0 / cells, 1.0 / stretch
     for k in range(cells + 1):  # counted from the surface
-        old[cells - k] = scale * (weight * load * ((cells - k) * width) - profile[i, k])
+        m = cells - k
+        old[m] = scale * (weight * load * (m * width) - profile[i, k])
+        ratios[m] = old[m] / max(m, 1)
     for m in range(cells + 1):
         eta = m * width
         if eta <= stretch:
-            carried = interpolate(old, cells, m * pull)
+            carried = interpolate(old, ratios, cells, m * pull)
         else:  # soil that came in when the base was where this level is now
             carried = entry + (eta - stretch) / (1.0 - stretch) * (new_entry - entry)
         profile[i, cells - m] = weight * new_load * eta - carried

@@ -138,7 +138,7 @@ def evolve(profile, i, kind, passed, base, new_base, kink, lift, source, waves, 
     push = lift - (new_base - base)
     if kind == PRESCRIBED:
         profile[i, 0] = base + kink
-    low, high, least, most = limits(profile, i, min(base, new_base), max(base, new_base), waves.eta)
+    low, high, least, most = limits(profile, i, base, base, waves.eta)
     ramp, uniform, pattern, project = waves.ramp[kind], waves.uniform[kind], waves.pattern[kind], waves.project[kind]
     shapes, eta, amplitudes = waves.shapes[kind], waves.eta, work
     for j in range(cells):
@@ -149,8 +149,9 @@ def evolve(profile, i, kind, passed, base, new_base, kink, lift, source, waves, 
             amplitudes[j] += project[k, j] * part
         profile[i, k] = new_base * eta[k]
     gain = min(source, 0.0), max(source, 0.0)
-    low, high = low + min(lift, 0.0) + gain[0], high + max(lift, 0.0) + gain[1]
-    least, most = least + min(lift, 0.0) + cells * gain[0], most + max(lift, 0.0) + cells * gain[1]
+    low, high = min(low, new_base) + min(lift, 0.0) + gain[0], max(high, new_base) + max(lift, 0.0) + gain[1]
+    # a line through the surface that encloses the column may move as the load does, and must enclose the base
+    least, most = min(least + lift + cells * gain[0], new_base), max(most + lift + cells * gain[1], new_base)
     # exp(-wave^2 passed) without an exponential for every wave
     lowest = math.exp(-0.25 * math.pi * math.pi * passed)
     factor = lowest**8

@@ -1,0 +1,128 @@
+"""Where the schemes of the pore-pressure column are stable: python -m benchmarks.column_stability
+
+A map over the cell Péclet number e_R dx/c_v at the base and the Fourier number of a step, c_v dt/dx^2, both with the
+first thickness, of 11 levels. A cold column erodes over a bed of 1 Pa until its thickness has doubled, but for 4000
+steps at most and 8 at least; then it stands over an impermeable base for as many steps, and then erodes as long over
+a bed of 0 Pa. The exact pressure stays between 0 and 1 Pa. Measured after every step: by how much the largest pressure
+is above 1 Pa, by how much the least is below 0, and whether anything is not a number: Lax-Wendroff gives up a column
+that would need more than 1e5 sub-steps in one step.
+
+Prints the worst of each scheme and writes docs/column_stability.png.
+"""
+
+import time
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")  # draws to a file only
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from landlab_debrisflow.core.variables import COLUMN_MEMORY
+from landlab_debrisflow.physics.column import ALE
+from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
+
+SCHEMES = {"default": "default", "lax_wendroff": "Lax–Wendroff (the paper's)", "upwind": "hybrid upwind, implicit"}
+LEVELS = 11
+PECLET = np.logspace(-3.0, 3.0, 37)  # of a cell
+FOURIER = np.logspace(-3.0, 4.0, 43)  # of a cell and a step
+MOST_STEPS, LEAST_STEPS, DOUBLED = 4000, 8, 2.0
+ROUNDING = 1e-12  # of 1 Pa
+FILE = Path(__file__).parents[1] / "docs" / "column_stability.png"
+
+
+def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the overshoot, the undershoot [Pa] and which columns failed, shape (Fourier, Péclet)."""
+    law, cells = ALE(levels=LEVELS, scheme=scheme, loading_source="none"), LEVELS - 1
+    fourier, peclet = (array.ravel() for array in np.meshgrid(FOURIER, PECLET, indexing="ij"))
+    count = fourier.size
+    state = ColumnState(np.zeros((count, LEVELS)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+    over, under, failed = np.zeros(count), np.zeros(count), np.full(count, False)
+    # lengths over the first thickness, time in steps: c_v = Fo dx^2 and e_R = Pe c_v/dx
+    coefficient = fourier / cells**2
+    rate = peclet * fourier / cells
+    steps = np.clip(np.ceil((DOUBLED - 1.0) / rate), LEAST_STEPS, MOST_STEPS)
+    thickness, one, base = np.ones(count), np.ones(count), np.zeros(count)
+    for step in range(int(3 * steps.max())):
+        going, phase = step < 3 * steps, step // steps  # erodes, stands, erodes
+        entrained = np.where(going & (phase != 1), rate, 0.0)
+        thickness = thickness + entrained
+        forcing = ColumnForcing(
+            thickness, thickness, one, entrained, np.where(phase < 2, 1.0, 0.0), np.zeros(1, np.int8), np.zeros(1),
+            np.where(going, coefficient, 0.0), 0.0, False,
+        )  # fmt: skip
+        law.advance(state, forcing, 1.0, base)
+        copy = ColumnState(*(array.copy() for array in state))
+        law.synchronise(copy, forcing._replace(entrained=np.zeros(count)))
+        seen = np.column_stack([copy.profile, base])
+        failed |= going & ~np.isfinite(seen).all(axis=1)
+        with np.errstate(invalid="ignore"):
+            over = np.where(going, np.fmax(over, seen.max(axis=1) - 1.0), over)
+            under = np.where(going, np.fmax(under, -seen.min(axis=1)), under)
+    shape = FOURIER.size, PECLET.size
+    return over.reshape(shape), under.reshape(shape), failed.reshape(shape)
+
+
+def table(results) -> str:
+    """Return the worst of each scheme, and where."""
+
+    def worst(values):
+        i, j = np.unravel_index(np.nanargmax(values), values.shape)
+        if not values[i, j] > ROUNDING:
+            return "below 1e-12"
+        return f"{values[i, j]:.3f} at Pe {PECLET[j]:.0e}, Fo {FOURIER[i]:.0e}"
+
+    lines = [f"{'scheme':13s} | {'overshoot [Pa]':31s} | {'undershoot [Pa]':31s} | not a number     | CPU time [s]"]
+    for scheme, (over, under, failed, seconds) in results.items():
+        share = f"{100.0 * failed.mean():.0f} % of the map" if failed.any() else "nowhere"
+        lines.append(f"{scheme:13s} | {worst(over):31s} | {worst(under):31s} | {share:16s} | {seconds:.0f}")
+    return "\n".join(lines)
+
+
+def draw(results, file: Path) -> None:
+    """Draw overshoot above undershoot, a column for each scheme."""
+    bounds = [0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 1.0]
+    colours = ListedColormap(np.vstack([[0.91, 0.94, 0.98, 1.0], plt.get_cmap("YlOrRd")(np.linspace(0.25, 1.0, 5))]))
+    colours = colours.with_extremes(bad="0.35", over="black")
+    norm = BoundaryNorm(bounds, colours.N)
+    figure, axes = plt.subplots(2, 3, figsize=(11.0, 7.4), sharex=True, sharey=True, layout="constrained")
+    for column, (scheme, (over, under, failed, _)) in enumerate(results.items()):
+        for row, (words, values) in enumerate((("overshoot", over), ("undershoot", under))):
+            axis, largest = axes[row, column], values.max()
+            axis.set(xscale="log", yscale="log")
+            shown = np.ma.masked_where(failed, np.maximum(values, 0.0))
+            mesh = axis.pcolormesh(PECLET, FOURIER, shown, cmap=colours, norm=norm, shading="nearest")
+            axis.plot(PECLET, (LEVELS - 1) / PECLET, "k--", linewidth=1.0)
+            axis.set(xlim=PECLET[[0, -1]], ylim=FOURIER[[0, -1]])
+            found = "none, to rounding" if largest <= ROUNDING else f"{largest:.2f} Pa at most"
+            axis.set_title(f"{SCHEMES[scheme]}\n{words}: {found}" if row == 0 else f"{words}: {found}", fontsize=10)
+    axes[1, 1].set_xlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [–]", fontsize=10)
+    figure.supylabel("Fourier number of a step at the start, $c_v\\,\\Delta t/\\Delta x^2$ [–]", fontsize=10)
+    beyond = max(np.max(values[~failed]) for *both, failed, _ in results.values() for values in both) > bounds[-1]
+    bar = figure.colorbar(mesh, ax=axes, location="right", shrink=0.8, ticks=bounds, extend="max" if beyond else "neither")
+    bar.set_label("largest excursion beyond the exact bounds, 0 and 1 Pa [Pa]")
+    marks = [
+        Line2D([], [], color="k", linestyle="--", label="thickness doubles in one step; more to the right"),
+        Patch(facecolor="0.35", label="not a number: needs more than 1e5 sub-steps in one step"),
+    ]
+    figure.legend(handles=marks, loc="outside lower center", frameon=False, ncols=2)
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def main() -> None:
+    results = {}
+    for scheme in SCHEMES:
+        start = time.process_time()
+        results[scheme] = (*extremes(scheme), time.process_time() - start)
+    print(table(results))
+    draw(results, FILE)
+
+
+if __name__ == "__main__":
+    main()

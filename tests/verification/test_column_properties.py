@@ -1,0 +1,457 @@
+"""What must hold for every column of the default scheme, tried on random ones, and the cases that are hard.
+
+A column knows of time only c_v dt and what came in, so that every random column has a time step of its own: the
+step that the law is told is 1 s, and its c_v is c_v dt.
+
+Tests marked xfail are faults of the kernels, each with the smallest column that shows it.
+"""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from landlab_debrisflow import solve_column
+from landlab_debrisflow.core.variables import COLUMN_MEMORY
+from landlab_debrisflow.physics.column import ALE, Classical
+from landlab_debrisflow.physics.contracts import BASE_BY_EROSION, BASE_PRESCRIBED, ColumnForcing, ColumnState
+
+WATER_TO_BUOYANT = 1000.0 / 990.0
+LOAD_PER_METRE = 990.0 * 9.81
+PRESSURE = 1e4  # of columns without loading [Pa]
+COUNT, STEPS = 500, 200
+LOOKS = {0, 1, 4, 19, 59, 109, STEPS - 1}  # steps after which profiles are looked at
+ROUNDING = 1e-12  # thousands of operations at 2e-16 each, relative to the largest pressure
+# An advance interpolates and so carries what lies on one level to a thinner part of the column: of a pressure above
+# liquefaction by one rounding it makes, relative to the load there, twice as much at most. 20 advances: 2^20 2e-16.
+FEW, ROUNDING_OF_FEW = 20, 1e-9
+
+# the same examples everywhere, and none kept: an example is 500 columns, drawn from a seed
+examples = settings(
+    max_examples=40, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
+)
+laws = given(
+    seed=st.integers(0, 2**32 - 1),
+    levels=st.integers(3, 41),
+    tolerance=st.sampled_from([None, 0.0]),
+    contact=st.sampled_from(["dirichlet", "flux"]),
+    law=st.sampled_from([ALE, Classical]),
+)
+
+
+class Fleet:
+    """Random columns, each with its own history.
+
+    Thickness 1e-3 ... 30 m, e_R up to 0.3 m/s in episodes with jumps, c_v 0 or 1e-8 ... 1 m2/s, steps of 1e-6 to 1e5
+    times the limit of an explicit scheme, growth in one step up to fivefold, thickness halved or doubled in one step
+    now and then, starts of any shape.
+
+    Parameters
+    ----------
+    law : ColumnLaw
+    seed : int
+    gentle : bool
+        Whether the pressure of the bed jumps, and the thickness strains if there is loading, only while a column is
+        closed.
+    contacts : bool, optional
+        Whether some bases are now and then prescribed or impermeable whatever erodes.
+    bounded : bool, optional
+    ratios : tuple of float, optional
+        Least and largest pressure over what liquefies, of start and bed.
+    """
+
+    def __init__(self, law, seed, gentle, contacts=False, bounded=False, ratios=(-1.0, 1.0)):
+        self.law, self.gentle, self.bounded, self.ratios = law, gentle, bounded, ratios
+        self.rng = rng = np.random.default_rng(seed)
+        self.loads = law.loading_source != "none"
+        cells = law.levels - 1
+        self.eta = np.linspace(1.0, 0.0, law.levels)
+        self.thickness = 10.0 ** rng.uniform(-3.0, np.log10(30.0), COUNT)
+        self.first_volume, self.volume = self.thickness.copy(), self.thickness.copy()
+        self.coefficient = np.where(rng.random(COUNT) < 0.1, 0.0, 10.0 ** rng.uniform(-8.0, 0.0, COUNT))
+        limit = self.thickness**2 / (2.0 * np.maximum(self.coefficient, 1e-8) * cells**2)
+        self.usual_dt = limit * 10.0 ** rng.uniform(-4.0, 3.0, COUNT)
+        self.dt = self.usual_dt.copy()
+        self.switching = 10.0 ** rng.uniform(-2.5, 0.0, COUNT)  # probability in a step
+        self.erodes = rng.random(COUNT) < 0.5
+        self.rate, self.ratio = self._rates(), rng.uniform(*ratios, COUNT)
+        self.base, self.varied = np.zeros(COUNT, np.int8), contacts & (rng.random(COUNT) < 0.3)
+        self.load = self._loads()
+        self.start = self._starts() * self.load[:, None] * (self.eta > 0.0)
+        self.state = ColumnState(self.start.copy(), np.zeros((COUNT, COLUMN_MEMORY)), np.zeros(COUNT))
+        self.friction, self.entrained, self.bed = np.zeros(COUNT), np.zeros(COUNT), self.ratio * self.load
+        law.advance(self.state, self.forcing(), 0.0, self.friction)
+
+    def _rates(self):
+        return 10.0 ** self.rng.uniform(-6.0, np.log10(0.3), COUNT)
+
+    def _loads(self):
+        return LOAD_PER_METRE * self.thickness if self.loads else np.full(COUNT, PRESSURE)
+
+    def _starts(self):
+        """Return ratios of any shape: rough, none, as at the upper bound, or a layer at the base."""
+        low, high = self.ratios
+        kind, levels = self.rng.integers(0, 4, (COUNT, 1)), self.law.levels
+        top = self.eta if self.loads else 1.0
+        rough = self.rng.uniform(low, high, (COUNT, levels)) * top
+        layer = high * (self.eta > self.rng.random((COUNT, 1))) * top
+        return np.select([kind == 0, kind == 1, kind == 2], [rough, 0.0 * rough, high * self.eta + 0.0 * rough], layer)
+
+    def forcing(self):
+        passed = self.coefficient * self.dt
+        return ColumnForcing(
+            self.volume.copy(), self.thickness.copy(), self.load.copy(), self.entrained, self.bed, self.base.copy(),
+            np.zeros(1), passed, WATER_TO_BUOYANT, self.bounded,
+        )  # fmt: skip
+
+    def step(self):
+        """Take one step of the flow."""
+        rng, seldom = self.rng, self.rng.random((3, COUNT)) < 0.05
+        self.erodes ^= rng.random(COUNT) < self.switching
+        self.base = np.where(self.varied & (rng.random(COUNT) < 0.1), rng.integers(0, 3, COUNT), self.base)
+        self.base = self.base.astype(np.int8)
+        open_base = self.erodes | (self.base == BASE_PRESCRIBED)
+        still = open_base & self.gentle
+        self.rate = np.where(seldom[0], self._rates(), self.rate)
+        self.dt = np.where(seldom[1], self.usual_dt * 10.0 ** rng.uniform(-2.0, 2.0, COUNT), self.dt)
+        ratio = np.where(rng.random(COUNT) < 0.3, self.ratios[1], rng.uniform(*self.ratios, COUNT))
+        self.ratio = np.where(seldom[2] & ~still, ratio, self.ratio)
+        # no particle grows ten thousandfold
+        grows = self.erodes & (self.volume < 1e4 * self.first_volume)
+        growth = np.minimum(self.rate * self.dt / self.thickness, rng.uniform(4.0, 5.0, COUNT)) * grows
+        strain, jump = np.exp(rng.normal(0.0, 0.02, COUNT)), rng.random(COUNT)
+        strain = np.select([jump < 0.03, jump > 0.98], [0.5, 2.0], strain)
+        strain = np.select([self.thickness > 30.0, self.thickness < 1e-3], [0.5, 2.0], strain)
+        if self.loads:
+            strain = np.where(still, 1.0, strain)
+        self.entrained = self.volume * growth
+        self.volume = self.volume + self.entrained
+        self.thickness = self.thickness * (1.0 + growth) * strain
+        self.load = self._loads()
+        self.bed = self.ratio * self.load
+        self.law.advance(self.state, self.forcing(), 1.0, self.friction)
+
+    def prescribed(self):
+        """Return which columns the bed has given its pressure in this step."""
+        by_erosion = (self.base == BASE_BY_EROSION) & (self.entrained > 0.0)
+        return by_erosion | (self.base == BASE_PRESCRIBED)
+
+    def profile(self):
+        """Return the profiles brought to the present, without touching the columns [Pa]."""
+        copy = ColumnState(*(array.copy() for array in self.state))
+        self.law.synchronise(copy, self.forcing()._replace(entrained=np.zeros(COUNT)))
+        return copy.profile
+
+
+def law_of(law, levels, tolerance, contact, source):
+    return law(levels=levels, tolerance=tolerance, bed_contact=contact, loading_source=source)
+
+
+def worst_new_extreme(fleet):
+    """Return by how much columns leave what start, surface and bed had, over their largest pressure."""
+    low, high = np.minimum(fleet.start.min(axis=1), 0.0), np.maximum(fleet.start.max(axis=1), 0.0)
+    worst = 0.0
+    for step in range(STEPS):
+        fleet.step()
+        given = fleet.prescribed()
+        low = np.where(given, np.minimum(low, fleet.bed), low)
+        high = np.where(given, np.maximum(high, fleet.bed), high)
+        pressures = fleet.profile() if step in LOOKS else fleet.friction[:, None]
+        assert np.isfinite(fleet.friction).all() and np.isfinite(pressures).all()
+        for pressure in (fleet.friction[:, None], pressures):
+            beyond = np.maximum(pressure.max(axis=1) - high, low - pressure.min(axis=1))
+            worst = max(worst, (beyond / np.maximum(np.maximum(high, -low), 1e-300)).max())
+    return worst
+
+
+def worst_excess(fleet, steps=STEPS, of="profile"):
+    """Return the pressure above what liquefies, over the largest load so far: at all levels, or at the base."""
+    largest, worst = fleet.load, 0.0
+    for step in range(steps):
+        fleet.step()
+        largest = np.maximum(largest, fleet.load)
+        assert np.isfinite(fleet.friction).all()
+        worst = max(worst, ((fleet.friction - fleet.load) / largest).max())
+        if of == "profile" and (step in LOOKS or step == steps - 1):
+            profile = fleet.profile()
+            assert np.isfinite(profile).all()
+            worst = max(worst, ((profile - fleet.load[:, None] * fleet.eta) / largest[:, None]).max())
+    return worst
+
+
+# ---- no new extreme, without loading ----
+
+
+@examples
+@laws
+def test_no_new_extreme(seed, levels, tolerance, contact, law):
+    """At any Péclet, Fourier and Courant number: 40 times 500 columns, 200 steps."""
+    fleet = Fleet(law_of(law, levels, tolerance, contact, "none"), seed, gentle=law is ALE, contacts=True)
+    assert worst_new_extreme(fleet) <= ROUNDING
+
+
+YOUNG = "eroding._grow: over a base that has just changed, the level at the base moves with the pressure of the bed"
+
+
+@pytest.mark.xfail(strict=False, reason=YOUNG)
+@pytest.mark.parametrize("levels", [3, 11, 41])
+def test_no_new_extreme_under_a_bed_that_changes(levels):
+    """The same where the bed changes while soil comes in."""
+    assert worst_new_extreme(Fleet(ALE(levels=levels, loading_source="none"), 1, gentle=False)) <= ROUNDING
+
+
+@pytest.mark.xfail(strict=False, reason=YOUNG)
+@pytest.mark.parametrize("coefficient", [0.0, 1e-6])
+def test_a_bed_that_changes_under_a_film(coefficient):
+    """A column of 1 Pa erodes a micrometre of soil of -1 Pa, then one of 1 Pa, and stops: 1 Pa all along."""
+    ds = solve_column(
+        entrainment_rate=lambda t: 1e-6 * (t < 2.0), basal_pressure=lambda t: -1.0 if t <= 1.0 else 1.0,
+        coefficient_of_consolidation=coefficient, initial="uniform", initial_pressure=1.0, times=[1.0, 2.0, 3.0],
+        step=1.0,
+    )  # fmt: skip
+    assert_allclose(ds.excess_pore_pressure[1:, 0, 0], 1.0, atol=0.01)  # measured 3.0
+    assert ds.basal_excess_pore_pressure.max() <= 1.0 + ROUNDING
+
+
+@pytest.mark.xfail(strict=False, reason="layer.layer: 0/0 where the front of new soil lies on a level and c_v is 0")
+@pytest.mark.parametrize("levels", [3, 5, 11, 41])
+def test_a_front_on_a_level(levels):
+    """A column that doubles in one step without diffusion is half new soil."""
+    ds = solve_column(
+        entrainment_rate=0.01, coefficient_of_consolidation=0.0, times=[100.0], step=100.0, levels=levels
+    )
+    profile = ds.excess_pore_pressure.values[0, 0]
+    assert np.isfinite(profile).all()
+    assert_allclose(profile[ds.level < 0.5], 1.0, rtol=ROUNDING)
+    assert_allclose(profile[ds.level > 0.5], 0.0, atol=ROUNDING)
+
+
+@pytest.mark.xfail(
+    strict=False, reason="default.switch: the bed is taken to have had the load before the step times its present ratio"
+)
+def test_a_bed_of_constant_pressure_under_a_column_that_thins():
+    """Thickness falls to a tenth while soil of 1 Pa comes in: nothing is above 1 Pa, without loading."""
+    ds = solve_column(
+        entrainment_rate=0.3, divergence_rate=2.3, coefficient_of_consolidation=1e-3, times=[1.0], step=1.0,
+        loading=10.0, loading_source="none",
+    )  # fmt: skip
+    assert ds.excess_pore_pressure.max() <= 1.0 + ROUNDING
+
+
+# ---- no more than liquefied, with loading ----
+
+
+@examples
+@laws
+def test_no_more_than_liquefied(seed, levels, tolerance, contact, law):
+    """Overburden: where neither start nor bed are more than liquefied nothing is, for the steps that keep rounding."""
+    gentle = law is Classical or contact == "dirichlet"
+    fleet = Fleet(law_of(law, levels, tolerance, contact, "overburden"), seed, gentle)
+    assert worst_excess(fleet, FEW) <= ROUNDING_OF_FEW
+
+
+@examples
+@laws
+def test_a_base_is_no_more_than_liquefied_by_proportional_loading(seed, levels, tolerance, contact, law):
+    gentle = law is ALE and contact == "dirichlet"
+    fleet = Fleet(law_of(law, levels, tolerance, contact, "proportional"), seed, gentle)
+    assert worst_excess(fleet, of="base") <= ROUNDING
+
+
+@pytest.mark.xfail(strict=False, reason=YOUNG)
+@pytest.mark.parametrize("source", ["overburden", "proportional"])
+def test_no_more_than_liquefied_while_a_film_comes_in_and_the_column_thins(source):
+    """It is liquefied, the bed is dry, a micrometre of soil comes in and the thickness falls to a half."""
+    fleet = Fleet(law_of(ALE, 11, None, "dirichlet", source), 1, gentle=False)
+    assert worst_excess(fleet, FEW, of="base") <= ROUNDING_OF_FEW
+
+
+@pytest.mark.xfail(strict=False, reason="waves.evolve: its limits do not fall with a load that falls")
+@pytest.mark.parametrize("levels", [4, 11])
+def test_no_more_than_liquefied_while_a_classical_column_thins(levels):
+    fleet = Fleet(law_of(Classical, levels, None, "dirichlet", "overburden"), 1, gentle=False)
+    assert worst_excess(fleet) <= ROUNDING_OF_FEW
+
+
+@pytest.mark.xfail(
+    strict=False,
+    reason="stretch.interpolate holds the effective stress between two levels, not over eta: an excess of one rounding "
+    "grows by up to (m + 1)/m, m levels below the surface, with every advance",
+)
+@pytest.mark.parametrize("levels, contact", [(7, "dirichlet"), (11, "dirichlet"), (11, "flux")])
+def test_a_small_excess_does_not_grow(levels, contact):
+    """Liquefied and 1e-9 more but for the two highest levels; each step brings in 1 % and diffuses by 1e-5 h^2."""
+    law, eta = law_of(ALE, levels, 0.0, contact, "overburden"), np.linspace(1.0, 0.0, levels)
+    profile = (1.0 + 1e-9) * LOAD_PER_METRE * eta * (np.arange(levels) < levels - 2)
+    state = ColumnState(profile[None].copy(), np.zeros((1, COLUMN_MEMORY)), np.zeros(1))
+    thickness, worst, base = np.ones(1), 0.0, np.zeros(1)
+    for step in range(STEPS):
+        entrained = (0.01 if step else 0.0) * thickness
+        thickness = thickness + entrained
+        load = LOAD_PER_METRE * thickness
+        forcing = ColumnForcing(
+            thickness, thickness, load, entrained, load, np.zeros(1, np.int8), np.zeros(1), 1e-5 * thickness**2,
+            WATER_TO_BUOYANT, False,
+        )  # fmt: skip
+        law.advance(state, forcing, float(step > 0), base)
+        copy = ColumnState(*(array.copy() for array in state))
+        law.synchronise(copy, forcing)
+        worst = max(worst, ((copy.profile - load[:, None] * eta) / load[:, None]).max())
+    assert worst <= 2e-9  # measured 3.9e-5, 6.5e-5, 5.7e-4
+
+
+@pytest.mark.xfail(
+    strict=False, reason="stretch.interpolate holds the pressure between two levels, but not the pressure over eta"
+)
+@pytest.mark.parametrize("levels", [4, 11, 41])
+@pytest.mark.parametrize("contact", ["dirichlet", "flux"])
+def test_no_more_than_liquefied_by_proportional_loading(levels, contact):
+    """Measured .16 of the load at 4 levels, .03 at 41."""
+    fleet = Fleet(law_of(ALE, levels, None, contact, "proportional"), 1, gentle=True)
+    assert worst_excess(fleet) <= ROUNDING_OF_FEW
+
+
+# ---- content ----
+
+
+@examples
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    levels=st.integers(3, 41),
+    source=st.sampled_from(["overburden", "proportional", "none"]),
+    law=st.sampled_from([ALE, Classical]),
+)
+def test_content_is_kept_without_erosion_and_diffusion(seed, levels, source, law):
+    """Per grain: what loading adds is known, and strain by itself adds nothing."""
+    fleet = Fleet(law(levels=levels, loading_source=source), seed, gentle=False)
+    fleet.coefficient[:], fleet.first_volume[:] = 0.0, 0.0  # no diffusion, and none may grow
+    expected, scale, load = fleet.start.copy(), np.abs(fleet.start).max(axis=1) + fleet.load, fleet.load
+    for step in range(STEPS):
+        fleet.step()
+        if source == "overburden":
+            expected += (fleet.load - load)[:, None] * fleet.eta
+        elif source == "proportional":
+            expected *= (fleet.load / load)[:, None]
+        load, scale = fleet.load, np.maximum(scale, fleet.load)
+        assert_allclose(fleet.friction / scale, expected[:, 0] / scale, atol=ROUNDING)
+        if step in LOOKS:
+            assert_allclose(fleet.profile() / scale[:, None], expected / scale[:, None], atol=ROUNDING)
+
+
+@pytest.mark.parametrize("contact", ["dirichlet", "flux"])
+@pytest.mark.parametrize("start", ["zero", "uniform"])
+@pytest.mark.parametrize("advance", ["lazy", "every_step"])
+def test_content_is_what_came_in_without_diffusion(contact, start, advance):
+    """To half a cell of the bed's pressure: half a cell is what the base level stands for.
+
+    Measured 0.05 to 0.39 cells: a stretch interpolates values, not contents, and so is of the first order.
+    """
+    for levels in (5, 11, 21, 41, 81):
+        cells = levels - 1
+        warm = 0.0 if start == "zero" else 0.5
+        ds = solve_column(
+            coefficient_of_consolidation=0.0, times=[25.0, 50.0, 100.0, 300.0], bed_contact=contact, levels=levels,
+            initial=np.full(levels, warm) * (np.arange(levels) < cells), advance=advance,
+        )  # fmt: skip
+        thickness = ds.thickness.values[:, 0]
+        content = np.trapezoid(ds.excess_pore_pressure.values[:, 0], dx=1.0 / cells) * thickness
+        came_in = thickness - 1.0  # of 1 Pa
+        assert_allclose((content - warm * (1.0 - 0.5 / cells) - came_in) / thickness, 0.0, atol=0.5 / cells)
+
+
+# ---- what is clipped ----
+
+
+@pytest.mark.parametrize("steps", [1, 3, 40])
+def test_what_thinning_takes_off_is_counted(steps):
+    """A closed column without diffusion thins from ratio r to s times its thickness: clipped if below suction.
+
+    It keeps its effective stress, so its ratio is r - 1 + s in units of the first load; suction, -s rho_w/rho'.
+    Then what is taken off is known at every step, for every column.
+    """
+    rng = np.random.default_rng(steps)
+    ratio, shrunk = rng.uniform(-1.0, 1.0, COUNT), rng.uniform(0.05, 1.0, COUNT)
+    eta = np.linspace(1.0, 0.0, 11)
+    thickness, load = np.ones(COUNT), np.full(COUNT, LOAD_PER_METRE)
+    state = ColumnState(np.outer(ratio * load, eta), np.zeros((COUNT, COLUMN_MEMORY)), np.zeros(COUNT))
+    law, none, one, base = ALE(), np.zeros(COUNT), np.ones(COUNT), np.zeros(COUNT)
+    pressure, taken = ratio * load, none.copy()
+    for step in range(steps + 1):
+        thickness = shrunk ** (step / steps)
+        before, load = load, LOAD_PER_METRE * thickness
+        forcing = ColumnForcing(
+            one, thickness, load, none, none, np.zeros(1, np.int8), np.zeros(1), np.zeros(1), WATER_TO_BUOYANT, True
+        )
+        law.advance(state, forcing, 1.0, base)
+        free = pressure + load - before
+        pressure = np.maximum(free, -WATER_TO_BUOYANT * load)
+        taken += 0.5 * (pressure - free) * thickness  # eta has the mean 0.5
+        assert_allclose(base, pressure, atol=1e-9 * LOAD_PER_METRE)  # within 1e-9 of a bound the law need not look
+    must = ratio - 1.0 + shrunk < -WATER_TO_BUOYANT * shrunk * (1.0 + 1e-6)
+    may = ratio - 1.0 + shrunk < -WATER_TO_BUOYANT * shrunk * (1.0 - 1e-6)
+    assert 50 < must.sum() < COUNT - 50
+    assert np.all(state.clipped[must] > 0.0) and np.all(state.clipped[~may] == 0.0)
+    assert_allclose(state.clipped, taken, rtol=1e-7, atol=1e-8 * LOAD_PER_METRE)
+
+
+@pytest.mark.parametrize("law", [ALE, Classical])
+@pytest.mark.parametrize("levels, contact", [(5, "flux"), (11, "dirichlet"), (21, "flux")])
+def test_nothing_is_clipped_that_stays_within_bounds(law, levels, contact):
+    """A random column and its free twin: what the twin never leaves takes nothing off, and what it leaves does.
+
+    Both are brought to the present after every step: a column that is left alone is not held.
+    """
+    held, free = (
+        Fleet(law_of(law, levels, None, contact, "overburden"), 5, gentle=True, bounded=one) for one in (True, False)
+    )
+    inside, outside, clipped = np.full(COUNT, True), np.full(COUNT, False), np.zeros(COUNT)
+    content = free.load * free.thickness
+    for _ in range(FEW):
+        for fleet in (held, free):
+            fleet.step()
+            fleet.law.synchronise(fleet.state, fleet.forcing()._replace(entrained=np.zeros(COUNT)))
+        ratio = free.state.profile[:, :-1] / free.load[:, None] / free.eta[:-1]
+        inside &= np.all((ratio <= 1.0 + ROUNDING_OF_FEW) & (ratio >= -WATER_TO_BUOYANT), axis=1)
+        outside |= np.any((ratio > 1.0 + 1e-6) | (ratio < -WATER_TO_BUOYANT * (1.0 + 1e-6)), axis=1)
+        content = np.maximum(content, free.load * free.thickness)
+        assert np.all(held.state.clipped >= clipped)
+        clipped = held.state.clipped.copy()
+    assert min(inside.sum(), outside.sum()) > 50
+    assert np.all(clipped[inside] <= FEW * ROUNDING_OF_FEW * content[inside])
+    assert np.all(clipped[outside] > 0.0)
+
+
+# ---- thickness noise ----
+
+
+@pytest.mark.parametrize("times_step", [1e1, 1e2, 1e3, 1e4, 1e6])
+@pytest.mark.parametrize("steps", [200, 1000])
+@pytest.mark.parametrize("tolerance", [None, 0.0])
+def test_noise_of_the_thickness_makes_no_pressure(times_step, steps, tolerance):
+    """White noise of +-10 % in every step, of 400 columns at ratio 0 over a closed base; T_c in steps.
+
+    Undrained, a column that starts at the mean thickness has the ratio 1 - 1/(1 + x), in the mean
+    1 - ln(1.1/0.9)/0.2 = -3.35e-3, the share of the noise's variance; what drains has less. Measured +2e-4, -5e-4,
+    -2.3e-3, -3.0e-3, -3.3e-3 for T_c = 10 ... 1e6 and 200 steps. With a floor at 0 it would be +.05 and more.
+    """
+    count, rng = 400, np.random.default_rng(0)
+    law, one, none = ALE(tolerance=tolerance), np.ones(count), np.zeros(count)
+    state, base = ColumnState(np.zeros((count, 11)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count)), none.copy()
+    ratios = []
+    for step in range(steps + 1):
+        thickness = one + 0.1 * rng.uniform(-1.0, 1.0, count) * (step > 0)
+        load = LOAD_PER_METRE * thickness
+        forcing = ColumnForcing(
+            one, thickness, load, none, none, np.zeros(1, np.int8), np.zeros(1), np.full(1, 1.0 / times_step),
+            WATER_TO_BUOYANT, True,
+        )  # fmt: skip
+        law.advance(state, forcing, float(step > 0), base)
+        ratios.append(base / load)
+    means = np.mean(ratios[1:], axis=0)
+    sampling = 4.0 * means.std() / np.sqrt(count)
+    undrained = 1.0 - np.log(1.1 / 0.9) / 0.2
+    # above 0 only by draining faster when thin, by the share of the variance at most and only where it drains
+    assert undrained - sampling <= means.mean() <= 0.1 * abs(undrained) + sampling
+    assert np.std(ratios[1:]) > 0.04  # single steps do feel the noise
+    assert np.all(state.clipped == 0.0)
