@@ -190,7 +190,7 @@ class DebrisFlow(Component):
 
     @property
     def columns(self):
-        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), and what shapes it."""
+        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
         sim, c_v = self._simulation, self._physics.material.coefficient_of_consolidation
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self.elapsed_time)
 
@@ -239,6 +239,7 @@ class DebrisFlow(Component):
         inputs.check_boundaries(grid)
         drained = at["bed__drained"] if "bed__drained" in at else None  # noqa: SIM401
         inputs.check_terrain(grid, elevation, soil, ratio, drained)
+        drained = None if drained is None else drained > 0.0
         release = inputs.read_release(grid, soil) if take_release else np.zeros(grid.number_of_nodes)
         status = np.array(grid.status_at_node, np.int64)
         changed = self._seen is None or not all(map(np.array_equal, self._seen, (elevation, status)))
@@ -251,7 +252,7 @@ class DebrisFlow(Component):
         nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
         closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
         surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
-        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, None if drained is None else drained == 1)
+        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, drained)
         sim.on(bed, status, changed or failing)
         shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
         self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth)

@@ -34,7 +34,7 @@ def test_a_drained_bed_takes_the_pressure_and_shortens_the_way():
 def test_a_drain_is_there_or_not():
     grid = sloping()
     grid.add_full("bed__drained", 0.5, at="node")
-    with pytest.raises(InputError, match="bed__drained must be 0 or 1, got 0.5 at node"):
+    with pytest.raises(InputError, match=r"bed__drained must be 0 or 1, got 0\.5 at node"):
         DebrisFlow(grid, numerics=COARSE).run_one_step(1.0)
 
 

@@ -86,7 +86,7 @@ NODE_FIELDS = (
         "Excess pore pressure of the bed over its liquefaction value", True,
     ),
     NodeField(
-        "bed__drained", "in", "-", "1 where a drain holds the excess pore pressure at the base of a flow at 0, else 0", True
+        "bed__drained", "in", "-", "1 where a drain holds the excess pore pressure at the base of a flow at 0", True
     ),
     NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
     NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),

@@ -37,12 +37,14 @@ def columns_dataset(profile, particles, coefficient_of_consolidation: float, tim
             "thickness squared over coefficient of consolidation",
         ),
         "erosion_time": (erosion_time(p.depth, p.entrainment_rate), "s", "thickness over erosion rate"),
-        "basal_peclet_number": (p.basal_peclet_number.copy(), "-", "consolidation time over erosion time, of the last erosion"),
+        "basal_peclet_number": (
+            p.basal_peclet_number.copy(), "-", "consolidation time over erosion time, of the last erosion",
+        ),
         "initial_peclet_number": (p.basal_peclet_number / grown, "-", "the same with the thickness before any erosion"),
         "front_height": (1.0 - 1.0 / grown, "-", "height over thickness of the front between released and eroded soil"),
         "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
-        "clipped_pressure": (p.column_clipped.copy(), "Pa m", "pressure taken off by the bounds times thickness, so far"),
-    }
+        "clipped_pressure": (p.column_clipped.copy(), "Pa m", "pressure taken off by the bounds times thickness"),
+    }  # fmt: skip
     level = xr.DataArray(
         np.linspace(0.0, 1.0, levels), dims="level",
         attrs=_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface"),

@@ -10,7 +10,24 @@ import math
 from ...core.jit import kernel
 from .layer import base_share, layer, wave_of_layer
 from .memory import (
-    BED_PRESSURE, BEND, CLOSED, CONTACT, GAIN, HIGH, LAYER, LEAST, LEVELS, LIFT, LOW, MOST, PASSED, PRESSURE, RATE, REMAINDER, SCALE, SWING,
+    BED_PRESSURE,
+    BEND,
+    CLOSED,
+    CONTACT,
+    GAIN,
+    HIGH,
+    LAYER,
+    LEAST,
+    LEVELS,
+    LIFT,
+    LOW,
+    MOST,
+    PASSED,
+    PRESSURE,
+    RATE,
+    REMAINDER,
+    SCALE,
+    SWING,
     TAIL,
 )  # fmt: skip
 from .scheme import OVERBURDEN, PROPORTIONAL

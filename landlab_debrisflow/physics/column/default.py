@@ -15,8 +15,23 @@ from .closed import DIFFUSION_CAP, close, closed_pressure, gained_limits, look, 
 from .eroding import bring
 from .layer import is_seen
 from .memory import (
-    BASE, BED_PRESSURE, CLOSED, CONTACT, CURRENT_LOAD, DIFFUSION, ERODING, FLUX, HELD, JUST, LEVELS, LOAD, OWED, SEALED,
-    SOURCE, TOUCHED, VOLUME,
+    BASE,
+    BED_PRESSURE,
+    CLOSED,
+    CONTACT,
+    CURRENT_LOAD,
+    DIFFUSION,
+    ERODING,
+    FLUX,
+    HELD,
+    JUST,
+    LEVELS,
+    LOAD,
+    OWED,
+    SEALED,
+    SOURCE,
+    TOUCHED,
+    VOLUME,
 )  # fmt: skip
 from .scheme import UNLOADED
 

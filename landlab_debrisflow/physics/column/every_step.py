@@ -1,4 +1,4 @@
-"""What the schemes that advance every column at every step have in common: how a step loads a column, and its bounds."""
+"""What the schemes that advance every column at every step share: how a step loads a column, and its bounds."""
 
 import numpy as np
 

@@ -4,8 +4,8 @@
 # lies in the half cell of the base level came with this contact.
 CONTACT, JUST, VOLUME, LOAD, CURRENT_LOAD = range(5)
 
-# while the base prescribes or gives: c_v t / h^2 since the last advance, pressure of the bed now, that at the base then,
-# pressure by a porosity source, diffusion left over, volume when this contact began
+# while the base prescribes or gives: c_v t / h^2 since the last advance, pressure of the bed now, that at the base
+# then, pressure by a porosity source, diffusion left over, volume when this contact began
 DIFFUSION, BED_PRESSURE, BASE, SOURCE, OWED, TOUCHED = range(5, 11)
 
 # while closed, of the last look: least and largest pressure, and pressure over eta; pressure at the base, its parabola
@@ -18,6 +18,6 @@ PASSED, LIFT, SCALE, GAIN, SWING = range(13, 18)
 # the same of a layer thinner than a level that the base had when it closed
 TAIL, LAYER = 18, 22
 
-# LEVELS is a closed base too, of a column kept at levels; from FLUX on, soil that comes in brings its own pressure and no
-# more: SEALED, under an impermeable base, that of the base
+# LEVELS is a closed base too, of a column kept at levels; from FLUX on, soil that comes in brings its own pressure and
+# no more: SEALED, under an impermeable base, that of the base
 LEVELS, CLOSED, ERODING, HELD, FLUX, SEALED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0

@@ -32,7 +32,7 @@ class Waves(NamedTuple):
     tail: np.ndarray  # (2, points): how that part decays
     eta: np.ndarray  # (levels but the surface,)
     squares: np.ndarray  # (waves,), squared wave numbers over an impermeable base
-    octaves: np.ndarray  # (OCTAVES,), what eta has at an impermeable base of the waves too short for the levels, by octave
+    octaves: np.ndarray  # (OCTAVES,), what eta has at an impermeable base of shorter waves, by octave
     octave_rate: float  # at which the first of these decays; the next four times as fast, and so on
 
 
@@ -68,7 +68,8 @@ def waves_of(levels: int) -> Waves:
     pattern[1, 0] = 0.0  # a prescribed base is what it is
     squares = numbers**2
     return Waves(
-        shapes, np.ascontiguousarray(project.transpose(0, 2, 1)), np.stack([ramp, ramp / squares], 1), np.stack([uniform, uniform / squares], 1), pattern,
+        shapes, np.ascontiguousarray(project.transpose(0, 2, 1)), np.stack([ramp, ramp / squares], 1),
+        np.stack([uniform, uniform / squares], 1), pattern,
         np.array([_tail(cells, kind) for kind in (IMPERMEABLE, PRESCRIBED)]), eta, squares[0],
         _octaves(cells, pattern[IMPERMEABLE, 0]), 2.0 * (np.pi * cells) ** 2,
     )  # fmt: skip

@@ -33,9 +33,7 @@ class Columns:
         self.thickness = self.volume.copy()
         self.load = LOAD_PER_METRE * self.volume if load is None else np.array(load, dtype=float)
         count = self.volume.size
-        self.state = ColumnState(
-            np.array(profile, dtype=float), np.zeros((count, COLUMN_MEMORY)), np.zeros(count)
-        )
+        self.state = ColumnState(np.array(profile, dtype=float), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
         self.base, self.bed = np.zeros(count), np.zeros(count)
         self.standing, self.source, self.bounded = np.zeros(1, np.int8), np.zeros(1), bounded
         self.law.advance(self.state, self.forcing(), 0.0, self.base)

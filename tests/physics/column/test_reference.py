@@ -78,7 +78,11 @@ def test_growing_column(number, time, atol):
 def test_constant_local_peclet_number(number):
     """Entrainment falls as 1/h: the profile is steady, so the basal Peclet number and the shape are."""
     columns = Columns(
-        ALE(loading_source="none"), constant_local_peclet(1.0 - eta(11), number)[None], [1.0], [HEAVY], 1.0,
+        ALE(loading_source="none"),
+        constant_local_peclet(1.0 - eta(11), number)[None],
+        [1.0],
+        [HEAVY],
+        1.0,
         bounded=False,
     )
     rates = []
