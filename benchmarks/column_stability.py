@@ -104,7 +104,8 @@ def draw(results, file: Path) -> None:
     axes[1, 1].set_xlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [–]", fontsize=10)
     figure.supylabel("Fourier number of a step at the start, $c_v\\,\\Delta t/\\Delta x^2$ [–]", fontsize=10)
     beyond = max(np.max(values[~failed]) for *both, failed, _ in results.values() for values in both) > bounds[-1]
-    bar = figure.colorbar(mesh, ax=axes, location="right", shrink=0.8, ticks=bounds, extend="max" if beyond else "neither")
+    end = "max" if beyond else "neither"
+    bar = figure.colorbar(mesh, ax=axes, location="right", shrink=0.8, ticks=bounds, extend=end)
     bar.set_label("largest excursion beyond the exact bounds, 0 and 1 Pa [Pa]")
     marks = [
         Line2D([], [], color="k", linestyle="--", label="thickness doubles in one step; more to the right"),

@@ -6,6 +6,7 @@ particles. The cases are those of the tests, with more
 particles. S-1000 is measured by ``python examples/s1000.py``.
 """
 
+import itertools
 import math
 import os
 import resource
@@ -66,10 +67,10 @@ def demo_cpu():
     return times[0], np.median(times[1:], axis=0)
 
 
-def fronts(column: str) -> str:
-    """Return the run-out of the front in the demo beyond the 100 m contour for rising numbers of particles [m]."""
+def fronts(columns, counts=(750,)) -> str:
+    """Return the run-out of the front in the demo beyond the 100 m contour, for columns and numbers of particles [m]."""
     found = []
-    for particles in (750, 1500, 3000, 6000):
+    for column, particles in itertools.product(columns, counts):
         grid = tsing_shan_valley()
         elevation, release = (
             grid.at_node[name].reshape(grid.shape).copy()
@@ -100,7 +101,10 @@ def main():
         table.add_row(words, f"{runs:.1f} ({process:.1f})", f"{most}")
     for column in ("ale", "classical"):
         words = f"front of the demo's {column} run with 750, 1500, 3000, 6000 particles [m]"
-        table.add_row(words, fronts(column), "spread 5")
+        table.add_row(words, fronts([column], (750, 1500, 3000, 6000)), "spread 5")
+        for scheme in ("default", "upwind"):
+            finer = [{"law": column, "levels": levels, "scheme": scheme} for levels in (11, 41, 161)]
+            table.add_row(f"the same, 750 particles, {scheme} scheme, 11, 41, 161 levels", fronts(finer), "no spread")
     Console().print(table)
 
 

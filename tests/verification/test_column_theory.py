@@ -4,6 +4,8 @@ Undrained loading, a drained base, the literal source of one resolution and the 
 are in `tests/test_solve_column.py` and `tests/physics/column`.
 """
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -60,7 +62,7 @@ def test_growing_column_has_the_printed_digits():
     errors = np.array([np.abs(values - exact).max(axis=1) for values in found])
     assert np.all(np.abs(orders(errors[:2]) - 2.0) < 0.3)
     assert errors[-1].max() < 4e-5
-    coarse, fine = ((4.0 * b - a) / 3.0 for a, b in zip(found[:-1], found[1:], strict=True))
+    coarse, fine = ((4.0 * b - a) / 3.0 for a, b in pairwise(found))
     assert_allclose((8.0 * fine - coarse) / 7.0, exact, rtol=0.0, atol=1e-6)
 
 
@@ -98,7 +100,7 @@ def test_order_in_space(scheme, number, start):
 @pytest.mark.parametrize(
     "scheme, levels, number, steps, low, high",
     [
-        ("default", 21, 1.0, (50, 100, 200, 400, 800, 1600), 1.5, 2.2),  # measured 1.9, 2.1, 1.7, 1.6
+        ("default", 21, 1.0, (50, 100, 200, 400, 800), 1.5, 2.2),  # measured 1.9, 2.1, 1.7
         ("default", 81, 1.0, (50, 100, 200, 400, 800, 1600), 0.9, 1.6),  # 0.9, 1.1, 1.1, 1.4: diffuse, stretch, diffuse
         ("upwind", 21, 1.0, (50, 100, 200, 400, 800), 0.95, 1.05),  # backward Euler
         ("upwind", 81, 10.0, (50, 100, 200, 400, 800), 0.95, 1.05),
@@ -108,7 +110,7 @@ def test_order_in_space(scheme, number, start):
 def test_order_in_time(scheme, levels, number, steps, low, high):
     """Of the difference between one number of steps and twice it."""
     found = [grown(scheme, levels, number, count)[0] for count in steps]
-    differences = [np.abs(a - b).max() for a, b in zip(found[:-1], found[1:], strict=True)]
+    differences = [np.abs(a - b).max() for a, b in pairwise(found)]
     assert np.all((orders(differences) > low) & (orders(differences) < high)), orders(differences)
     assert differences[0] < 1e-3
 
@@ -129,7 +131,7 @@ def test_the_error_of_laziness_falls_with_its_tolerance():
         1e-2,
         pytest.param(
             1e-4, marks=pytest.mark.xfail(
-                strict=True, reason="default.STRIDE: an advance makes an error of less than the second order in its length"
+                strict=True, reason="default.STRIDE: the error of an advance is of less than the second order in it"
             )
         ),
     ],
@@ -307,7 +309,7 @@ def test_without_diffusion_the_front_stays_with_the_old_soil(levels, advance):
 
 @pytest.mark.parametrize("scheme", ["default", "lax_wendroff", "upwind"])
 def test_the_literal_source_makes_pressure_out_of_nothing(scheme):
-    """p = rho' g y ln(h/max(h_0, y)) over a dry bed, from a cold start: the error falls; ours leaves 0, to rounding."""
+    """It is rho' g y ln(h/max(h_0, y)) over a dry bed from a cold start, the better the more levels; ours leaves 0."""
     given = {"coefficient_of_consolidation": 0.0, "basal_pressure": 0.0, "times": [100.0], "loading": LOADING}
     errors = []
     for levels in (11, 41, 161):
@@ -327,7 +329,7 @@ def test_the_literal_source_makes_pressure_out_of_nothing(scheme):
 
 def slope_at_end(pressure, spacing):
     """Return dp/d(distance) at the first level, by four of them (third order)."""
-    return (-11.0 * pressure[:, 0] + 18.0 * pressure[:, 1] - 9.0 * pressure[:, 2] + 2.0 * pressure[:, 3]) / 6.0 / spacing
+    return pressure[:, :4] @ np.array([-11.0, 18.0, -9.0, 2.0]) / 6.0 / spacing
 
 
 @pytest.mark.parametrize("source", ["overburden", "proportional", "none"])

@@ -50,31 +50,38 @@ def close(profile, memory, i, jump, content, waves, work):
     """Turn the levels of one column into the waves it decays in over an impermeable base.
 
     Over the base there may be a layer that levels hardly see, of this ``jump`` and ``content`` (`eroding.bring`). It is
-    taken as what has diffused from a base held at that jump, and goes into the waves by itself.
+    taken as what has diffused from a base held at that jump, and goes into the waves by itself: those of the levels
+    get what levels have of its content, the shorter ones what they lack at the base.
     """
     cells = profile.shape[1] - 1
-    passed = 0.25 * math.pi * content * content
     bed = memory[i, BED_PRESSURE] if jump != 0.0 else profile[i, 0]
+    passed, removed, kept, levels, parts = 0.25 * math.pi * content * content, 0.0, 0.0, work[0], work[1]
     low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
     if jump != 0.0:
-        profile[i, 0] -= jump * base_share(cells, 0.0, passed)
-        for k in range(1, cells if passed > 0.0 else 0):
-            profile[i, k] -= jump * layer(k / cells, 0.0, passed)
+        for k in range(cells):
+            part = jump * (base_share(cells, 0.0, passed) if k == 0 else layer(k / cells, 0.0, passed))
+            profile[i, k] -= part
+            removed += part * (0.5 if k == 0 else 1.0)
+        for j in range(cells):
+            parts[j] = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
+            kept += parts[j] * 0.5 * cells * waves.uniform[IMPERMEABLE, 0, j]
+    share = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
     slope = base_slope(profile, i, cells)
-    levels, unseen = work[0], bed - profile[i, 0]
+    unseen = bed - profile[i, 0]
     for k in range(cells):
         levels[k] = profile[i, k] - slope * waves.eta[k]
     for j in range(cells):
         amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
         for k in range(cells):
             amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
-        if jump != 0.0:
-            part = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
-            amplitude, unseen = amplitude + part, unseen - part
+        if share != 0.0:
+            amplitude, unseen = amplitude + share * parts[j], unseen - share * parts[j]
         profile[i, j] = amplitude
     for octave in range(OCTAVES):  # by the wave in its middle; the last has what is left
-        part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
-        part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), jump)
+        part = 0.0
+        if share != 0.0:
+            part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
+            part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), unseen)
         memory[i, LAYER + octave] = part
         unseen -= part
     for octave in range(OCTAVES):

@@ -33,7 +33,7 @@ from .memory import (
     TOUCHED,
     VOLUME,
 )  # fmt: skip
-from .scheme import UNLOADED
+from .scheme import OVERBURDEN, PROPORTIONAL, UNLOADED
 
 STRIDE = 1.5  # growth of a column in one advance over the square root of the tolerance (benchmarks/column.py)
 LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
@@ -103,7 +103,8 @@ def switch(columns, i, forcing, scheme, work):
     if memory[i, CONTACT] == CLOSED:
         open_up(profile, memory, i, scheme.waves, work)
     elif memory[i, CONTACT] != LEVELS:
-        jump, content = bring(profile, memory, i, volume, old_load, True, scheme, work)
+        ending = memory[i, CONTACT] != LEVELS  # not a literal: numba would compile it all once more
+        jump, content = bring(profile, memory, i, volume, old_load, ending, scheme, work)
         if forcing.bounded:
             hold(columns, i, old_load, forcing.thickness[i], forcing.water_to_buoyant)
     contact = contact_of(forcing.base[min(i, forcing.base.size - 1)], forcing.entrained[i], scheme.flux)
@@ -180,10 +181,16 @@ def advance_due(columns, i, forcing, scheme, work):
         pressure, _ = closed_pressure(memory, i, 0.0, load, load, 0.0, scheme.loading)
         return min(max(pressure, -lower * load), load) if forcing.bounded else pressure
     if contact == SEALED:
+        # soil that comes in has the pressure of the base, and is loaded with it
         memory[i, BASE] = memory[i, BED_PRESSURE] = profile[i, 0]
+        unstrained = memory[i, LOAD] * volume / memory[i, VOLUME] if memory[i, VOLUME] > 0.0 else load
+        if scheme.loading == OVERBURDEN:
+            memory[i, BED_PRESSURE] += load - unstrained
+        elif scheme.loading == PROPORTIONAL and unstrained > 0.0:
+            memory[i, BED_PRESSURE] *= load / unstrained
     grown = 1.0 - memory[i, VOLUME] / volume if scheme.stretching else 0.0
     if contact >= FLUX or memory[i, JUST] == 0.0 or is_seen(waves.eta.size, grown, memory[i, DIFFUSION]):
-        bring(profile, memory, i, volume, load, False, scheme, work)
+        bring(profile, memory, i, volume, load, contact >= FLUX, scheme, work)
         if forcing.bounded:
             hold(columns, i, load, thickness, lower)
     return profile[i, 0] if contact >= FLUX else memory[i, BED_PRESSURE]
@@ -223,6 +230,6 @@ def bring_columns(columns, forcing, scheme):
             open_up(profile, memory, i, scheme.waves, work)
         elif memory[i, CONTACT] != LEVELS:
             load = forcing.liquefaction_pressure[i]
-            bring(profile, memory, i, forcing.volume[i], load, True, scheme, work)
+            bring(profile, memory, i, forcing.volume[i], load, memory[i, CONTACT] != LEVELS, scheme, work)
             if forcing.bounded:
                 hold(columns, i, load, forcing.thickness[i], forcing.water_to_buoyant)

@@ -56,19 +56,14 @@ def _diffuse(profile, memory, i, growth, load, strained, ending, scheme, work):
         scale = math.sqrt(strained)
     for k in range(cells):
         profile[i, k] *= scale
-    just = memory[i, JUST] > 0.0
-    if memory[i, CONTACT] >= FLUX:
-        evolve(profile, i, IMPERMEABLE, passed, 0.0, 0.0, 0.0, lift, memory[i, SOURCE], scheme.waves, work[0])
-    else:
-        kink = (touched - base) * scale if just else 0.0
-        evolve(
-            profile, i, PRESCRIBED, passed, base * scale, new_base / scale, kink, lift, memory[i, SOURCE],
-            scheme.waves, work[0],
-        )  # fmt: skip
+    just, flux = memory[i, JUST] > 0.0, memory[i, CONTACT] >= FLUX
+    kind, held, new_held = (IMPERMEABLE, 0.0, 0.0) if flux else (PRESCRIBED, base * scale, new_base / scale)
+    kink = (touched - base) * scale if just and not flux else 0.0
+    evolve(profile, i, kind, passed, held, new_held, kink, lift, memory[i, SOURCE], scheme.waves, work[0])
     for k in range(cells):
         profile[i, k] *= scale
     memory[i, SOURCE] = memory[i, OWED] = 0.0
-    if memory[i, CONTACT] >= FLUX:
+    if flux:
         return 0.0, 0.0
     profile[i, 0] = new_base
     if not (just and ending) or is_seen(cells, 0.0, passed):
