@@ -19,7 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.demo import MATERIAL, measure
+from landlab_debrisflow.demo import LEVELS, MATERIAL, measure
 from landlab_debrisflow.terrains import tsing_shan_valley
 from tests.verification.test_block import MU, G, grown_block, sliding_cap
 
@@ -101,7 +101,8 @@ def main():
         table.add_row(words, f"{runs:.1f} ({process:.1f})", f"{most}")
     for column in ("ale", "classical"):
         words = f"front of the demo's {column} run with 750, 1500, 3000, 6000 particles [m]"
-        table.add_row(words, fronts([column], (750, 1500, 3000, 6000)), "spread 5")
+        columns = [{"law": column, "levels": LEVELS}]
+        table.add_row(words, fronts(columns, (750, 1500, 3000, 6000)), "spread 5")
         for scheme in ("default", "upwind"):
             finer = [{"law": column, "levels": levels, "scheme": scheme} for levels in (11, 41, 161)]
             table.add_row(f"the same, 750 particles, {scheme} scheme, 11, 41, 161 levels", fronts(finer), "no spread")

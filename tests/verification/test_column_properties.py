@@ -150,9 +150,9 @@ def worst_new_extreme(fleet):
     worst = 0.0
     for step in range(STEPS):
         fleet.step()
-        given = fleet.prescribed()
-        low = np.where(given, np.minimum(low, fleet.bed), low)
-        high = np.where(given, np.maximum(high, fleet.bed), high)
+        touched = fleet.prescribed()
+        low = np.where(touched, np.minimum(low, fleet.bed), low)
+        high = np.where(touched, np.maximum(high, fleet.bed), high)
         pressures = fleet.profile() if step in LOOKS else fleet.friction[:, None]
         assert np.isfinite(fleet.friction).all() and np.isfinite(pressures).all()
         for pressure in (fleet.friction[:, None], pressures):
