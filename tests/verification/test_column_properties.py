@@ -302,19 +302,19 @@ def test_content_is_kept_without_erosion_and_diffusion(seed, levels, source, law
 
 
 @pytest.mark.parametrize("contact", ["dirichlet", "flux"])
-@pytest.mark.parametrize("start", ["zero", "uniform"])
-@pytest.mark.parametrize("advance", ["lazy", "every_step"])
-def test_content_is_what_came_in_without_diffusion(contact, start, advance):
+@pytest.mark.parametrize("warm", [0.0, 0.5])
+@pytest.mark.parametrize("steps", [{}, {"advance": "every_step"}, {"step": 25.0}])
+def test_content_is_what_came_in_without_diffusion(contact, warm, steps):
     """To half a cell of the bed's pressure: half a cell is what the base level stands for.
 
-    Measured 0.05 to 0.39 cells: a stretch interpolates values, not contents, and so is of the first order.
+    A stretch interpolates values, not contents, and so is of the first order. Measured .04 to .32 cells over a bed
+    that prescribes its pressure, 0 to .2 where soil only brings it. Steps of 25 s let it grow by a quarter and less.
     """
     for levels in (5, 11, 21, 41, 81):
         cells = levels - 1
-        warm = 0.0 if start == "zero" else 0.5
         ds = solve_column(
             coefficient_of_consolidation=0.0, times=[25.0, 50.0, 100.0, 300.0], bed_contact=contact, levels=levels,
-            initial=np.full(levels, warm) * (np.arange(levels) < cells), advance=advance,
+            initial=np.full(levels, warm) * (np.arange(levels) < cells), **steps,
         )  # fmt: skip
         thickness = ds.thickness.values[:, 0]
         content = np.trapezoid(ds.excess_pore_pressure.values[:, 0], dx=1.0 / cells) * thickness

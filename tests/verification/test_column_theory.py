@@ -285,8 +285,9 @@ def test_content_is_continuous_across_switches(levels, law, contact, advance, so
     jumps = np.abs(np.diff(content.reshape(20, 3, 4), axis=1))
     # soil at most liquefied, and what diffuses in from a bed at most liquefied, 2 (c_v t/pi)^(1/2) of it
     most = load.max() * (0.05 * brief + 2.0 * np.sqrt(coefficient * brief / np.pi))
-    # trapezoids see a kink at the base relax: up to its slope times a twelfth of a squared cell, over time
-    assert np.all(jumps <= 1.01 * most + 1e-5 * content.max())
+    # a thin layer becomes waves and back, and where its base is at its bound the levels cannot hold all of it (1e-4);
+    # half a cell of new pressure, which a base that chatters must not take, would be 3e-2
+    assert np.all(jumps <= 1.01 * most + 2e-4 * content.max())
 
 
 # ---- convection alone ----

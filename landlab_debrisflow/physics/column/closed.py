@@ -108,9 +108,13 @@ def open_up(profile, memory, i, waves, work):
     for j in range(cells):
         for k in range(cells):
             levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
+    lost = 0.0
     for k in range(cells):
         eta = waves.eta[k]
         profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
+        lost += (levels[k] - profile[i, k]) * (0.5 if k == 0 else 1.0)
+    # what the bounds took off goes into the base level, as far as they let it: the content does not jump
+    profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, least), high, most)
     profile[i, cells] = 0.0
     memory[i, CONTACT] = LEVELS
 
