@@ -68,7 +68,7 @@ def demo_cpu():
 
 
 def fronts(columns, counts=(750,)) -> str:
-    """Return the run-out of the front in the demo beyond the 100 m contour, for columns and numbers of particles [m]."""
+    """Return the run-out of the demo's front beyond the 100 m contour, for columns and numbers of particles [m]."""
     found = []
     for column, particles in itertools.product(columns, counts):
         grid = tsing_shan_valley()
