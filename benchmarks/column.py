@@ -188,33 +188,37 @@ def main() -> None:
 
 def draw(worst, dear) -> None:
     """Draw error against cost and against the Peclet number."""
-    figure, axes = plt.subplots(1, 3, figsize=(15, 5), constrained_layout=True)
+    figure, axes = plt.subplots(2, 2, figsize=(12, 9), constrained_layout=True)
     colours = dict(zip(SCHEMES, ("tab:blue", "tab:cyan", "tab:orange", "tab:red"), strict=True))
     marks = {11: "o", 21: "s", 41: "^"}
+    once = ("A_cold", "A_warm")
+    ordinary = [name for name in CASES if name[0] not in "EH"]
+    panels = (
+        (axes[0, 1], once, 0, "One stop of erosion, constant bed pressure"),
+        (axes[1, 0], ordinary, 0, "All cases but swinging loads and the classical law"),
+        (axes[1, 1], ordinary, 1, "The same cases, depth mean"),
+    )
     for scheme in SCHEMES:
         for levels in LEVELS:
-            if ("A_cold", scheme, levels) not in dear:
-                continue
-            times = dear["A_cold", scheme, levels]
-            bases = np.maximum(worst["A_cold", scheme, levels][0], worst["A_warm", scheme, levels][0])
-            label = f"{scheme}, {levels}"
-            axes[0].plot(times, np.maximum(bases, 1e-5), marks[levels], color=colours[scheme], alpha=0.7, label=label)
-    for scheme in SCHEMES:
-        for levels, style in ((11, "-"), (41, ":")):
-            for axis, which in ((axes[1], 0), (axes[2], 1)):
-                found = [v[which] for (name, *key), v in worst.items() if key == [scheme, levels] and name[0] != "H"]
-                found = np.nanmax(found, axis=0) if found else np.full(PECLET.size, np.nan)
-                label = f"{scheme}, {levels}"
-                axis.plot(PECLET, np.maximum(found, 1e-5), style, marker=".", color=colours[scheme], label=label)
-    axes[0].plot([15.0], [4e-3], "k*", ms=12, label="aim at 11 levels")
-    axes[0].plot([25.0], [1.5e-3], "k+", ms=12, mew=2, label="aim at 21 levels")
-    for axis in axes:
-        axis.set(xscale="log", yscale="log", ylabel="worst error of the basal pressure (-)")
-    axes[0].set(xlabel="CPU time per column and step (ns)", title="One stop of erosion, a mark per Peclet number")
-    axes[1].set(xlabel="Peclet number (-)", title="All cases of ALE")
-    axes[2].set(xlabel="Peclet number (-)", title="All cases of ALE", ylabel="worst error of the depth mean (-)")
-    axes[0].legend(fontsize=7, title="scheme, levels")
-    axes[1].legend(fontsize=7, title="scheme, levels")
+            look = {"marker": marks[levels], "color": colours[scheme], "label": f"{scheme}, {levels}", "alpha": 0.7}
+            if ("A_cold", scheme, levels) in dear:
+                error = np.nanmax([worst[name, scheme, levels][0] for name in once], axis=0)
+                axes[0, 0].plot(dear["A_cold", scheme, levels], np.maximum(error, 1e-5), linestyle="", **look)
+            for axis, names, which, _ in panels:
+                if all((name, scheme, levels) in worst for name in names):
+                    error = np.nanmax([worst[name, scheme, levels][which] for name in names], axis=0)
+                    axis.plot(PECLET, np.maximum(error, 1e-5), **look)
+    axes[0, 0].plot([15.0], [4e-3], "k*", ms=12, label="aim, 11 levels")
+    axes[0, 0].plot([25.0], [1.5e-3], "k+", ms=12, mew=2, label="aim, 21 levels")
+    axes[0, 0].set(xlabel="CPU time per column and step (ns)", title="One stop of erosion, a mark per Peclet number")
+    for axis in axes.ravel():
+        axis.set(xscale="log", yscale="log", ylabel="worst error over the bed's pressure (-)", ylim=(7e-6, 0.5))
+    for axis, *_, title in panels:
+        axis.set(xlabel="Peclet number (-)", title=title)
+    legends = [axis.get_legend_handles_labels() for axis in (axes[0, 1], axes[0, 0])]
+    named = {label: handle for handles, labels in legends for handle, label in zip(handles, labels, strict=True)}
+    title = "scheme, levels\n(below 1e-5:\ndrawn there)"
+    figure.legend(named.values(), named.keys(), loc="outside right center", title=title)
     figure.savefig(Path(__file__).parents[1] / "docs" / "column.png", dpi=110)
 
 

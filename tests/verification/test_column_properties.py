@@ -410,7 +410,7 @@ def test_noise_of_the_thickness_makes_no_pressure(times_step, steps, tolerance):
 
     Undrained, a column that starts at the mean thickness has the ratio 1 - 1/(1 + x), in the mean
     1 - ln(1.1/0.9)/0.2 = -3.35e-3, the share of the noise's variance; what drains has less. Measured +2e-4, -5e-4,
-    -2.3e-3, -3.0e-3, -3.3e-3 for T_c = 10 ... 1e6 and 200 steps. With a floor at 0 it would be +.05 and more.
+    -2.3e-3, -3.0e-3, -3.3e-3 for T_c = 10 ... 1e6 and 200 steps. With a floor at 0 it would be +.025 and more.
     """
     count, rng = 400, np.random.default_rng(0)
     law, one, none = ALE(tolerance=tolerance), np.ones(count), np.zeros(count)
