@@ -29,7 +29,9 @@ PRESSURE = 1e4  # of columns without loading [Pa]
 BASES = BASE_BY_EROSION, BASE_PRESCRIBED, BASE_IMPERMEABLE
 COUNT, STEPS = 500, 200
 LOOKS = {0, 1, 4, 19, 59, 109, STEPS - 1}  # steps after which profiles are looked at
-ROUNDING = 1e-12  # thousands of operations at 2e-16 each, relative to the largest pressure; measured below 1e-13
+ROUNDING = 1e-12  # thousands of operations at 2e-16 each, relative to the largest pressure; measured 4e-16
+# of the load less the pressure, where that is nothing: every advance takes the one from the other; measured 5e-13
+ROUNDING_OF_LOAD = 1e-10
 # the same examples everywhere, and none kept: an example is 500 columns, drawn from a seed
 examples = settings(
     max_examples=40, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
@@ -227,14 +229,14 @@ def test_a_bed_of_constant_pressure_under_a_column_that_thins(coefficient):
 @laws
 def test_no_more_than_liquefied_by_overburden(seed, levels, tolerance, contact, law):
     """Where neither start nor bed are more than liquefied nothing is, at any level, over any base."""
-    assert worst_excess(Fleet(law_of(law, levels, tolerance, contact, "overburden"), seed, BASES)) <= ROUNDING
+    assert worst_excess(Fleet(law_of(law, levels, tolerance, contact, "overburden"), seed, BASES)) <= ROUNDING_OF_LOAD
 
 
 @examples
 @laws
 def test_no_more_than_liquefied_by_proportional_loading(seed, levels, tolerance, contact, law):
     """The same where ratios survive strain."""
-    assert worst_excess(Fleet(law_of(law, levels, tolerance, contact, "proportional"), seed, BASES)) <= ROUNDING
+    assert worst_excess(Fleet(law_of(law, levels, tolerance, contact, "proportional"), seed, BASES)) <= ROUNDING_OF_LOAD
 
 
 @pytest.mark.parametrize("source", ["overburden", "proportional"])
