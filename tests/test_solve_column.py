@@ -476,7 +476,8 @@ def test_soil_that_comes_in_over_an_impermeable_base_loads_nobody(scheme):
     pressure = ds.excess_pore_pressure.values[0, 0]
     old = np.linspace(0.0, 1.0, 41) > 0.75  # the upper half is old soil; below it the kink is smoothed
     assert_allclose(pressure[old], 2.0 * (1.0 - np.linspace(0.0, 1.0, 41))[old], atol=0.03)
-    assert np.all((pressure >= 0.0) & (pressure[0] < 3.0))
+    assert_allclose(pressure[0], 1.0, atol=ROUNDING)  # 2 if the weight of new soil loaded the old
+    assert pressure.min() >= 0.0 and pressure.max() <= 1.1
 
 
 @pytest.mark.parametrize("scheme", ["default", "upwind"])

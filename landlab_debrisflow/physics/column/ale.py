@@ -34,7 +34,7 @@ class ALE:
         choices=BED_CONTACT,
     )  # fmt: skip
     tolerance: float = parameter(
-        "-", "error over the load that leaving columns alone may make, 0: none; default as levels: 0.3/(levels - 1)^2",
+        "-", "error over the load aimed at when columns are left alone, 0: never; by default 0.3/(levels - 1)^2",
         None, (0.0, 0.1),
     )  # fmt: skip
     source_includes_erosion: bool = parameter(

@@ -30,8 +30,8 @@ def bring(profile, memory, i, volume, load, ending, scheme, work):
     now, and the content of the layer over it, over that jump and the thickness; else 0 and 0.
     """
     start, old_load = memory[i, VOLUME], memory[i, LOAD]
-    # change of the load but by erosion
-    strained = load * start / (old_load * volume) if old_load > 0.0 and volume > 0.0 else 1.0
+    # change of the load but by erosion; a column that has none left is emptied by its bounds
+    strained = load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
     if scheme.stretching and volume > start:
         stretch = max(start / volume, LEAST_STRETCH)
         layer_now = _grow(profile, memory, i, stretch, load, strained, ending, scheme, work)
@@ -106,7 +106,7 @@ def _grow(profile, memory, i, stretch, load, strained, ending, scheme, work):
         entry = entry * strained
     if flux:
         evolve(profile, i, kind, first, 0.0, 0.0, 0.0, 0.0, source, waves, work[0])
-        held = scale * (weight * old_load - profile[i, 0])
+        held = weight * old_load / stretch - scale * profile[i, 0]  # as deep as the base is now
         content = scale * _effective(profile, i, weight * old_load)
         content = stretch * content + (1.0 - stretch) * 0.5 * (entry + new_entry)
         stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work)

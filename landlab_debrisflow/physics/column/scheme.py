@@ -16,7 +16,7 @@ class Scheme(NamedTuple):
     loading: int  # a value of LOADING
     literal: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
     flux: bool  # new soil brings its own pressure and no more; else the bed prescribes that of the base
-    tolerance: float  # error of the pressure over the load that skipping may make [-]; 0: no skipping
+    tolerance: float  # error of the pressure over the load that skipping aims at [-]; 0: no skipping
     waves: Waves
 
 
