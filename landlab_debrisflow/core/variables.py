@@ -21,6 +21,7 @@ class Variable(NamedTuple):
 
 
 PARTICLE_VARIABLES = (
+    Variable("identity", "-", "number of the particle, in order of release", "i8", 0, written=False),
     Variable("x", "m", "map coordinate, from the lower left node of the grid"),
     Variable("y", "m", "map coordinate, from the lower left node of the grid"),
     Variable("z", "m", "elevation of the bed below"),
@@ -39,6 +40,7 @@ PARTICLE_VARIABLES = (
     Variable("anchor", "m", "position when it last counted as changed", vector=True, written=False),
     Variable("anchor_volume", "m3", "volume when it last counted as changed", written=False),
     Variable("still_steps", "-", "steps since it counted as changed", "i8", 0, written=False),
+    Variable("asleep_since", "s", "time to which its column was advanced, if it sleeps", written=False),
     Variable("liquefaction_pressure", "Pa", "effective normal stress without excess pore pressure"),
     Variable("basal_excess_pore_pressure", "Pa", "excess pore pressure at the base"),
     Variable("entrainment_rate", "m s-1", "erosion rate granted by the bed, per map area"),

@@ -30,11 +30,12 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
     ground : ndarray, shape (6, n)
         As `Surface.sample` returns it.
     cosine, yield_stress, drag, mass : ndarray, shape (n,)
-        cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2].
+        cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
+        are particles to kick; the others may be longer.
     rest_speed : float
         A particle that is being slowed and falls below this comes to rest [m s-1].
     """
-    for i in range(cosine.size):
+    for i in range(mass.size):
         c = cosine[i]
         nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
         across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
@@ -67,16 +68,16 @@ def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_w
         Multiplied by `dilution`; the drift uses the mean of before and after, which keeps the pair
         erosion-drift second-order.
     dilution : ndarray, shape (n,)
-        Volume before over volume after entrainment [-].
+        Volume before over volume after entrainment [-], for the particles to move.
     status : ndarray, shape (nodes,)
         Status of the nodes.
     left : ndarray of int, shape (n,)
-        Written: -1, or the open node over which the particle left.
+        Written: the open node over which the particle left, -1 if it did not, -2 if its position is not a number.
     touched_wall : ndarray of int8, shape (n,)
         Set to 1 where a closed node stopped the particle.
     """
     rows = status.size // columns
-    for i in range(x.size):
+    for i in range(left.size):
         left[i] = -1
         step = 0.5 * dt * (1.0 + dilution[i])
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
@@ -89,19 +90,19 @@ def drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_w
             velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
             node = _nearest(new_x, new_y, dx, dy, columns, rows)
         x[i], y[i] = new_x, new_y
-        if node >= 0 and status[node] != CORE:
-            left[i] = node
+        if node < 0 or status[node] != CORE:
+            left[i] = node if node >= 0 else -2
 
 
 @kernel
-def stop_at_walls(x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
+def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
     """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
 
-    Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor
+    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor
     counts as moving.
     """
     rows = status.size // columns
-    for i in range(x.size):
+    for i in range(count):
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
         node = _nearest(new_x, new_y, dx, dy, columns, rows)
         if node >= 0 and status[node] == CLOSED:
@@ -126,10 +127,11 @@ def _nearest(x, y, dx, dy, columns, rows):
 
 
 @kernel
-def turn(velocity, ground, cosine):
-    """Turn each velocity into the tangent plane of the ground, keeping its length, in place."""
+def follow_ground(ground, velocity, cosine, z):
+    """Write cos(theta) [-] and elevation [m], and turn each velocity into the tangent plane, keeping its length."""
     for i in range(cosine.size):
-        c = cosine[i]
+        c = 1.0 / np.sqrt(1.0 + ground[1, i] * ground[1, i] + ground[2, i] * ground[2, i])
+        cosine[i], z[i] = c, ground[0, i]
         nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
@@ -141,21 +143,20 @@ def turn(velocity, ground, cosine):
 
 
 @kernel
-def basal_state(velocity, ground, cosine, thickness, gravity, buoyant_density, tightest,
-                speed, normal_gravity, liquefaction_pressure):  # fmt: skip
-    """Write speed [m s-1], normal gravity with curvature [m s-2] and liquefaction pressure [Pa].
+def basal_state(first, velocity, ground, cosine, gravity, tightest, speed, normal_gravity):
+    """Write speed [m s-1] and normal gravity with curvature [m s-2], of particles from the place `first` on.
 
     The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
     own spacing, and noise must not press the flow to the ground.
     """
-    for i in range(cosine.size):
+    for k in range(speed.size):
+        i = first + k
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         bend = u * u * ground[3, i] + 2.0 * u * v * ground[4, i] + v * v * ground[5, i]
         most = (u * u + v * v) / tightest
         bend = min(max(bend, -most), most)
-        speed[i] = np.sqrt(u * u + v * v + w * w)
-        normal_gravity[i] = max(0.0, (gravity + bend) * cosine[i])
-        liquefaction_pressure[i] = buoyant_density * gravity * thickness[i] * cosine[i]
+        speed[k] = np.sqrt(u * u + v * v + w * w)
+        normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
 
 
 @kernel
@@ -177,3 +178,13 @@ def count_still_steps(x, y, z, volume, smoothing_length, anchor, anchor_volume, 
             still_steps[i] = 0
         else:
             still_steps[i] += 1
+
+
+@kernel
+def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
+    """Let all particles within reach of those that have gone count as changed, in place."""
+    for k in range(gone_x.size):
+        for i in range(x.size):
+            reach = max(support[i], gone_support[k])
+            if (x[i] - gone_x[k]) ** 2 + (y[i] - gone_y[k]) ** 2 < reach * reach:
+                still_steps[i] = 0

@@ -8,7 +8,8 @@ from ..core.variables import PARTICLE_VARIABLES
 class Particles:
     """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
 
-    Scalars have shape (n,), vectors (3, n), columns (n, levels), their memory (n, width).
+    Scalars have shape (n,), vectors (3, n), columns (n, levels), their memory (n, width). The first
+    ``awake`` particles are awake, the others sleep (model/sleep.py); ``identity`` tells who is who.
 
     Parameters
     ----------
@@ -25,6 +26,7 @@ class Particles:
 
     def __init__(self, levels: int):
         self.levels = levels
+        self.awake = self._next_identity = 0
         for variable in PARTICLE_VARIABLES:
             setattr(self, variable.name, self._new(variable, 0))
 
@@ -43,17 +45,37 @@ class Particles:
         """Map spacing of the particles, (V/h)^(1/2), shape (n,) [m]."""
         return np.sqrt(self.volume / self.depth)
 
-    def append(self, count: int, **values) -> None:
-        """Add particles; variables not named get their declared initial value."""
+    def append(self, count: int, **values) -> slice:
+        """Add particles that are awake, and return their places; what is not named gets its declared initial value."""
+        first, n = self.awake, self.count
+        values["identity"] = self._next_identity + np.arange(count)
+        self._next_identity += count
         for variable in PARTICLE_VARIABLES:
             new = self._new(variable, count)
             if variable.name in values:
                 new[:] = values[variable.name]
             axis = 1 if variable.vector else 0
             setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], axis))
+        self.awake += count
+        moved = min(count, n - first)  # those asleep whose places the new ones take
+        self.exchange(first + np.arange(moved), n + count - moved + np.arange(moved))
+        return slice(first, first + count)
+
+    def exchange(self, these, those) -> None:
+        """Let particles at `these` places and at `those`, arrays of int without common places, change places."""
+        if these.size == 0:
+            return
+        to, of = np.concatenate([these, those]), np.concatenate([those, these])
+        for variable in PARTICLE_VARIABLES:
+            values = getattr(self, variable.name)
+            if variable.vector:
+                values[:, to] = values[:, of]
+            else:
+                values[to] = values[of]
 
     def keep(self, mask) -> None:
         """Remove all particles where `mask` is False."""
+        self.awake = int(np.count_nonzero(mask[: self.awake]))
         for variable in PARTICLE_VARIABLES:
             axis = 1 if variable.vector else 0
             setattr(self, variable.name, np.compress(mask, getattr(self, variable.name), axis))
@@ -61,6 +83,7 @@ class Particles:
     def copy(self) -> "Particles":
         """Return an independent copy."""
         other = Particles(self.levels)
+        other.awake, other._next_identity = self.awake, self._next_identity
         for variable in PARTICLE_VARIABLES:
             setattr(other, variable.name, getattr(self, variable.name).copy())
         return other

@@ -21,7 +21,7 @@ LAWS = {
 """Every law by kind and name; the first of a kind is the default."""
 
 METHOD = {
-    "flow": "thrust",
+    "flow": "interact",
     "friction": "basal_resistance",
     "erosion": "entrainment_rate",
     "column": "advance",

@@ -7,7 +7,7 @@ because the noise of random seeding weakens Coulomb friction.
 import numpy as np
 
 from ..spatial.cells import sort_into_cells
-from ..spatial.summation import SMOOTHING_RATIO, sum_pressure_gradient
+from ..spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
 from ..terrain.surface import Surface
 
 SAMPLES_PER_PARTICLE = 4
@@ -133,20 +133,20 @@ def _relax(x, y, sample_x, sample_y, share, depth, spacing, surface):
 
     sample_length, _, sample_z = length_and_ground(sample_x, sample_y)
     volumes = np.concatenate([np.full(n, volume), -share])
-    rest = np.zeros((3, volumes.size))
-    ones, push, thickening = np.ones(volumes.size), np.empty((3, volumes.size)), np.empty(volumes.size)
+    rest, ones = np.zeros((3, volumes.size)), np.ones(volumes.size)
+    sums = Sums(np.empty(n), np.empty(n), np.empty(n), np.empty((3, n)), np.empty(n))  # holes are not moved
+    push = sums.acceleration
     for _ in range(SWEEPS):
         length, cosine, z = length_and_ground(x, y)
         lengths = np.concatenate([length, sample_length])
         px, py = np.concatenate([x, sample_x]), np.concatenate([y, sample_y])
         pz = np.concatenate([z, sample_z])
         cells = sort_into_cells(px, py, 2.0 * lengths)
-        sum_pressure_gradient(
-            cells, px, py, pz, rest, volumes, lengths, 0.5 * ones, 0.0 * ones, ones, 0.0, push, thickening
-        )
+        moving = Moving(px, py, pz, rest, volumes, lengths, lengths, 0.5 * ones, ones, ones)
+        sum_over_neighbours(cells, moving, 0.0, sums)
         step = STEP * length**2 / (_depth_at(depth, spacing, x, y) * cosine)
-        step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0, :n], push[1, :n]), 1e-300))
-        new_x, new_y = x + step * push[0, :n], y + step * push[1, :n]
+        step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0], push[1]), 1e-300))
+        new_x, new_y = x + step * push[0], y + step * push[1]
         inside = _depth_at(depth, spacing, new_x, new_y) > 0.0
         x, y = np.where(inside, new_x, x), np.where(inside, new_y, y)
     return x, y

@@ -7,12 +7,11 @@ import numpy as np
 from ..physics.column.start import initial_profile
 from ..spatial.summation import SMOOTHING_RATIO
 from ..terrain.bed import Bed
-from . import step
+from . import sleep, step
 from .numerics import Numerics
 from .particles import Particles
 from .physics import Physics
 from .release import place_particles
-from .timestep import longest_step
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -43,9 +42,10 @@ class Simulation:
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = None
         # what the stages of a step hand on to each other, per particle (model/step.py)
-        self.ground = self.cosine = self.cells = None
+        self.ground = self.cosine = self.cells = self.survey = None
         self.granted = self.granted_ratio = np.zeros(0)
         self.drained = None  # where the base is, if anywhere
+        self._steps = 0
 
     def on(self, bed: Bed, status, changed: bool) -> None:
         """Put the simulation on a bed for the call that follows.
@@ -79,13 +79,11 @@ class Simulation:
         here = depth[np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)]
         normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
         least = THICKNESS_RANGE * normal.max()
-        first = p.count
-        p.append(
+        new = p.append(
             count, x=x, y=y, z=ground[0], volume=each, released_volume=each, depth=here, thickness=normal,
             least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
         )  # fmt: skip
         self._find_everything(FIRST_SWEEPS)
-        new = slice(first, None)
         load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
@@ -99,14 +97,13 @@ class Simulation:
     def _find_everything(self, sweeps: int = 1) -> None:
         """Find ground, thickness and forces anew where particles or terrain changed by other hands."""
         p = self.particles
-        self.granted, self.granted_ratio = np.zeros(p.count), np.zeros(p.count)
+        sleep.wake_all(self)
+        self.granted, self.granted_ratio = np.zeros((2, p.count))
         step.find_ground(self)
         p.still_steps[:] = 0
-        for _ in range(sweeps - 1):
-            step.find_depth(self)
-            p.smoothing_length[:] = p.next_smoothing_length
-        step.find_depth(self)
-        step.push(self)
+        for _ in range(sweeps):
+            step.interact(self)
+        step.check(self)
         self._changed = False
 
     @property
@@ -136,20 +133,22 @@ class Simulation:
             dt = self._next_step(left)
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
+            self._steps += 1
+            if self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
+                sleep.fall_asleep(self)
             self._look_for_rest()
             if after_step is not None:
                 after_step()
-        if not stop_at_rest and self.time < end:
-            if self.particles.count:  # at rest, but the pore pressure still drains
-                self.granted, self.granted_ratio = np.zeros((2, self.particles.count))
+        if self.particles.count:
+            if not stop_at_rest and self.time < end:  # at rest, but the pore pressure still drains
+                self.granted, self.granted_ratio = np.zeros((2, self.particles.awake))
                 step.consolidate(self, end - self.time)
+        if not stop_at_rest:
             self.time = end
+        sleep.catch_up(self)
 
     def _next_step(self, left: float) -> float:
-        longest = longest_step(
-            self.particles, self.cells.computed, self.cosine, self.physics.material.gravity,
-            self.numerics.courant_number, min(self.bed.nodes.dx, self.bed.nodes.dy),
-        )  # fmt: skip
+        longest = self.survey.longest_step
         if left <= longest:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
@@ -159,10 +158,9 @@ class Simulation:
 
         Without this, remnants on slopes above their apparent friction angle creep for ever.
         """
-        p, rest_energy = self.particles, self.numerics.rest_energy
+        p, rest_energy, energy = self.particles, self.numerics.rest_energy, self.survey.energy
         if p.count == 0:
             return
-        energy = float(np.sum(p.volume * np.einsum("in,in->n", p.velocity, p.velocity)))
         self._peak_energy = max(self._peak_energy, energy)
         self.rest_speed = np.sqrt(rest_energy * self._peak_energy / p.volume.sum())
         if energy <= rest_energy * self._peak_energy:
@@ -203,11 +201,15 @@ class Simulation:
 
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
-        now = Simulation(self.physics, self.numerics)
-        now.particles = self.particles.copy()
-        now.granted, now.granted_ratio = np.zeros((2, now.particles.count))
-        self.physics.column.synchronise(step.columns(now.particles), step.forcing(now))
-        return now.particles.excess_pore_pressure
+        now = self.particles
+        self.particles = now.copy()  # looking must not change how a law keeps its columns
+        try:
+            none, every = np.zeros(now.count), slice(now.count)
+            state = step.columns(self.particles, every)
+            self.physics.column.synchronise(state, step.forcing(self, every, none, none))
+            return state.profile
+        finally:
+            self.particles = now
 
     def settle(self):
         """Lay the mass into the bed and forget the particles.

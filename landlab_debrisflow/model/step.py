@@ -1,17 +1,20 @@
 """One time step, as a list of stages that reads like the governing equations.
 
 Kick - erode and drift - kick, symmetric in time, hence second-order: the forces at the end of a step
-are those at the beginning of the next.
+are those at the beginning of the next. Only the first ``particles.awake`` particles are advanced; ground and
+neighbours are looked at for all, to notice who must wake (sleep.py).
 """
 
 import numpy as np
 
 from ..core.errors import SimulationError
-from ..physics.column.peclet import basal_peclet_number
+from ..core.jit import kernel
 from ..physics.contracts import BASE_BY_EROSION, BASE_PRESCRIBED, BasalState, ColumnForcing, ColumnState, FlowState
 from ..spatial.cells import sort_into_cells
-from ..spatial.summation import SMOOTHING_RATIO, sum_thickness
-from .motion import basal_state, count_still_steps, drift, kick, stop_at_walls, turn
+from ..spatial.summation import SMOOTHING_RATIO, Sums
+from . import sleep
+from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
+from .timestep import survey
 
 STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
@@ -30,140 +33,160 @@ def advance(sim, dt: float) -> None:
     dilution = entrain(sim, dt)
     move(sim, dt, dilution)
     find_ground(sim)
-    find_depth(sim)
+    interact(sim)
+    sleep.wake_disturbed(sim)
     consolidate(sim, dt)
-    push(sim)
     friction_and_kick(sim, 0.5 * dt)
     check(sim)
 
 
 def friction_and_kick(sim, dt: float) -> None:
     """Gravity along the bed, thrust and basal resistance, taken implicitly."""
-    p, material = sim.particles, sim.physics.material
-    yield_stress, drag = np.empty(p.count), np.empty(p.count)
-    sim.physics.friction.basal_resistance(_base(sim), yield_stress, drag)
-    mass = material.density * p.thickness
+    p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
+    m = p.awake
+    yield_stress, drag = np.empty(m), np.empty(m)
+    sim.physics.friction.basal_resistance(base(sim, slice(m)), yield_stress, drag)
+    mass = material.density * p.thickness[:m]
     kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
-    nodes = sim.bed.nodes
     stop_at_walls(
-        p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
+        m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
     )
 
 
 def entrain(sim, dt: float):
     """Ask soil of the bed, take what it grants; return volume before over volume after."""
-    p = sim.particles
-    p.entrainment_rate[:] = 0.0
-    sim.physics.erosion.entrainment_rate(_base(sim), p.entrainment_rate)
-    wanted = p.entrainment_rate * p.volume / p.depth * dt
-    sim.granted, sim.granted_ratio = sim.bed.erode(p.x, p.y, p.spread, wanted)
-    p.entrainment_rate[:] = sim.granted * p.depth / (p.volume * dt)
-    p.first_erosion_time[(sim.granted > 0.0) & np.isnan(p.first_erosion_time)] = sim.time
-    before = p.volume.copy()
-    p.volume += sim.granted
-    return before / p.volume
+    p, c_v = sim.particles, sim.physics.material.coefficient_of_consolidation
+    m = p.awake
+    rate, wanted, dilution = np.zeros(m), np.empty(m), np.empty(m)
+    sim.physics.erosion.entrainment_rate(base(sim, slice(m)), rate)
+    np.divide(rate * p.volume[:m], p.depth[:m], out=wanted)
+    wanted *= dt
+    sim.granted, sim.granted_ratio = sim.bed.erode(p.x[:m], p.y[:m], p.spread[:m], wanted)
+    _take_up(
+        sim.granted, dt, sim.time, c_v, p.depth, p.thickness, sim.cosine,
+        p.volume, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number, dilution,
+    )  # fmt: skip
+    return dilution
+
+
+@kernel
+def _take_up(
+    granted, dt, time, coefficient_of_consolidation, depth, thickness, cosine,
+    volume, entrainment_rate, first_erosion_time, basal_peclet_number, dilution,
+):  # fmt: skip
+    for i in range(granted.size):
+        rate, before = granted[i] * depth[i] / (volume[i] * dt), volume[i]
+        entrainment_rate[i] = rate
+        volume[i] = before + granted[i]
+        dilution[i] = before / volume[i]
+        if granted[i] > 0.0:
+            basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient_of_consolidation
+            if np.isnan(first_erosion_time[i]):
+                first_erosion_time[i] = time
 
 
 def move(sim, dt: float, dilution) -> None:
     """Drift along the bed; those over an open boundary are taken out and counted."""
     p, nodes = sim.particles, sim.bed.nodes
-    left = np.empty(p.count, np.int64)
+    left = np.empty(p.awake, np.int64)
     drift(p.x, p.y, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, left, p.touched_wall)
-    check(sim)
-    gone = left >= 0
-    if gone.any():
+    if left.size and left.min() < NOWHERE:
+        place = int(np.argmin(left))
+        raise SimulationError("velocity", int(p.identity[place]), sim.time, float(p.velocity[:, place].sum()))
+    gone = np.flatnonzero(left >= 0)
+    if gone.size:
         sim.count_outflow(left[gone], p.volume[gone])
-        p.keep(~gone)
-        p.still_steps[:] = 0  # those beside it have lost a neighbour, and may be asleep
-        sim.granted, sim.granted_ratio = sim.granted[~gone], sim.granted_ratio[~gone]
+        support = 2.0 * p.smoothing_length
+        disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
+        stay = np.ones(p.count, bool)
+        stay[gone] = False
+        sim.granted, sim.granted_ratio = sim.granted[stay[: p.awake]], sim.granted_ratio[stay[: p.awake]]
+        p.keep(stay)
+
+
+NOWHERE = -1
+"""What `drift` calls the node over which a particle left that did not leave; less for one that is not a number."""
 
 
 def find_ground(sim) -> None:
-    """Read the terrain under the particles and turn their velocities into its tangent plane."""
+    """Read the terrain under all particles and turn their velocities into its tangent plane."""
     p = sim.particles
-    sim.ground = sim.bed.surface.sample(p.x, p.y)
-    sim.cosine = 1.0 / np.sqrt(1.0 + sim.ground[1] ** 2 + sim.ground[2] ** 2)
-    p.z[:] = sim.ground[0]
+    sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
+    follow_ground(sim.ground, p.velocity, sim.cosine, p.z)
     sim.drained = sim.bed.is_drained(p.x, p.y)
-    turn(p.velocity, sim.ground, sim.cosine)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
 
-def find_depth(sim) -> None:
-    """Sum the slope-normal thickness over neighbours; the smoothing length follows it."""
-    p, material = sim.particles, sim.physics.material
+def interact(sim) -> None:
+    """Sum over neighbours: slope-normal thickness, which the smoothing length follows, and thrust."""
+    p, material, numerics = sim.particles, sim.physics.material, sim.numerics
     if p.count == 0:
         return
     sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length, p.still_steps < STEPS_TO_SLEEP)
-    longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
-    sum_thickness(
-        sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, longest,
-        (p.thickness, p.gradient_term, p.next_smoothing_length), sim.numerics.threads,
+    state = FlowState(
+        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness),
+        p.thickness, p.gradient_term, sim.cosine, material.gravity,
     )  # fmt: skip
-    p.depth[:] = p.thickness / sim.cosine
-    p.liquefaction_pressure[:] = material.buoyant_density * material.gravity * p.thickness * sim.cosine
+    sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
+    sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
+    p.smoothing_length[:] = p.next_smoothing_length
+    np.divide(p.thickness, sim.cosine, out=p.depth)
+    np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
+    p.liquefaction_pressure *= material.buoyant_density * material.gravity
 
 
 def consolidate(sim, dt: float) -> None:
     """Advance the pore-pressure columns with what the flow did to them."""
-    p, material = sim.particles, sim.physics.material
-    c_v = material.coefficient_of_consolidation
-    sim.physics.column.advance(columns(p), forcing(sim), dt, p.basal_excess_pore_pressure)
-    eroding = sim.granted > 0.0
-    peclet = basal_peclet_number(p.entrainment_rate[eroding] * sim.cosine[eroding], p.thickness[eroding], c_v)
-    p.basal_peclet_number[eroding] = peclet
-
-
-def push(sim) -> None:
-    """Thrust: the acceleration by the flow's own pressure."""
-    p, numerics = sim.particles, sim.numerics
-    if p.count == 0:
-        return
-    state = FlowState(
-        p.x, p.y, p.z, p.velocity, p.volume, p.thickness, p.smoothing_length, p.gradient_term, sim.cosine,
-        sim.physics.material.gravity,
-    )  # fmt: skip
-    sim.physics.flow.thrust(state, sim.cells, numerics.shock_viscosity, numerics.threads, p.thrust, p.thickening)
-    p.smoothing_length[:] = p.next_smoothing_length
+    p = sim.particles
+    awake = slice(p.awake)
+    forced = forcing(sim, awake, sim.granted, sim.granted_ratio)
+    sim.physics.column.advance(columns(p, awake), forced, dt, p.basal_excess_pore_pressure[awake])
 
 
 def check(sim) -> None:
-    """Raise SimulationError if anything that moves is not finite."""
-    for name in ("velocity", "thickness", "basal_excess_pore_pressure"):
-        values = getattr(sim.particles, name)
-        if not np.isfinite(values.sum()):
-            bad = ~np.isfinite(values)
-            particle = int(np.nonzero(bad)[-1][0]) if bad.any() else 0
-            raise SimulationError(name, particle, sim.time, float(values[..., particle].sum()))
+    """Look at the whole; raise SimulationError if anything that moves is not finite."""
+    p, nodes = sim.particles, sim.bed.nodes
+    sim.survey = survey(
+        p, None if sim.cells is None else sim.cells.computed, sim.cosine, sim.physics.material.gravity,
+        sim.numerics.courant_number, min(nodes.dx, nodes.dy),
+    )  # fmt: skip
+    if (place := sim.survey.broken) >= 0:
+        for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
+            value = float(getattr(p, name)[..., place].sum())
+            if not np.isfinite(value):
+                raise SimulationError(name, int(p.identity[place]), sim.time, value)
 
 
-def columns(p) -> ColumnState:
-    """Return the particles' arrays as the column law knows them."""
-    return ColumnState(p.excess_pore_pressure, p.column_memory, p.column_clipped)
+def columns(p, which: slice) -> ColumnState:
+    """Return some particles' arrays as the column law knows them."""
+    return ColumnState(p.excess_pore_pressure[which], p.column_memory[which], p.column_clipped[which])
 
 
-def forcing(sim) -> ColumnForcing:
-    """Return what the last step did to the columns."""
+def forcing(sim, which: slice, granted, granted_ratio) -> ColumnForcing:
+    """Return what the last step did to some columns; `granted` and its ratio are theirs."""
     p, material = sim.particles, sim.physics.material
-    bed_pressure, base = sim.granted_ratio * p.liquefaction_pressure, BY_EROSION
+    load = p.liquefaction_pressure[which]
+    bed_pressure, bases = granted_ratio * load, BY_EROSION
     if sim.drained is not None:
-        bed_pressure[sim.drained] = 0.0
-        base = np.where(sim.drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
+        bed_pressure[sim.drained[which]] = 0.0
+        bases = np.where(sim.drained[which], BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
     return ColumnForcing(
-        p.volume, p.thickness, p.liquefaction_pressure, sim.granted, bed_pressure, base,
+        p.volume[which], p.thickness[which], load, granted, bed_pressure, bases,
         NO_SOURCE, np.array([material.coefficient_of_consolidation]),
         material.water_density / material.buoyant_density, True,
     )  # fmt: skip
 
 
-def _base(sim) -> BasalState:
+def base(sim, which: slice) -> BasalState:
+    """Return the base under some particles as friction and erosion laws know it."""
     p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
-    speed, normal_gravity, liquefaction = np.empty(p.count), np.empty(p.count), np.empty(p.count)
+    depth, thickness = p.depth[which], p.thickness[which]
+    speed, normal_gravity, liquefaction = np.empty(depth.size), np.empty(depth.size), p.liquefaction_pressure[which]
     basal_state(
-        p.velocity, sim.ground, sim.cosine, p.thickness, material.gravity, material.buoyant_density,
-        min(nodes.dx, nodes.dy), speed, normal_gravity, liquefaction,
+        which.start or 0, p.velocity, sim.ground, sim.cosine, material.gravity, min(nodes.dx, nodes.dy),
+        speed, normal_gravity,
     )  # fmt: skip
     return BasalState(
-        p.depth, p.thickness, speed, normal_gravity, liquefaction, p.basal_excess_pore_pressure,
+        depth, thickness, speed, normal_gravity, liquefaction, p.basal_excess_pore_pressure[which],
         material.density, material.buoyant_density, material.gravity,
     )  # fmt: skip

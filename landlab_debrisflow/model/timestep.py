@@ -1,21 +1,34 @@
-"""How long a step may be."""
+"""How long a step may be, and what else is asked of all particles at the end of one."""
+
+from typing import NamedTuple
 
 import numpy as np
+
+from ..core.jit import kernel
 
 TERRAIN_FRACTION = 0.25
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
-def longest_step(particles, awake, cosine, gravity: float, courant_number: float, node_spacing: float) -> float:
-    """Return the longest stable time step [s].
+class Survey(NamedTuple):
+    """What the particles that are awake look like as a whole."""
 
-    Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow against the smoothing
-    length (the speed itself does not count), and the speed against the node spacing.
+    longest_step: float  # that is stable [s]
+    energy: float  # sum of volume times speed squared [m5 s-2]
+    fastest: float  # largest speed plus celerity [m s-1]
+    broken: int  # place of a particle that is not finite, or -1
+
+
+def survey(particles, computed, cosine, gravity: float, courant_number: float, node_spacing: float) -> Survey:
+    """Look at all particles that are awake.
+
+    The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
+    against the smoothing length (the speed itself does not count), and the speed against the node spacing.
 
     Parameters
     ----------
     particles : Particles
-    awake : ndarray of bool, shape (n,)
+    computed : ndarray of bool, shape (n,)
         Those near something that moves; the others can wait for any time.
     cosine : ndarray, shape (n,)
         cos(theta).
@@ -26,15 +39,30 @@ def longest_step(particles, awake, cosine, gravity: float, courant_number: float
     node_spacing : float
         Smaller one of the raster's [m].
     """
-    if particles.count == 0:
-        return np.inf
     p = particles
-    celerity = np.sqrt(gravity * cosine * p.thickness)
-    closing = np.maximum(p.thickening, 0.0) / p.thickness
-    waves = np.max(np.where(awake, celerity / p.smoothing_length + closing, 0.0))
-    # v dt + 1/2 a dt^2 within the fraction, with the most that gravity and thrust can do
-    speed = np.sqrt(np.einsum("in,in->n", p.velocity, p.velocity))
-    gain = gravity * np.sqrt(1.0 - cosine**2) + np.sqrt(np.einsum("in,in->n", p.thrust, p.thrust))
-    way = TERRAIN_FRACTION * node_spacing
-    across = np.min(2.0 * way / (speed + np.sqrt(speed**2 + 2.0 * gain * way) + 1e-300))  # also of those asleep
-    return min(courant_number / max(waves, 1e-300), across)
+    waves, across, energy, fastest, broken = _survey(
+        p.awake, computed, cosine, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
+        p.thickening, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
+    )  # fmt: skip
+    return Survey(min(courant_number / max(waves, 1e-300), across), energy, fastest, broken)
+
+
+@kernel
+def _survey(
+    count, computed, cosine, gravity, way, velocity, thrust, thickness, thickening, smoothing_length, volume, pressure
+):
+    waves, across, energy, fastest, broken = 0.0, np.inf, 0.0, 0.0, -1
+    for i in range(count):
+        speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
+        push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
+        if not np.isfinite(speed2 + push2 + thickness[i] + pressure[i]):
+            broken = i
+        celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
+        if computed[i]:
+            waves = max(waves, celerity / smoothing_length[i] + max(thickening[i], 0.0) / thickness[i])
+        # v dt + 1/2 a dt^2 within the way, with the most that gravity and thrust can do; also of those that wait
+        gain = gravity * np.sqrt(max(0.0, 1.0 - cosine[i] * cosine[i])) + np.sqrt(push2)
+        across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
+        energy += volume[i] * speed2
+        fastest = max(fastest, speed + celerity)
+    return waves, across, energy, fastest, broken

@@ -96,9 +96,10 @@ class FlowState(NamedTuple):
     z: Array  # elevation of the bed [m]
     velocity: Array  # (3, n) [m s-1]
     volume: Array  # [m3]
-    thickness: Array  # slope-normal [m]
     smoothing_length: Array  # [m]
-    gradient_term: Array  # Omega of the grad-h formulation [-]
+    longest: Array  # cap of the smoothing length [m]
+    thickness: Array  # slope-normal, of the step before [m]
+    gradient_term: Array  # Omega of the grad-h formulation, of the step before [-]
     cos_slope: Array  # [-]
     gravity: float  # [m s-2]
 
@@ -106,11 +107,9 @@ class FlowState(NamedTuple):
 class FlowLaw(Protocol):
     """Inner forces of the flow."""
 
-    def thrust(
-        self, state: FlowState, cells, shock_viscosity: float, threads: int, acceleration: Array, thickening: Array
-    ) -> None:
-        """Write, where cells are awake, what the flow's own pressure does.
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
+        """Write, where cells are awake, what neighbours do to each other: `spatial.summation.Sums`.
 
-        That is the acceleration, shape (3, n) [m s-2], and the rate at which converging flow thickens,
-        shape (n,) [m s-1].
+        That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
+        rate at which converging flow thickens.
         """

@@ -10,7 +10,7 @@ from ..physics.column.peclet import consolidation_time, erosion_time
 
 def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
-    data = {}
+    data, order = {}, np.argsort(particles.identity)
     for variable in PARTICLE_VARIABLES:
         if not variable.written or variable.per_level:
             continue
@@ -18,32 +18,33 @@ def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
         if variable.vector:
             for axis, part in zip("xyz", values, strict=True):
                 words = f"{variable.long_name}, {axis} component"
-                data[f"{variable.name}_{axis}"] = ("particle", part.copy(), _attributes(variable.unit, words))
+                data[f"{variable.name}_{axis}"] = ("particle", part[order], _attributes(variable.unit, words))
         else:
-            data[variable.name] = ("particle", values.copy(), attributes)
-    data["x"] = ("particle", particles.x + lower_left[0], _attributes("m", "map coordinate of the grid"))
-    data["y"] = ("particle", particles.y + lower_left[1], _attributes("m", "map coordinate of the grid"))
-    return xr.Dataset(data, {"particle": np.arange(particles.count)}, {"elapsed_time [s]": time})
+            data[variable.name] = ("particle", values[order], attributes)
+    data["x"] = ("particle", particles.x[order] + lower_left[0], _attributes("m", "map coordinate of the grid"))
+    data["y"] = ("particle", particles.y[order] + lower_left[1], _attributes("m", "map coordinate of the grid"))
+    return xr.Dataset(data, {"particle": particles.identity[order]}, {"elapsed_time [s]": time})
 
 
 def columns_dataset(profile, particles, coefficient_of_consolidation: float, time: float) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa]."""
-    n, levels = profile.shape
+    levels = profile.shape[1]
+    order = np.argsort(particles.identity)
     p, grown = particles, particles.volume / particles.released_volume
     data = {
-        "thickness": (p.thickness.copy(), "m", "slope-normal thickness"),
+        "thickness": (p.thickness, "m", "slope-normal thickness"),
         "consolidation_time": (
             consolidation_time(p.thickness, coefficient_of_consolidation), "s",
             "thickness squared over coefficient of consolidation",
         ),
         "erosion_time": (erosion_time(p.depth, p.entrainment_rate), "s", "thickness over erosion rate"),
         "basal_peclet_number": (
-            p.basal_peclet_number.copy(), "-", "consolidation time over erosion time, of the last erosion",
+            p.basal_peclet_number, "-", "consolidation time over erosion time, of the last erosion",
         ),
         "initial_peclet_number": (p.basal_peclet_number / grown, "-", "the same with the thickness before any erosion"),
         "front_height": (1.0 - 1.0 / grown, "-", "height over thickness of the front between released and eroded soil"),
         "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
-        "clipped_pressure": (p.column_clipped.copy(), "Pa m", "pressure taken off by the bounds times thickness"),
+        "clipped_pressure": (p.column_clipped, "Pa m", "pressure taken off by the bounds times thickness"),
     }  # fmt: skip
     level = xr.DataArray(
         np.linspace(0.0, 1.0, levels), dims="level",
@@ -51,9 +52,9 @@ def columns_dataset(profile, particles, coefficient_of_consolidation: float, tim
     )  # fmt: skip
     words = _attributes("Pa", "excess pore pressure")
     return xr.Dataset(
-        {"excess_pore_pressure": (("particle", "level"), profile, words)}
-        | {name: ("particle", values, _attributes(unit, text)) for name, (values, unit, text) in data.items()},
-        {"particle": np.arange(n), "level": level},
+        {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
+        | {name: ("particle", values[order], _attributes(unit, text)) for name, (values, unit, text) in data.items()},
+        {"particle": p.identity[order], "level": level},
         {"elapsed_time [s]": time},
     )
 

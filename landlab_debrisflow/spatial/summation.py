@@ -1,4 +1,4 @@
-"""SPH sums over neighbours on a surface: thickness, and the symmetric gradient that pushes.
+"""SPH sums over neighbours on a surface, in one pass: thickness, and the symmetric gradient that pushes.
 
 Smoothing kernel: Wendland C2 in two dimensions (Wendland 1995; Dehnen & Aly 2012), support 2 l,
 
@@ -8,15 +8,20 @@ with r the chord in space. The smoothing length follows the thickness, l = 1.4 (
 sums carry the corresponding gradient terms (Springel & Hernquist 2002; Price 2012): without them
 nothing converges in a spreading flow.
 
+What the pairs need is first packed in the order of the cells, in 32 bits: positions as whole numbers of a
+2^-23 of the width of a cell, so their differences are exact and the same seen from either side; the
+rest as floats, whose rounding, 6e-8, is far below what the sums are wrong by. Every cell then copies its
+neighbourhood, one stretch for every row of cells, into a small contiguous scratch and loops over it
+without branches: the compiler turns that into vector code, with one reciprocal root and no division a pair.
+
 The formulas stand in the loops that use them: numba's cache watches only a function's own file.
-What the pairs need is first packed in the order of the cells. Every cell then copies its neighbourhood,
-row by row of cells, into a small contiguous scratch, fills it up to whole vectors with points that are
-too far to matter, and loops over it without branches: the compiler turns that into vector code.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import approximate_kernel, kernel
 from .cells import Cells, over_cells
 
 SMOOTHING_RATIO = 1.4
@@ -29,157 +34,186 @@ plain Wendland sum it comes out 0.67 % too deep on square and hexagonal lattices
 LEAST_GRADIENT_TERM = 0.4
 """Floor of the grad-h term: it vanishes for a particle without neighbours, whose thickness is undefined."""
 
-_LANES = 8  # doubles in the widest vector register
-_FAR = 1e30  # where the filling points stand [m]
-
 _NORM = 7.0 / (4.0 * np.pi)
+_SLOPE = _NORM / SMOOTHING_RATIO**2
+_PLACES_PER_CELL = 2.0**23  # +-2^31 of them are 256 cells: far beyond any window
+_LANES = 16  # floats in the widest vector register
+_X, _Y, _Z = 0, 1, 2  # rows of what is packed as whole numbers
+_U, _V, _W, _INVERSE, _REACH, _STRENGTH, _CELERITY, _THINNESS, _VOLUME = range(9)  # and as floats
+
+# numba computes in double where a constant is one; and an index that may be negative is not vectorised
+_F, _U64 = np.float32, np.uint64
+_ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12)
 
 
-def sum_thickness(cells: Cells, x, y, z, volume, smoothing_length, longest, out, threads=1):
-    """Sum the slope-normal thickness and take one Newton step towards a consistent smoothing length.
+class Moving(NamedTuple):
+    """What the sums read of n particles."""
+
+    x: np.ndarray  # position on the surface, (n,) [m]
+    y: np.ndarray
+    z: np.ndarray
+    velocity: np.ndarray  # (3, n) [m s-1]
+    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls and is not moved: see model/release.py
+    smoothing_length: np.ndarray  # (n,) [m]
+    longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
+    strength: np.ndarray  # (n,) g_n / (2 Omega) [m s-2]
+    celerity: np.ndarray  # (n,) of waves [m s-1]
+    thickness: np.ndarray  # (n,) slope-normal, of the last time [m]
+
+
+class Sums(NamedTuple):
+    """What they write, where cells are awake."""
+
+    thickness: np.ndarray  # (n,) slope-normal [m]
+    gradient_term: np.ndarray  # (n,) Omega of the grad-h formulation [-]
+    next_length: np.ndarray  # (n,) smoothing length for the next time [m]
+    acceleration: np.ndarray  # (3, n) [m s-2]
+    thickening: np.ndarray  # (n,) -h div v, the rate at which converging flow thickens, without grad-h term [m s-1]
+
+
+def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Sums, threads: int = 1) -> None:
+    """Sum thickness and pressure gradient, with shock viscosity.
 
     Parameters
     ----------
     cells : Cells
-        Built with support 2 `smoothing_length`.
-    x, y, z, volume : ndarray, shape (n,)
-        Position on the surface [m] and volume [m3].
-    smoothing_length : ndarray, shape (n,)
-        Present values [m].
-    longest : ndarray, shape (n,)
-        Cap of the smoothing length [m]; at the cap the length is fixed and the plain sum holds.
-
-    out : tuple of three ndarray, shape (n,)
-        Written where cells are awake: slope-normal thickness [m]; Omega of the grad-h formulation [-];
-        the next smoothing length [m].
+        Built with support 2 ``smoothing_length``.
+    moving : Moving
+    viscosity : float
+        Strength of the shock viscosity [-].
+    sums : Sums
+        Written where cells are awake.
+    threads : int
 
     Notes
     -----
-    With h(l) = ratio^2 V / l^2 and the sum S(l), Newton on h - S(l(h)) = 0 has the slope
-    Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
-    length was set: one pass per time step is enough.
-    """
-    packed = np.stack((x, y, z, volume, smoothing_length))[:, cells.order]
-    over_cells(
-        _thickness, cells, threads, cells.order, cells.start, cells.near, cells.near_start, packed, longest, *out,
-    )  # fmt: skip
-
-
-@kernel
-def _neighbourhood(first, last, near, packed, scratch):
-    """Copy the particles near[first:last] into `scratch`; return their number, rounded up to whole vectors."""
-    m = last - first
-    for v in range(scratch.shape[0]):
-        for k in range(m):
-            scratch[v, k] = packed[v, near[first + k]]
-    while m % _LANES:
-        for v in range(scratch.shape[0]):
-            scratch[v, m] = 0.0
-        scratch[0, m] = _FAR
-        m += 1
-    return m
-
-
-@kernel
-def _thickness(
-    first, last, order, start, near, near_start, packed, longest, thickness, gradient_term, next_length,
-):  # fmt: skip
-    scratch = np.empty((4, order.size + _LANES))
-    for cell in range(first, last):
-        m = _neighbourhood(near_start[cell], near_start[cell + 1], near, packed, scratch)
-        if m == 0:
-            continue
-        for k in range(start[cell], start[cell + 1]):
-            i, volume = order[k], packed[3, k]
-            xi, yi, zi, li = packed[0, k], packed[1, k], packed[2, k], packed[4, k]
-            inverse = 0.5 / li
-            total, change = 0.0, 0.0
-            for j in range(m):
-                dx, dy, dz = xi - scratch[0, j], yi - scratch[1, j], zi - scratch[2, j]
-                q = np.sqrt(dx * dx + dy * dy + dz * dz) * inverse
-                t = max(0.0, 1.0 - q)
-                t3 = t * t * t * scratch[3, j]
-                total += t3 * t * (1.0 + 4.0 * q)
-                change += t3 * q * q
-            own = (SELF_WEIGHT - 1.0) * volume
-            # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3
-            slope = -(2.0 * (total + own) - 20.0 * change) * _NORM / (li * li * li)
-            total = (total + own) * _NORM / (li * li)
-            if li >= longest[i]:
-                h, omega = total, 1.0
-            else:
-                h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume / (li * li)
-                omega = max(LEAST_GRADIENT_TERM, 1.0 + 0.5 * li / h * slope)
-                h -= min(max((h - total) / omega, -h), 0.5 * h)
-            thickness[i], gradient_term[i] = h, omega
-            next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))
-
-
-def sum_pressure_gradient(cells: Cells, x, y, z, velocity, volume, smoothing_length, strength, celerity, thickness,
-                          viscosity, acceleration, thickening, threads=1):  # fmt: skip
-    """Sum the symmetric pressure gradient with shock viscosity: an acceleration.
-
     a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
-    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / h_ij for approaching pairs, w = min(0, v_ij . r_ij / r).
+    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j) for approaching pairs, w = min(0, v_ij . r_ij / r).
+    Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
+    that of Monaghan (1997).
 
-    Equal and opposite between any two particles of equal volume, so momentum is conserved to round-off.
-    The signal velocity c_i + c_j - 3 w is that of Monaghan (1997).
-
-    Parameters
-    ----------
-    x, y, z, volume, smoothing_length, thickness, celerity : ndarray, shape (n,)
-    velocity : ndarray, shape (3, n)
-    strength : ndarray, shape (n,)
-        g_n / (2 Omega) [m s-2].
-    viscosity : float
-        Strength of the shock viscosity [-].
-
-    acceleration : ndarray, shape (3, n)
-        Written where cells are awake [m s-2].
-    thickening : ndarray, shape (n,)
-        Likewise: -h div v, the rate at which converging flow thickens, without the grad-h term [m s-1].
+    The sum S(l) of thickness wants to be h(l) = ratio^2 V / l^2. Newton on h - S(l(h)) = 0 has the slope
+    Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
+    length was set: one pass per time step is enough. The strength has Omega of the pass before.
     """
-    reach = volume * (5.0 * _NORM) / smoothing_length**4
-    packed = np.stack(
-        (x, y, z, *velocity, 0.5 / smoothing_length, reach, strength, celerity, thickness, volume)
-    )[:, cells.order]  # fmt: skip
+    n = moving.x.size
+    places, packed = np.empty((3, n + _LANES), np.int32), np.empty((9, n + _LANES), np.float32)
+    quantum = cells.size / _PLACES_PER_CELL
+    _pack(cells.order, *moving[:6], *moving[7:], quantum, places, packed)
     over_cells(
-        _pressure_gradient, cells, threads, cells.order, cells.start, cells.near, cells.near_start,
-        packed, viscosity, acceleration, thickening,
+        _sum, cells, threads, cells.columns, cells.order, cells.start, cells.reach, cells.box, cells.window,
+        cells.awake, places, packed, quantum, viscosity, moving.volume, moving.smoothing_length, moving.longest, *sums,
     )  # fmt: skip
 
 
 @kernel
-def _pressure_gradient(
-    first, last, order, start, near, near_start, packed, viscosity, acceleration, thickening,
+def _pack(order, x, y, z, velocity, volume, length, strength, celerity, thickness, quantum, places, packed):
+    """Put particles in the order of cells; lengths become numbers of quanta."""
+    per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
+    for k in range(order.size):
+        i = order[k]
+        places[_X, k] = np.int32(np.int64((x[i] - x0) * per_metre))  # wraps around, and so do differences
+        places[_Y, k] = np.int32(np.int64((y[i] - y0) * per_metre))
+        places[_Z, k] = np.int32(np.int64((z[i] - z0) * per_metre))
+        packed[_U, k], packed[_V, k], packed[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
+        l2 = length[i] * length[i]
+        packed[_INVERSE, k] = 0.5 * quantum / length[i]
+        packed[_REACH, k] = volume[i] * (5.0 * _NORM) / (l2 * l2)
+        packed[_STRENGTH, k], packed[_CELERITY, k] = strength[i], celerity[i]
+        packed[_THINNESS, k], packed[_VOLUME, k] = 1.0 / thickness[i], volume[i]
+
+
+@kernel
+def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what):
+    """Copy the particles that may act on a cell into the scratch; return their number, rounded up to whole vectors."""
+    rows = (start.size - 1) // columns
+    row, column, w, m = cell // columns, cell % columns, window[cell], 0
+    for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+        low, high = -1, -1
+        for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+            d = r * columns + q
+            gap_x = max(box[0, d] - box[1, cell], box[0, cell] - box[1, d], 0.0)
+            gap_y = max(box[2, d] - box[3, cell], box[2, cell] - box[3, d], 0.0)
+            distance = max(reach[d], reach[cell])
+            if gap_x * gap_x + gap_y * gap_y < distance * distance:
+                low = d if low < 0 else low
+                high = d
+        if low >= 0:  # a row of cells is one stretch of sorted particles; whole vectors of it, the rest is overwritten
+            first, here = _U64(start[low]), _U64(m)
+            count = start[high + 1] - start[low]
+            whole = _U64(count + _LANES - 1) // _U64(_LANES) * _U64(_LANES)
+            for v in range(where.shape[0]):
+                for k in range(whole):
+                    where[v, here + k] = places[v, first + k]
+            for v in range(what.shape[0]):
+                for k in range(whole):
+                    what[v, here + k] = packed[v, first + k]
+            m += count
+    for k in range(m, m + _LANES):  # fill up with what weighs nothing
+        where[_X, k], where[_Y, k], where[_Z, k] = 0, 0, 0
+        for v in range(what.shape[0]):
+            what[v, k] = _ZERO
+    return (m + _LANES - 1) // _LANES * _LANES
+
+
+@approximate_kernel
+def _sum(
+    first, last, columns, order, start, reach, box, window, awake, places, packed, quantum, viscosity,
+    volumes, lengths, longest, thickness, gradient_term, next_length, acceleration, thickening,
 ):  # fmt: skip
-    scratch = np.empty((12, order.size + _LANES))
+    where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((9, order.size + 2 * _LANES), np.float32)
+    half_viscosity = _F(0.5 * viscosity)
     for cell in range(first, last):
-        m = _neighbourhood(near_start[cell], near_start[cell + 1], near, packed, scratch)
-        if m == 0:
+        if start[cell] == start[cell + 1] or not awake[cell]:
             continue
+        m = _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
         for k in range(start[cell], start[cell + 1]):
-            i, volume = order[k], packed[11, k]
-            if volume < 0.0:  # a hole pulls, and is not moved: see model/release.py
-                acceleration[0, i], acceleration[1, i], acceleration[2, i], thickening[i] = 0.0, 0.0, 0.0, 0.0
+            i = order[k]
+            volume, length = volumes[i], lengths[i]
+            if volume < 0.0:
                 continue
-            xi, yi, zi, ui, vi, wi = packed[0, k], packed[1, k], packed[2, k], packed[3, k], packed[4, k], packed[5, k]
-            inverse, own, si, ci, hi = packed[6, k], packed[7, k] / volume, packed[8, k], packed[9, k], packed[10, k]
-            ax, ay, az, inflow = 0.0, 0.0, 0.0, 0.0
+            xi, yi, zi = places[_X, k], places[_Y, k], places[_Z, k]
+            ui, vi, wi = packed[_U, k], packed[_V, k], packed[_W, k]
+            inverse, own = packed[_INVERSE, k], packed[_REACH, k] / packed[_VOLUME, k]
+            si, ci, thin = packed[_STRENGTH, k], packed[_CELERITY, k], packed[_THINNESS, k]
+            total, change, ax, ay, az, inflow = _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
             for j in range(m):
-                dx, dy, dz = xi - scratch[0, j], yi - scratch[1, j], zi - scratch[2, j]
-                r = np.sqrt(dx * dx + dy * dy + dz * dz)
-                ti, tj = max(0.0, 1.0 - r * inverse), max(0.0, 1.0 - r * scratch[6, j])
-                closing = -((ui - scratch[3, j]) * dx + (vi - scratch[4, j]) * dy + (wi - scratch[5, j]) * dz)
-                both = hi + scratch[10, j]
-                approach = max(0.0, closing) / (r * both + 1e-300)  # speed over the sum of thicknesses
-                shock = 0.5 * viscosity * (ci + scratch[9, j] + 3.0 * approach * both) * approach
-                # grad W = -5 * 7/(4 pi l^4) (1 - q)^3 r
-                pull = own * scratch[11, j] * ti * ti * ti
-                push = pull * (si + shock) + scratch[7, j] * tj * tj * tj * (scratch[8, j] + shock)
+                dx = _F(np.int32(xi - where[_X, j]))
+                dy = _F(np.int32(yi - where[_Y, j]))
+                dz = _F(np.int32(zi - where[_Z, j]))
+                r2 = dx * dx + dy * dy + dz * dz + _TINY
+                inverse_r = _ONE / np.sqrt(r2)
+                r = r2 * inverse_r
+                q = r * inverse
+                ti, tj = max(_ZERO, _ONE - q), max(_ZERO, _ONE - r * what[_INVERSE, j])
+                closing = (what[_U, j] - ui) * dx + (what[_V, j] - vi) * dy + (what[_W, j] - wi) * dz
+                approach = max(_ZERO, closing) * inverse_r
+                shock = (
+                    half_viscosity * (ci + what[_CELERITY, j] + _THREE * approach) * approach
+                    * min(thin, what[_THINNESS, j])
+                )  # fmt: skip
+                # W = norm/l^2 (1 - q)^4 (1 + 4 q), grad W = -5 norm/l^4 (1 - q)^3 r
+                pull = what[_VOLUME, j] * ti * ti * ti
+                total += pull * ti * (_ONE + _FOUR * q)
+                change += pull * q * q
+                pull *= own
+                push = pull * (si + shock) + what[_REACH, j] * tj * tj * tj * (what[_STRENGTH, j] + shock)
                 ax += push * dx
                 ay += push * dy
                 az += push * dz
                 inflow += pull * closing
-            acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax, ay, az
-            thickening[i] = inflow
+            acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax * quantum, ay * quantum, az * quantum
+            thickening[i] = inflow * quantum
+            # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3; with h = ratio^2 V / l^2
+            # the slope l/(2h) dS/dl of the sum has no l left
+            mass = total + (SELF_WEIGHT - 1.0) * volume
+            per_area = 1.0 / (length * length)
+            thick = mass * _NORM * per_area
+            if length >= longest[i]:
+                h, omega = thick, 1.0
+            else:
+                h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume * per_area
+                omega = max(LEAST_GRADIENT_TERM, 1.0 - (mass - 10.0 * change) * _SLOPE / volume)
+                h -= min(max((h - thick) / omega, -h), 0.5 * h)
+            thickness[i], gradient_term[i] = h, omega
+            next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.parameters import declared
-from ...spatial.summation import sum_pressure_gradient
+from ...spatial.summation import Moving, sum_over_neighbours
 from ..contracts import FlowState
 
 
@@ -14,11 +14,11 @@ class OnePhase:
     Pastor et al. (2022), eq. 18, with the misprinted thrust mended; h is slope-normal.
     """
 
-    def thrust(self, state: FlowState, cells, shock_viscosity: float, threads: int, acceleration, thickening) -> None:
-        """Write the acceleration by pressure, (3, n) [m s-2], and the thickening rate, (n,) [m s-1]."""
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
+        """Write thickness, smoothing length, acceleration by pressure and thickening rate."""
         normal_gravity = state.gravity * state.cos_slope
-        sum_pressure_gradient(
-            cells, state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length,
-            0.5 * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness),
-            state.thickness, shock_viscosity, acceleration, thickening, threads,
+        moving = Moving(
+            state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
+            0.5 * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness), state.thickness,
         )  # fmt: skip
+        sum_over_neighbours(cells, moving, shock_viscosity, sums, threads)

@@ -1,0 +1,117 @@
+"""Particles that lie still sleep: nothing is computed for them until something could set them free.
+
+A particle falls asleep when it has no speed, nothing in reach moves, and it would be held even if the
+excess pore pressure at its base rose to the highest anywhere in its column: a column that nothing enters never
+exceeds that (maximum principle of diffusion). It wakes in the very step in which its sums over neighbours
+are done again. Its column is advanced by the time it slept, at once: then, and whenever anybody looks.
+
+Those asleep are kept behind those awake, so the stages of a step work on one stretch of every array.
+"""
+
+import numpy as np
+
+from . import step
+from .motion import kick
+
+STEPS_BETWEEN_LOOKS = 16
+"""Steps after which those that may fall asleep are looked for: looking is cheap, but not free."""
+
+
+def wake_disturbed(sim) -> None:
+    """Wake particles whose sums over neighbours were done again."""
+    p = sim.particles
+    if p.awake == p.count:
+        return
+    _wake(sim, p.awake + np.flatnonzero(sim.cells.computed[p.awake :]))
+
+
+def wake_all(sim) -> None:
+    """Wake everybody."""
+    p = sim.particles
+    if p.awake < p.count:
+        _wake(sim, np.arange(p.awake, p.count))
+
+
+def _wake(sim, places) -> None:
+    p = sim.particles
+    if places.size == 0:
+        return
+    first, last = p.awake, p.awake + places.size
+    ahead = np.arange(first, last)
+    # those already there stay where they are: places are sorted, so the others are the last ones
+    _exchange(sim, np.setdiff1d(ahead, places), places[places >= last])
+    catch_up(sim, first, last)
+    p.still_steps[first:last] = 0  # the ground or a neighbour moved; give the smoothing length time to settle
+    p.awake = last
+    none = np.zeros(places.size)
+    sim.granted, sim.granted_ratio = np.concatenate([sim.granted, none]), np.concatenate([sim.granted_ratio, none])
+
+
+def catch_up(sim, first: int | None = None, last: int | None = None) -> None:
+    """Advance columns of those asleep, all or some, to the beginning of the present step."""
+    p, law = sim.particles, sim.physics.column
+    first, last = p.awake if first is None else first, p.count if last is None else last
+    order = first + np.argsort(p.asleep_since[first:last], kind="stable")
+    since = p.asleep_since[order]
+    for began in np.unique(since[since < sim.time]):
+        for place in _stretches(order[since == began]):
+            none = np.zeros(place.stop - place.start)
+            forced = step.forcing(sim, place, none, none)
+            law.advance(step.columns(p, place), forced, sim.time - began, p.basal_excess_pore_pressure[place])
+            p.asleep_since[place] = sim.time
+
+
+def fall_asleep(sim) -> None:
+    """Let those fall asleep whom nothing in their column can set free."""
+    p = sim.particles
+    lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~sim.cells.computed[: p.awake]
+    places = np.flatnonzero(lying)
+    if places.size == 0:
+        return
+    last = p.awake
+    first = last - places.size
+    _exchange(sim, places[places < first], np.setdiff1d(np.arange(first, last), places))
+    held = _held(sim, slice(first, last))
+    # held ones last
+    free, place = first + np.flatnonzero(~held), first + np.arange(held.size)
+    middle = first + free.size
+    _exchange(sim, place[: free.size][held[: free.size]], free[free >= middle])
+    p.awake = middle
+    p.asleep_since[middle:last] = sim.time
+    p.entrainment_rate[middle:last] = 0.0
+    sim.granted, sim.granted_ratio = sim.granted[:middle], sim.granted_ratio[:middle]
+
+
+def _held(sim, which: slice):
+    """Return whether friction holds particles at rest under the highest pressure their columns can bring to the base."""
+    p, physics = sim.particles, sim.physics
+    n = which.stop - which.start
+    none = np.zeros(n)
+    physics.column.synchronise(step.columns(p, which), step.forcing(sim, which, none, none))
+    highest = np.maximum(p.excess_pore_pressure[which].max(axis=1), p.basal_excess_pore_pressure[which])
+    state = step.base(sim, which)._replace(excess_pore_pressure=np.maximum(highest, 0.0))
+    yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
+    physics.friction.basal_resistance(state, yield_stress, drag)
+    thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
+    mass = physics.material.density * p.thickness[which]
+    kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)
+    return ~np.any(velocity, axis=0)
+
+
+def _exchange(sim, these, those) -> None:
+    """Let particles change places, with what the stages of a step hand on about them."""
+    if these.size == 0:
+        return
+    sim.particles.exchange(these, those)
+    to, of = np.concatenate([these, those]), np.concatenate([those, these])
+    for values in (sim.ground, sim.cosine, sim.cells.computed, sim.drained):
+        if values is not None:
+            values[..., to] = values[..., of]
+    # an order of sorted places is not kept: it is made anew in every step
+
+
+def _stretches(places):
+    """Yield slices that cover sorted places."""
+    places = np.sort(places)
+    for part in np.split(places, np.flatnonzero(np.diff(places) != 1) + 1):
+        yield slice(int(part[0]), int(part[-1]) + 1)
