@@ -8,6 +8,7 @@ from ..physics.column.start import initial_profile
 from ..spatial.summation import SMOOTHING_RATIO
 from ..terrain.bed import Bed
 from . import sleep, step
+from .motion import CLOSED
 from .numerics import Numerics
 from .particles import Particles
 from .physics import Physics
@@ -41,9 +42,11 @@ class Simulation:
         self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = None
+        self.walled = False  # whether there are closed nodes
         # what the stages of a step hand on to each other, per particle (model/step.py)
         self.ground = self.cosine = self.cells = self.survey = None
         self.granted = self.granted_ratio = np.zeros(0)
+        self.owed = np.zeros(0)
         self.drained = None  # where the base is, if anywhere
         self._steps = 0
 
@@ -59,6 +62,7 @@ class Simulation:
             Whether the terrain differs from what the last call left.
         """
         self.bed, self.status = bed, status
+        self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
 
     def release(self, depth) -> float:

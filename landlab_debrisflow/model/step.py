@@ -15,6 +15,7 @@ from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import sleep
 from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
 from .timestep import survey
+from .walls import mirror
 
 STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
@@ -32,7 +33,7 @@ def advance(sim, dt: float) -> None:
     friction_and_kick(sim, 0.5 * dt)
     dilution = entrain(sim, dt)
     move(sim, dt, dilution)
-    find_ground(sim)
+    find_ground(sim, dt)
     interact(sim)
     sleep.wake_disturbed(sim)
     consolidate(sim, dt)
@@ -88,8 +89,13 @@ def _take_up(
 def move(sim, dt: float, dilution) -> None:
     """Drift along the bed; those over an open boundary are taken out and counted."""
     p, nodes = sim.particles, sim.bed.nodes
-    left = np.empty(p.awake, np.int64)
-    drift(p.x, p.y, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, left, p.touched_wall)
+    left, sim.owed = np.empty(p.awake, np.int64), np.empty(p.awake)
+    if sim.granted.any():  # the bed below has sunk: that is no fall of the flow
+        sim.bed.surface.read_elevation(p.x[: p.awake], p.y[: p.awake], p.z)
+    drift(
+        p.x, p.y, p.z, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, sim.owed, left,
+        p.touched_wall,
+    )  # fmt: skip
     if left.size and left.min() < NOWHERE:
         place = int(np.argmin(left))
         raise SimulationError("velocity", int(p.identity[place]), sim.time, float(p.velocity[:, place].sum()))
@@ -100,7 +106,8 @@ def move(sim, dt: float, dilution) -> None:
         disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
         stay = np.ones(p.count, bool)
         stay[gone] = False
-        sim.granted, sim.granted_ratio = sim.granted[stay[: p.awake]], sim.granted_ratio[stay[: p.awake]]
+        stayed = stay[: p.awake]
+        sim.granted, sim.granted_ratio, sim.owed = sim.granted[stayed], sim.granted_ratio[stayed], sim.owed[stayed]
         p.keep(stay)
 
 
@@ -108,11 +115,12 @@ NOWHERE = -1
 """What `drift` calls the node over which a particle left that did not leave; less for one that is not a number."""
 
 
-def find_ground(sim) -> None:
-    """Read the terrain under all particles and turn their velocities into its tangent plane."""
+def find_ground(sim, dt: float = 0.0) -> None:
+    """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
     p = sim.particles
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
-    follow_ground(sim.ground, p.velocity, sim.cosine, p.z)
+    owed = sim.owed if dt > 0.0 else np.empty(0)
+    follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
     sim.drained = sim.bed.is_drained(p.x, p.y)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
@@ -122,11 +130,14 @@ def interact(sim) -> None:
     p, material, numerics = sim.particles, sim.physics.material, sim.numerics
     if p.count == 0:
         return
-    sim.cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length, p.still_steps < STEPS_TO_SLEEP)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness),
         p.thickness, p.gradient_term, sim.cosine, material.gravity,
     )  # fmt: skip
+    changed = p.still_steps < STEPS_TO_SLEEP
+    if sim.walled:
+        state, changed = mirror(state, changed, sim.bed.nodes, sim.status)
+    sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
     p.smoothing_length[:] = p.next_smoothing_length

@@ -47,13 +47,13 @@ _ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12
 
 
 class Moving(NamedTuple):
-    """What the sums read of n particles."""
+    """What the sums read of n particles. Those beyond the size of `Sums` act on others and are not moved."""
 
     x: np.ndarray  # position on the surface, (n,) [m]
     y: np.ndarray
     z: np.ndarray
     velocity: np.ndarray  # (3, n) [m s-1]
-    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls and is not moved: see model/release.py
+    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release.py
     smoothing_length: np.ndarray  # (n,) [m]
     longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
     strength: np.ndarray  # (n,) g_n / (2 Omega) [m s-2]
@@ -169,9 +169,9 @@ def _sum(
         m = _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
         for k in range(start[cell], start[cell + 1]):
             i = order[k]
-            volume, length = volumes[i], lengths[i]
-            if volume < 0.0:
+            if i >= thickness.size:
                 continue
+            volume, length = volumes[i], lengths[i]
             xi, yi, zi = places[_X, k], places[_Y, k], places[_Z, k]
             ui, vi, wi = packed[_U, k], packed[_V, k], packed[_W, k]
             inverse, own = packed[_INVERSE, k], packed[_REACH, k] / packed[_VOLUME, k]

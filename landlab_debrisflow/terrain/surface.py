@@ -31,10 +31,19 @@ class Surface:
 
     def move_to(self, nodes, elevation):
         """Set the elevation [m] of nodes given by their flat index."""
-        _set(self.values, nodes, elevation)
+        v = self.values
+        if _set(v, nodes, elevation):
+            self._extend()
+
+    def _extend(self) -> None:
+        """Set the rim: linear beyond the edge."""
         v = self.values
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
         v[0], v[-1] = 2.0 * v[1] - v[2], 2.0 * v[-2] - v[-3]
+
+    def read_elevation(self, x, y, z) -> None:
+        """Write the elevation [m] at points [m from the lower left node] to the first places of `z`."""
+        _elevation(self.values, self.dx, self.dy, x, y, z)
 
     def sample(self, x, y):
         """Read the surface at points [m from the lower left node].
@@ -87,9 +96,36 @@ def _fill(values, invalid):
 
 @kernel
 def _set(values, nodes, elevation):
-    columns = values.shape[1] - 2
+    """Set nodes; return whether any lies so near the edge that the rim depends on it."""
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    edge = False
     for k in range(nodes.size):
-        values[nodes[k] // columns + 1, nodes[k] % columns + 1] = elevation[k]
+        r, c = nodes[k] // columns, nodes[k] % columns
+        values[r + 1, c + 1] = elevation[k]
+        edge |= r < 2 or c < 2 or r > rows - 3 or c > columns - 3
+    return edge
+
+
+@kernel
+def _elevation(values, dx, dy, x, y, z):
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    for i in range(x.size):
+        p, q = x[i] / dx, y[i] / dy
+        c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
+        s, t = p - c, q - r
+        # weights of the four nodes -1, 0, 1, 2, as below
+        a0, a3 = s * (-0.5 + s * (1.0 - 0.5 * s)), s * s * (-0.5 + 0.5 * s)
+        a1, a2 = 1.0 + s * s * (-2.5 + 1.5 * s), s * (0.5 + s * (2.0 - 1.5 * s))
+        b0, b3 = t * (-0.5 + t * (1.0 - 0.5 * t)), t * t * (-0.5 + 0.5 * t)
+        b1, b2 = 1.0 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2.0 - 1.5 * t))
+        total = 0.0
+        for k in range(4):
+            b = b0 if k == 0 else b1 if k == 1 else b2 if k == 2 else b3
+            row = r + k
+            total += b * (
+                a0 * values[row, c] + a1 * values[row, c + 1] + a2 * values[row, c + 2] + a3 * values[row, c + 3]
+            )
+        z[i] = total
 
 
 @kernel

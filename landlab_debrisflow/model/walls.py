@@ -1,0 +1,97 @@
+"""Closed nodes as walls: what is near one has a mirror image behind it.
+
+Without images the sums over neighbours miss half of them at a wall: thickness comes out halved, and all the
+flow is pushed against it. The faces of closed nodes are the walls, so each image is in x, in y, or in both.
+"""
+
+import numpy as np
+
+from ..core.jit import kernel
+from ..physics.contracts import FlowState
+from ..spatial.transfer import Nodes
+from .motion import CLOSED
+
+
+def mirror(state: FlowState, changed, nodes: Nodes, status):
+    """Append the mirror images of particles that walls within their support make.
+
+    Parameters
+    ----------
+    state : FlowState
+    changed : ndarray of bool, shape (n,)
+        Which particles have changed.
+    nodes : Nodes
+    status : ndarray, shape (nodes,)
+        Node statuses as Landlab numbers them.
+
+    Returns
+    -------
+    FlowState, ndarray
+        The same with images behind the n particles; the arrays given if there is none.
+    """
+    support = 2.0 * state.smoothing_length
+    rows = status.size // nodes.columns
+    count = _find(state.x, state.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status, _NONE, _NOWHERE)
+    if count == 0:
+        return state, changed
+    source, wall = np.empty(count, np.int64), np.empty((2, count))
+    _find(state.x, state.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status, source, wall)
+    x, y, velocity = state.x[source], state.y[source], state.velocity[:, source]
+    for axis, position in enumerate((x, y)):
+        behind = np.isfinite(wall[axis])
+        position[behind] = 2.0 * wall[axis, behind] - position[behind]
+        velocity[axis, behind] *= -1.0
+
+    def both(values):
+        return np.concatenate([values, values[source]])
+
+    images = {name: both(getattr(state, name)) for name in ALIKE}
+    images |= {"x": np.concatenate([state.x, x]), "y": np.concatenate([state.y, y])}
+    images["velocity"] = np.concatenate([state.velocity, velocity], axis=1)
+    return state._replace(**images), both(changed)
+
+
+ALIKE = ("z", "volume", "smoothing_length", "longest", "thickness", "gradient_term", "cos_slope")
+"""What an image has in common with its particle."""
+
+_NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
+
+
+@kernel
+def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
+    """Count the images, and write whose they are and the walls in x and y [m], NaN for none, if there is room."""
+    found = 0
+    wx, wy = np.empty(3), np.empty(3)
+    for i in range(x.size):
+        r = min(max(int(np.floor(y[i] / dy + 0.5)), 0), rows - 1)
+        c = min(max(int(np.floor(x[i] / dx + 0.5)), 0), columns - 1)
+        wx[0] = wy[0] = np.nan
+        nx = ny = 1
+        for side in (-1, 1):
+            k = 1
+            while 0 <= c + side * k < columns:
+                face = (c + side * (k - 0.5)) * dx
+                if abs(face - x[i]) >= support[i]:
+                    break
+                if status[r * columns + c + side * k] == CLOSED:
+                    wx[nx] = face
+                    nx += 1
+                    break
+                k += 1
+            k = 1
+            while 0 <= r + side * k < rows:
+                face = (r + side * (k - 0.5)) * dy
+                if abs(face - y[i]) >= support[i]:
+                    break
+                if status[(r + side * k) * columns + c] == CLOSED:
+                    wy[ny] = face
+                    ny += 1
+                    break
+                k += 1
+        for a in range(nx):
+            for b in range(ny):
+                if a + b > 0:
+                    if found < source.size:
+                        source[found], wall[0, found], wall[1, found] = i, wx[a], wy[b]
+                    found += 1
+    return found
