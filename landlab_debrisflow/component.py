@@ -255,7 +255,7 @@ class DebrisFlow(Component):
         bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, drained)
         sim.on(bed, status, changed or failing)
         shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
-        self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth)
+        self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth, sim.time)
         self._ledger.watch_soil(nodes.core, soil)
         if failing:
             sim.release(release)
@@ -269,7 +269,8 @@ class DebrisFlow(Component):
 
         while sim.time < end and not (stop_at_rest and self.at_rest):
             until = min([end, *looks])
-            sim.advance(until - sim.time, lambda: self._footprint.record(sim.particles, sim.time), stop_at_rest)
+            sim.advance(until - sim.time, self._follow, stop_at_rest)
+            self._footprint.record(sim.particles, sim.time)
             for k, observer in enumerate(watching):
                 if sim.time >= looks[k] or sim.at_rest:
                     self._show()
@@ -278,6 +279,10 @@ class DebrisFlow(Component):
                         looks[k] += observer.interval
             if sim.at_rest:
                 watching, looks = (), []
+
+    def _follow(self):
+        sim = self._simulation
+        self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
 
     def _settle(self):
         elevation, core = self.grid.at_node["topographic__elevation"], self._simulation.bed.nodes.core

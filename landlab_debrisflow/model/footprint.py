@@ -7,11 +7,14 @@ from ..spatial.transfer import Nodes, scatter
 from .particles import Particles
 
 NOW = ("depth", "speed", "basal_excess_pore_pressure", "basal_peclet_number")
+LOOK = 0.5
+"""Part of a node spacing that matter or waves may cross between two looks: no node is passed unseen."""
+
 PEAKS = ("max_depth", "max_speed", "max_basal_pressure_ratio", "max_basal_peclet_number", "arrival_time")
 
 
 class Footprint:
-    """Writes node arrays after every step; only nodes under the flow are looked at.
+    """Writes node arrays; only nodes under the flow are looked at.
 
     Parameters
     ----------
@@ -21,18 +24,28 @@ class Footprint:
         Arrays named as in `NOW` and `PEAKS`, written in place; arrival_time is -1 where nothing came.
     arrival_depth : float
         Depth that counts as arrival [m].
+    time : float
+        Of the event, now [s].
     """
 
-    def __init__(self, nodes: Nodes, fields, arrival_depth: float):
+    def __init__(self, nodes: Nodes, fields, arrival_depth: float, time: float):
         self._nodes, self._arrival_depth = nodes, arrival_depth
         self._now, self._peaks = [fields[name] for name in NOW], [fields[name] for name in PEAKS]
         self._sums = np.zeros((5, nodes.core.size))
         self._scratch = np.empty(nodes.core.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
+        self._passed, self._then = 0.0, time  # way of the fastest since the last look [m]; when it was last counted [s]
+
+    def follow(self, particles: Particles, time: float, fastest: float) -> None:
+        """Record where something, at most at speed `fastest` [m s-1], may have got on since the last look."""
+        self._passed += fastest * (time - self._then)
+        self._then = time
+        if self._passed > LOOK * min(self._nodes.dx, self._nodes.dy):
+            self.record(particles, time)
 
     def record(self, particles: Particles, time: float) -> None:
         """Show where the particles are now and keep the peaks."""
-        p = particles
+        p, self._passed, self._then = particles, 0.0, time
         for field in self._now:
             field[self._under] = 0.0
         if p.count == 0:

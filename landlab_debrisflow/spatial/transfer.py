@@ -17,6 +17,9 @@ from ..core.jit import kernel
 WIDEST = 4.0
 """Largest half-width of a tent in node spacings."""
 
+MOST_NODES = 100
+"""Room for the nodes under one tent; there are at most (2 `WIDEST` + 1)^2."""
+
 
 class Nodes(NamedTuple):
     """The raster as kernels see it; coordinates start at the lower left node."""
@@ -54,41 +57,36 @@ def scatter(nodes: Nodes, x, y, spread, values, sums, touched):
     return touched[: _scatter(nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, values, sums, touched)]
 
 
-def gather(nodes: Nodes, x, y, spread, values):
-    """Return the tent-weighted mean of node values, shape (k, nodes), at particles, shape (k, n)."""
-    out = np.zeros((values.shape[0], x.size))
-    _gather(nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, values, out)
-    return out
-
-
 @kernel
-def _weigh(core, columns, dx, dy, x, y, spread, index, weight):
+def weigh(core, columns, dx, dy, x, y, spread, index, weight):
     """Write the core nodes under one tent and their normalised weights; return how many."""
     rows = core.size // columns
     ax, ay = min(max(spread, dx), WIDEST * dx), min(max(spread, dy), WIDEST * dy)
-    count, total = 0, 0.0
+    west, east = max(int(np.ceil((x - ax) / dx)), 0), min(int(np.floor((x + ax) / dx)), columns - 1)
+    per_x, per_y, count, total = 1.0 / ax, 1.0 / ay, 0, 0.0
     for r in range(max(int(np.ceil((y - ay) / dy)), 0), min(int(np.floor((y + ay) / dy)), rows - 1) + 1):
-        wy = 1.0 - abs(y - r * dy) / ay
-        for c in range(max(int(np.ceil((x - ax) / dx)), 0), min(int(np.floor((x + ax) / dx)), columns - 1) + 1):
+        wy = 1.0 - abs(y - r * dy) * per_y
+        for c in range(west, east + 1):
             node = r * columns + c
-            w = wy * (1.0 - abs(x - c * dx) / ax)
+            w = wy * (1.0 - abs(x - c * dx) * per_x)
             if core[node] and w > 0.0:
                 index[count], weight[count] = node, w
                 total += w
                 count += 1
+    share = 1.0 / total
     for k in range(count):
-        weight[k] /= total
+        weight[k] *= share
     return count
 
 
 @kernel
 def _scatter(core, columns, dx, dy, x, y, spread, values, sums, touched):
-    index, weight = np.empty(100, np.int64), np.empty(100)
+    index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
     found = 0
     for i in range(x.size):
         if values[0, i] <= 0.0:
             continue
-        for k in range(_weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+        for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
             node = index[k]
             if sums[0, node] == 0.0:
                 touched[found] = node
@@ -96,12 +94,3 @@ def _scatter(core, columns, dx, dy, x, y, spread, values, sums, touched):
             for v in range(values.shape[0]):
                 sums[v, node] += weight[k] * values[v, i]
     return found
-
-
-@kernel
-def _gather(core, columns, dx, dy, x, y, spread, values, out):
-    index, weight = np.empty(100, np.int64), np.empty(100)
-    for i in range(x.size):
-        for k in range(_weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
-            for v in range(values.shape[0]):
-                out[v, i] += weight[k] * values[v, index[k]]

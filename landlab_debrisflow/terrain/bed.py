@@ -6,7 +6,8 @@ subtraction: rounding does not pile up over thousands of steps, and elevation an
 
 import numpy as np
 
-from ..spatial.transfer import Nodes, gather, scatter
+from ..core.jit import kernel
+from ..spatial.transfer import MOST_NODES, Nodes, scatter, weigh
 from .surface import Surface
 
 
@@ -39,7 +40,7 @@ class Bed:
         self._soil = None if soil is None else soil.copy()
         self._taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._demand = np.zeros((1, elevation.size))
-        self._grant = np.zeros((2, elevation.size))
+        self._share = np.empty(elevation.size)
         self._touched = np.empty(elevation.size, np.int64)
 
     def erode(self, x, y, spread, wanted):
@@ -59,22 +60,17 @@ class Bed:
         ratio : ndarray, shape (n,)
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
-        granted, ratio = np.zeros((2, x.size))
-        asking = np.flatnonzero(wanted > 0.0)
-        if self.soil is None or asking.size == 0:
+        granted, ratio = np.zeros(x.size), np.zeros(x.size)
+        if self.soil is None:
             return granted, ratio
-        x, y, spread, wanted = x[asking], y[asking], spread[asking], wanted[asking]
-        area = self.nodes.area
-        at = scatter(self.nodes, x, y, spread, wanted[None, :], self._demand, self._touched)
-        demand = self._demand[0, at]
-        left = (self._soil[at] - self._taken[at]) * area
-        share = np.minimum(1.0, left / demand)
-        self._grant[0, at], self._grant[1, at] = share, share * self.pressure_ratio[at]
-        got, got_ratio = gather(self.nodes, x, y, spread, self._grant)
-        self._take(at, share * demand / area)
-        self._demand[0, at] = 0.0
-        self._grant[:, at] = 0.0
-        granted[asking], ratio[asking] = wanted * got, got_ratio / np.where(got > 0.0, got, 1.0)
+        nodes = self.nodes
+        count = _erode(
+            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._soil, self._elevation,
+            self._eroded_depth, self.pressure_ratio, self._demand[0], self._share, self._touched,
+            self._taken, self.soil, self.elevation, self.eroded_depth, granted, ratio,
+        )  # fmt: skip
+        at = self._touched[:count]
+        self.surface.move_to(at, self.elevation[at])
         return granted, ratio
 
     def is_drained(self, x, y):
@@ -84,14 +80,6 @@ class Bed:
         nodes = self.nodes
         row, column = np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)
         return self.drained[row * nodes.columns + column]
-
-    def _take(self, at, depth):
-        taken = np.minimum(self._taken[at] + depth, self._soil[at])
-        self._taken[at] = taken
-        self.soil[at] = self._soil[at] - taken
-        self.elevation[at] = self._elevation[at] - taken
-        self.eroded_depth[at] = self._eroded_depth[at] + taken
-        self.surface.move_to(at, self.elevation[at])
 
     def depth_of(self, x, y, spread, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""
@@ -108,3 +96,39 @@ class Bed:
             self.soil[at] += depth
         self.surface.move_to(at, self.elevation[at])
         return at, depth
+
+
+@kernel
+def _erode(
+    core, columns, dx, dy, x, y, spread, wanted, soil_before, elevation_before, eroded_before, pressure_ratio,
+    demand, share, touched, taken, soil, elevation, eroded_depth, granted, ratio,
+):  # fmt: skip
+    """Add up what is wanted of every node, share what it has, give it out and lower the node; return how many nodes."""
+    index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
+    found, area = 0, dx * dy
+    for i in range(x.size):
+        if wanted[i] > 0.0:
+            for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+                node = index[k]
+                if demand[node] == 0.0:
+                    touched[found] = node
+                    found += 1
+                demand[node] += weight[k] * wanted[i]
+    for k in range(found):
+        node = touched[k]
+        share[node] = min(1.0, (soil_before[node] - taken[node]) * area / demand[node])
+        taken[node] = min(taken[node] + share[node] * demand[node] / area, soil_before[node])
+        soil[node] = soil_before[node] - taken[node]
+        elevation[node] = elevation_before[node] - taken[node]
+        eroded_depth[node] = eroded_before[node] + taken[node]
+        demand[node] = 0.0
+    for i in range(x.size):
+        if wanted[i] > 0.0:
+            part, pressure = 0.0, 0.0
+            for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+                got = weight[k] * share[index[k]]
+                part += got
+                pressure += got * pressure_ratio[index[k]]
+            granted[i] = wanted[i] * part
+            ratio[i] = pressure / part if part > 0.0 else 0.0
+    return found
