@@ -27,13 +27,16 @@ NO_SOURCE = np.zeros(1)
 def advance(sim, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     friction_and_kick(sim, 0.5 * dt)
+    sim.inflow.hold(sim, sim.time + 0.5 * dt)
     dilution = entrain(sim, dt)
     move(sim, dt, dilution)
+    sim.inflow.enter(sim, sim.time + dt)
     find_ground(sim)
     find_depth(sim)
     consolidate(sim, dt)
     push(sim)
     friction_and_kick(sim, 0.5 * dt)
+    sim.inflow.hold(sim, sim.time + dt)
     check(sim)
 
 
@@ -55,6 +58,7 @@ def entrain(sim, dt: float):
     p = sim.particles
     p.entrainment_rate[:] = 0.0
     sim.physics.erosion.entrainment_rate(_base(sim), p.entrainment_rate)
+    p.entrainment_rate[sim.inflow.held(p)] = 0.0
     wanted = p.entrainment_rate * p.volume / p.depth * dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x, p.y, p.spread, wanted)
     p.entrainment_rate[:] = sim.granted * p.depth / (p.volume * dt)
@@ -100,6 +104,7 @@ def find_depth(sim) -> None:
         sim.cells, p.x, p.y, p.z, p.volume, p.smoothing_length, longest,
         (p.thickness, p.gradient_term, p.next_smoothing_length), sim.numerics.threads,
     )  # fmt: skip
+    sim.inflow.hold_thickness(p)
     p.depth[:] = p.thickness / sim.cosine
     p.liquefaction_pressure[:] = material.buoyant_density * material.gravity * p.thickness * sim.cosine
 
