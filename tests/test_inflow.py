@@ -123,6 +123,38 @@ def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hi
     assert not np.any(p.inflow_row[p.x > 20.0 + 1.01 * cosine * simulation.inflow.sources[0].strip] >= 0)
 
 
+def test_no_step_leaps_over_rows(monkeypatch):
+    """On a coarse grid fast thin flow could go ten times as far in a step as its rows are apart."""
+    grid = inclined((20, 40), 50.0, 0.3)
+    line = {"line_start": (150.0, 400.0), "line_end": (150.0, 500.0)}
+    flow = DebrisFlow(
+        grid, inflow=line | {"times": [0, 30], "discharge": 200, "velocity": 20}, numerics={"particle_count": 1000},
+        erosion="none",
+    )  # fmt: skip
+    rows, advance, inflow = [], step.advance, flow._simulation.inflow
+
+    def watched(sim, dt):
+        before = inflow.rows_entered
+        advance(sim, dt)
+        rows.append(inflow.rows_entered - before)
+
+    monkeypatch.setattr(step, "advance", watched)
+    flow.run_one_step(5.0)
+    assert sum(rows) > 20 and max(rows) <= 2
+
+
+def test_a_slow_inflow_is_not_arrested_after_a_fast_release(hill):
+    release_slab(hill, (60.0, 48.0), 8.0, 1.0)
+    slow = LINE | {"times": [0.0, 500.0], "discharge": 0.5, "velocity": 0.05}
+    flow = DebrisFlow(hill, inflow=slow, numerics={"particle_count": 50})
+    flow.run_one_step(150.0)
+    simulation = flow._simulation
+    p = simulation.particles
+    held = simulation.inflow.held(p)
+    assert not simulation.idle and held.size
+    np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 0.05, rtol=1e-12)
+
+
 @pytest.mark.parametrize(("towards", "degrees"), [((1, 0), 0), ((-1, 0), 180), ((0, 1), 90), ((0.6, -0.8), None)])
 def test_it_flows_downslope_across_the_line_or_where_it_is_told(towards, degrees):
     towards = np.array(towards)

@@ -24,6 +24,15 @@ class Hydrograph:
     ... )
     >>> surge.volume, surge.largest_thickness
     (7500.0, 0.5)
+
+    >>> from landlab import RasterModelGrid
+    >>> from landlab_debrisflow import DebrisFlow
+    >>> grid = RasterModelGrid((13, 60), xy_spacing=5.0)
+    >>> z = grid.add_field("topographic__elevation", 100.0 - 0.3 * grid.x_of_node, at="node")
+    >>> flow = DebrisFlow(grid, inflow=surge, numerics={"particle_count": 750})
+    >>> flow.run_one_step(60.0)
+    >>> bool(abs(flow.budget["inflow"] - 1500.0) < 50.0)
+    True
     """
 
     line_start: tuple = parameter("m", "one end of the line, map coordinates x and y", None, kind=tuple)
