@@ -3,8 +3,18 @@
 from .column import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
+from .model.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
 
-__all__ = ["DebrisFlow", "InputError", "Material", "Numerics", "ParameterError", "SimulationError", "solve_column"]
+__all__ = [
+    "DebrisFlow",
+    "Hydrograph",
+    "InputError",
+    "Material",
+    "Numerics",
+    "ParameterError",
+    "SimulationError",
+    "solve_column",
+]
 __version__ = "0.1.0"

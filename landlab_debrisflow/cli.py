@@ -12,6 +12,7 @@ from rich.table import Table
 
 from . import __version__
 from .core.errors import InputError, ParameterError
+from .model.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .model.physics import LAWS
 from .physics.material import Material
@@ -72,6 +73,7 @@ def _info(_):
             _show(console, f"{kind}: {name}{default}", law)
     _show(console, "material", Material)
     _show(console, "numerics", Numerics)
+    _show(console, "inflow", Hydrograph)
 
 
 def _show(console, title, declared):

@@ -9,7 +9,9 @@ from landlab import Component, RasterModelGrid
 
 from . import inputs
 from .core.variables import NODE_FIELDS, OUTPUT_PREFIX
+from .inflow_inputs import check_lines, check_strips, read_hydrographs
 from .model.footprint import NOW, PEAKS, Footprint
+from .model.inflow import Inflow
 from .model.ledger import Ledger
 from .model.numerics import Numerics
 from .model.physics import build_declared, build_physics
@@ -39,6 +41,8 @@ class DebrisFlow(Component):
         Densities, porosity, consolidation, initial pore pressure.
     numerics : Numerics or mapping, optional
         Number of particles, threads, settling.
+    inflow : Hydrograph, mapping or a sequence of them, optional
+        What flows in across lines: discharge, velocity and pore pressure against `elapsed_time`.
     observers : sequence, optional
         Objects with an ``interval`` [s] and a method ``observe(flow)``, called every so many seconds of
         the event and when it comes to rest.
@@ -81,15 +85,13 @@ class DebrisFlow(Component):
     _info: ClassVar = {field.name: field.info for field in NODE_FIELDS}
 
     def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
-                 numerics=None, observers=()):  # fmt: skip
+                 numerics=None, inflow=None, observers=()):  # fmt: skip
         if not isinstance(grid, RasterModelGrid):
             raise inputs.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
         self._physics = build_physics(flow, friction, erosion, column, material)
         self._numerics = build_declared(Numerics, numerics, "numerics")
-        self._observers = tuple(observers)
-        for observer in self._observers:
-            if not (getattr(observer, "interval", 0.0) > 0.0 and callable(getattr(observer, "observe", None))):
-                raise inputs.InputError(f"an observer needs interval > 0 [s] and observe(flow), got {observer!r}")
+        self._observers = inputs.check_observers(observers)
+        self._hydrographs = read_hydrographs(inflow)
         super().__init__(grid)
         inputs.check_boundaries(grid)
         new_arrival = "debris_flow__arrival_time" not in grid.at_node
@@ -98,7 +100,8 @@ class DebrisFlow(Component):
             grid.add_zeros("debris_flow__release_depth", at="node", units="m")
         if new_arrival:
             grid.at_node["debris_flow__arrival_time"][:] = -1.0
-        self._simulation = Simulation(self._physics, self._numerics)
+        entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
+        self._simulation = Simulation(self._physics, self._numerics, entering)
         self._settled = np.zeros(grid.number_of_nodes)
         self._ledger = Ledger(grid.dx * grid.dy)
         self._seen = None  # elevation and status as the last call left them
@@ -171,10 +174,10 @@ class DebrisFlow(Component):
 
     @property
     def budget(self):
-        """Volumes so far [m3]: released + eroded = moving + deposited + outflow, up to the residual.
+        """Volumes so far [m3]: released + inflow + eroded = moving + deposited + outflow, up to the residual.
 
-        Each is measured on its own: release field, soil field, particles, elevation field, particles
-        that left. ``moving`` counts all particles, also those at rest but not settled.
+        Each is measured on its own: release field, hydrographs, soil field, particles, elevation field,
+        particles that left. ``moving`` counts all particles, also those at rest but not settled.
         """
         return self._ledger.budget(self._simulation)
 
@@ -197,7 +200,7 @@ class DebrisFlow(Component):
     @property
     def maps(self):
         """The fields of the grid as a Dataset over ``y`` and ``x``, with units and all parameters."""
-        return maps_dataset(self.grid, self._physics, self._numerics, self.budget, self.elapsed_time)
+        return maps_dataset(self.grid, self._physics, self._numerics, self.budget, self.elapsed_time, self._hydrographs)
 
     # ---- the life of a call ----
 
@@ -231,54 +234,49 @@ class DebrisFlow(Component):
     def _begin(self, take_release=True):
         """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
         grid, at, sim = self.grid, self.grid.at_node, self._simulation
-        # not at_node.get(): it is a dict's and knows nothing of the fields
-        elevation, soil = at["topographic__elevation"], at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401
-        ratio = np.full(grid.number_of_nodes, self._physics.material.bed_pressure_ratio)
-        if "bed__excess_pore_pressure_ratio" in at:
-            ratio[:] = at["bed__excess_pore_pressure_ratio"]
         inputs.check_boundaries(grid)
-        drained = at["bed__drained"] if "bed__drained" in at else None  # noqa: SIM401
-        inputs.check_terrain(grid, elevation, soil, ratio, drained)
-        drained = None if drained is None else drained > 0.0
+        elevation, soil, ratio, drained = inputs.read_bed(grid, self._physics.material.bed_pressure_ratio)
+        check_lines(grid, sim.inflow)
         release = inputs.read_release(grid, soil) if take_release else np.zeros(grid.number_of_nodes)
         status = np.array(grid.status_at_node, np.int64)
         changed = self._seen is None or not all(map(np.array_equal, self._seen, (elevation, status)))
         if failing := bool(release.any()):
             inputs.lower_ground(grid, release, soil)
             self._ledger.released += float(release.sum() * grid.dx * grid.dy)
-        elif sim.particles.count == 0 and not self._said_nothing_to_do:
+        elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
             self._said_nothing_to_do = True
         nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
         closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
         surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
         bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, drained)
+        sim.inflow.aim(surface)
+        check_strips(grid, sim.inflow)
         sim.on(bed, status, changed or failing)
         shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
         self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth, sim.time)
         self._ledger.watch_soil(nodes.core, soil)
         if failing:
             sim.release(release)
-            self._footprint.record(sim.particles, sim.time)
+            self._record()
 
     def _advance(self, duration, stop_at_rest):
         """Run, stopping where an observer wants to look while there is an event."""
         sim, end = self._simulation, self._simulation.time + duration
-        watching = self._observers if sim.particles.count else ()
-        looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
 
         while sim.time < end and not (stop_at_rest and self.at_rest):
-            until = min([end, *looks])
-            sim.advance(until - sim.time, self._follow, stop_at_rest)
-            self._footprint.record(sim.particles, sim.time)
-            for k, observer in enumerate(watching):
-                if sim.time >= looks[k] or sim.at_rest:
+            sim.wait(end)
+            watching = () if sim.idle else self._observers
+            looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
+            sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
+            self._record()
+            for observer, look in zip(watching, looks, strict=True):
+                if sim.time >= look or sim.idle:
                     self._show()
                     observer.observe(self)
-                    while looks[k] <= sim.time:
-                        looks[k] += observer.interval
-            if sim.at_rest:
-                watching, looks = (), []
+
+    def _record(self):
+        self._footprint.record(self._simulation.particles, self._simulation.time)
 
     def _follow(self):
         sim = self._simulation

@@ -54,6 +54,38 @@ def check_terrain(grid, elevation, soil, ratio, drained=None) -> None:
             )
 
 
+def read_bed(grid, ratio: float):
+    """Read and check what the flow runs over.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+    ratio : float
+        Excess pore pressure of the bed over its liquefaction value where no field says so [-].
+
+    Returns
+    -------
+    elevation, soil : ndarray, shape (nodes,)
+        The very fields [m]; `soil` is None if there is none.
+    ratio : ndarray, shape (nodes,)
+    drained : ndarray of bool, shape (nodes,), or None
+    """
+    fields = ("topographic__elevation", "soil__depth", "bed__excess_pore_pressure_ratio", "bed__drained")
+    present = set(grid.at_node)  # its get() is a dict's and knows nothing of the fields
+    elevation, soil, ratios, drained = (grid.at_node[name] if name in present else None for name in fields)
+    ratios = np.full(grid.number_of_nodes, ratio) if ratios is None else np.array(ratios, float)
+    check_terrain(grid, elevation, soil, ratios, drained)
+    return elevation, soil, ratios, None if drained is None else drained > 0.0
+
+
+def check_observers(observers) -> tuple:
+    """Return the observers, or raise InputError if one cannot observe."""
+    for observer in observers:
+        if not (getattr(observer, "interval", 0.0) > 0.0 and callable(getattr(observer, "observe", None))):
+            raise InputError(f"an observer needs interval > 0 [s] and observe(flow), got {observer!r}")
+    return tuple(observers)
+
+
 def read_release(grid, soil):
     """Return the thickness that is to fail, shape (nodes,) [m], from whichever field says so.
 

@@ -60,6 +60,23 @@ def test_closed_walls_hold_and_say_so(slope, caplog):
     assert (deposit * slope.x_of_node).sum() / deposit.sum() > 250.0
 
 
+def test_nodata_in_the_way_says_so_and_an_open_edge_does_not(caplog):
+    grid = inclined((20, 40), 5.0, 0.5)
+    release_slab(grid, (30.0, 48.0), 8.0, 1.0)
+    hole = (abs(grid.x_of_node - 100.0) < 8.0) & (abs(grid.y_of_node - 48.0) < 20.0)
+    for nodata in (False, True):
+        if nodata:
+            grid.at_node[Z][hole] = -9999.0
+            grid.set_nodata_nodes_to_closed(grid.at_node[Z], -9999.0)
+            release_slab(grid, (30.0, 48.0), 8.0, 1.0)
+        flow = DebrisFlow(grid, numerics=COARSE)
+        with caplog.at_level(logging.WARNING, "landlab_debrisflow"):
+            flow.run_until_rest()
+        messages = [record.getMessage() for record in caplog.records]
+        assert len(messages) == nodata and all("ran against closed or NODATA nodes" in m for m in messages)
+    assert float(messages[0].split()[0]) > 50.0  # most of 225 m3 lay in its way
+
+
 @pytest.mark.parametrize("value", [1e30, np.nan])
 def test_values_of_nodata_nodes_are_never_read(value):
     results = []

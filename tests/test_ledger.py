@@ -17,7 +17,7 @@ class Auditor:
         self.grid, self.area = grid, grid.dx * grid.dy
         self.start = grid.at_node[Z].copy()
         self.soil = grid.at_node[SOIL].copy()
-        self.released = 0.0
+        self.released = self.inflow = 0.0
         self.flow = DebrisFlow(grid, **({"numerics": COARSE} | keywords))
 
     def expect_release(self):
@@ -31,11 +31,12 @@ class Auditor:
         particles = float(flow.particles.volume.sum())
         terms = {
             "released": self.released,
+            "inflow": self.inflow,
             "eroded": float(at["debris_flow__eroded_depth"].sum()) * self.area,
             "moving": particles,
             "outflow": sum(flow.outflow_by_edge.values()),
         }
-        size = terms["released"] + terms["eroded"]
+        size = terms["released"] + terms["inflow"] + terms["eroded"]
         # rounding of sums over some thousand nodes and of elevations of some 100 m: 1e-12 of the volume
         tolerance = 1e-12 * size
         for name, volume in terms.items():
@@ -75,6 +76,21 @@ def test_until_the_soil_is_used_up():
     assert budget["eroded"] > 50.0
     bare = (grid.at_node[SOIL] < 1e-12) & (grid.at_node["debris_flow__eroded_depth"] > 0.0)
     assert bare.sum() > 10  # exhausted somewhere, to the last grain
+
+
+def test_with_inflow_and_outflow(slope):
+    line = {"line_start": (20.0, 30.0), "line_end": (20.0, 60.0)}
+    hydrograph = {"times": [0.0, 5.0, 20.0], "discharge": [0.0, 60.0, 0.0], "velocity": 5.0}
+    audit = Auditor(slope, inflow=line | hydrograph)
+    flow = audit.expect_release()
+    for _ in range(8):
+        flow.run_one_step(2.5)
+        audit.inflow = float(flow.budget["inflow"])
+        audit.check()
+    audit.inflow = 0.5 * 60.0 * 20.0
+    assert audit.check()["outflow"] > 500.0
+    flow.run_until_rest()
+    assert audit.check()["eroded"] > 100.0
 
 
 @pytest.mark.parametrize("closed", [False, True])

@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from landlab_debrisflow.core.variables import NODE_FIELDS
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -17,6 +19,14 @@ def test_example_runs(tmp_path, monkeypatch, capsys):
     assert budget["eroded"] > 0.0
     assert budget["moving"] == 0.0
     assert (tmp_path / "first_flow.nc").stat().st_size > 0
+
+
+def test_inflow_as_printed():
+    first, inflow = re.findall(r"```python\n(.*?)```", README, re.DOTALL)[:2]
+    names = {}
+    exec(compile(first.split("flow = DebrisFlow(")[0] + inflow, "README.md", "exec"), names)
+    names["flow"].run_one_step(60.0)
+    assert names["flow"].budget["inflow"] == pytest.approx(0.5 * 80.0 * 60.0, rel=1e-14)
 
 
 def test_table_of_fields_is_complete_and_true():

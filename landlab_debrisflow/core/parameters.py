@@ -43,7 +43,7 @@ def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choice
     choices : tuple of str, optional
         Allowed words, for a parameter that is a choice and not a number.
     kind : type
-        float, int, bool or str.
+        float, int, bool or str; tuple for one number or a list of them.
     """
     if choices is not None:
         kind = str
@@ -76,9 +76,11 @@ def declared(cls):
 def _checked(owner: str, field: dataclasses.Field, value: Any):
     """Return the value in its declared type, or raise ParameterError."""
     meta, name = field.metadata, f"{owner}: {field.name}"
-    kind, unit = meta["kind"], meta["unit"]
+    kind = meta["kind"]
     if value is None and field.default is None:
         return None
+    if kind is tuple:
+        return _checked_list(name, value, meta)
     if kind is str:
         if value not in meta["choices"]:
             raise ParameterError(f"{name} must be one of {', '.join(meta['choices'])}; got {value!r}")
@@ -87,6 +89,20 @@ def _checked(owner: str, field: dataclasses.Field, value: Any):
         if not isinstance(value, bool):
             raise ParameterError(f"{name} must be true or false, got {value!r}")
         return value
+    return _checked_number(name, value, meta)
+
+
+def _checked_list(name: str, value: Any, meta):
+    """Return one number, or some, as a tuple of floats."""
+    if isinstance(value, Real):
+        return (_checked_number(name, value, meta),)
+    if isinstance(value, str | Mapping) or not hasattr(value, "__iter__"):
+        raise ParameterError(f"{name} must be a number or a list of numbers [{meta['unit']}], got {value!r}")
+    return tuple(_checked_number(f"{name}[{k}]", number, meta) for k, number in enumerate(value))
+
+
+def _checked_number(name: str, value: Any, meta):
+    kind, unit = meta["kind"], meta["unit"]
     expected = Integral if kind is int else Real
     if isinstance(value, bool) or not isinstance(value, expected):
         word = "an integer" if kind is int else "a number"
@@ -95,7 +111,7 @@ def _checked(owner: str, field: dataclasses.Field, value: Any):
     if not low <= value <= high or math.isinf(value):  # the comparison also refuses NaN
         unit = "" if unit == "-" else f" {unit}"
         raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {value!r}")
-    return kind(value)
+    return int(value) if kind is int else float(value)
 
 
 def _in_si(self):

@@ -47,6 +47,7 @@ PARTICLE_VARIABLES = (
     Variable("basal_peclet_number", "-", "erosion rate times thickness over c_v, of the last erosion"),
     Variable("column_memory", "-", "what the column law remembers", written=False, width=COLUMN_MEMORY),
     Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
+    Variable("inflow_row", "-", "row of the inflow it still moves with, -1: flows by itself", "i8", -1, written=False),
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
 )

@@ -40,13 +40,13 @@ class Ledger:
         return result
 
     def budget(self, simulation) -> dict[str, float]:
-        """Return all terms and the residual [m3]: released + eroded - moving - deposited - outflow."""
+        """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""
         moving = float(simulation.particles.volume.sum())
-        outflow = float(sum(simulation.outflow.values()))
+        inflow, outflow = simulation.inflow.volume, float(sum(simulation.outflow.values()))
         return {
-            "released": self.released, "eroded": self.eroded, "moving": moving, "deposited": self.deposited,
-            "outflow": outflow,
-            "residual": self.released + self.eroded - moving - self.deposited - outflow,
+            "released": self.released, "inflow": inflow, "eroded": self.eroded, "moving": moving,
+            "deposited": self.deposited, "outflow": outflow,
+            "residual": self.released + inflow + self.eroded - moving - self.deposited - outflow,
         }  # fmt: skip
 
     def snapshot(self):

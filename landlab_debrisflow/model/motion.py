@@ -89,12 +89,11 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
             velocity[k, i] *= dilution[i]
-        node = _nearest(new_x, new_y, dx, dy, columns, rows)
-        if node >= 0 and status[node] == CLOSED:  # past a corner that `stop_at_walls` did not see
+        if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):  # `stop_at_walls` looked from elsewhere
             touched_wall[i] = 1
             new_x, new_y, owed[i] = x[i], y[i], z[i]
             velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
-            node = _nearest(new_x, new_y, dx, dy, columns, rows)
+        node = _nearest(new_x, new_y, dx, dy, columns, rows)
         x[i], y[i] = new_x, new_y
         if node < 0 or status[node] != CORE:
             left[i] = node if node >= 0 else -2
@@ -110,8 +109,7 @@ def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, to
     rows = status.size // columns
     for i in range(count):
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
-        node = _nearest(new_x, new_y, dx, dy, columns, rows)
-        if node >= 0 and status[node] == CLOSED:
+        if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):
             touched_wall[i] = 1
             if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
                 velocity[1, i] = 0.0
@@ -120,6 +118,23 @@ def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, to
             else:
                 velocity[0, i], velocity[1, i] = 0.0, 0.0
             velocity[2, i] = ground[1, i] * velocity[0, i] + ground[2, i] * velocity[1, i]
+
+
+@kernel
+def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
+    """Return whether the way leads into a closed node, or between two of them that touch at a corner."""
+    rows = status.size // columns
+    node, here = _nearest(new_x, new_y, dx, dy, columns, rows), _nearest(x, y, dx, dy, columns, rows)
+    if node < 0 or here < 0:
+        return False
+    if status[node] == CLOSED:
+        return True
+    if node % columns == here % columns or node // columns == here // columns:
+        return False
+    return (
+        status[_nearest(new_x, y, dx, dy, columns, rows)] == CLOSED
+        and status[_nearest(x, new_y, dx, dy, columns, rows)] == CLOSED
+    )
 
 
 @kernel

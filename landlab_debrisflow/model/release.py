@@ -10,6 +10,10 @@ from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
 from ..terrain.surface import Surface
 
+THICKNESS_RANGE = 1.0 / 64.0
+"""Thickness over that of the thickest part of the release, below which the smoothing length grows no more: a
+particle without neighbours has no thickness of its own."""
+
 SAMPLES_PER_PARTICLE = 4
 SWEEPS = 30
 STEP = 0.5

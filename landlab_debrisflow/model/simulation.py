@@ -8,17 +8,14 @@ from ..physics.column.start import initial_profile
 from ..spatial.summation import SMOOTHING_RATIO
 from ..terrain.bed import Bed
 from . import sleep, step
+from .inflow import Inflow
 from .motion import CLOSED
 from .numerics import Numerics
 from .particles import Particles
 from .physics import Physics
-from .release import place_particles
+from .release import THICKNESS_RANGE, place_particles
 
 log = logging.getLogger("landlab_debrisflow")
-
-THICKNESS_RANGE = 1.0 / 64.0
-"""Thickness over that of the thickest part of the release, below which the smoothing length grows no more: a
-particle without neighbours has no thickness of its own."""
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -31,10 +28,11 @@ class Simulation:
     ----------
     physics : Physics
     numerics : Numerics
+    inflow : Inflow, optional
     """
 
-    def __init__(self, physics: Physics, numerics: Numerics):
-        self.physics, self.numerics = physics, numerics
+    def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
+        self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
         self.particles = Particles(physics.column.levels)
         self.time = 0.0
         self.outflow = {}  # volume by open node [m3]
@@ -111,9 +109,14 @@ class Simulation:
         self._changed = False
 
     @property
-    def at_rest(self) -> bool:
-        """Whether nothing moves (also when there is nothing)."""
+    def idle(self) -> bool:
+        """Whether nothing moves now (also when there is nothing)."""
         return self.particles.count == 0 or self._arrested
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether nothing moves, and nothing will flow in."""
+        return self.idle and self.inflow.over
 
     def advance(self, duration: float, after_step=None, stop_at_rest: bool = False) -> None:
         """Advance by exactly `duration` seconds, or until rest.
@@ -128,11 +131,11 @@ class Simulation:
             Return as soon as all is at rest; `time` tells when.
         """
         end = self.time + duration
-        if self._changed and self.particles.count:
-            self._find_everything()
-            if self._arrested:
-                self._arrested, self._peak_energy = False, 0.0
+        self._wake()
         while self.time < end and not self.at_rest:
+            if self.idle:
+                self.wait(end)
+                continue
             left = end - self.time
             dt = self._next_step(left)
             step.advance(self, dt)
@@ -143,16 +146,36 @@ class Simulation:
             self._look_for_rest()
             if after_step is not None:
                 after_step()
-        if self.particles.count:
-            if not stop_at_rest and self.time < end:  # at rest, but the pore pressure still drains
-                self.granted, self.granted_ratio = np.zeros((2, self.particles.awake))
-                step.consolidate(self, end - self.time)
-        if not stop_at_rest:
-            self.time = end
+        if not stop_at_rest and self.time < end:
+            self._pass_time(end)
         sleep.catch_up(self)
 
+    def wait(self, end: float) -> None:
+        """While nothing moves, let time pass until `end` [s] or until something flows in."""
+        self._wake()
+        if self.idle and self.time < end:
+            self._pass_time(max(self.time, min(end, self.inflow.next_time)))
+            if self.inflow.enter(self, self.time):
+                self._changed, self._arrested, self._peak_energy = True, False, 0.0
+                self._wake()
+                self.inflow.hold(self, self.time)
+
+    def _wake(self) -> None:
+        """Find everything anew if terrain or particles have changed, and let move what lay still."""
+        if self._changed and self.particles.count:
+            self._find_everything()
+            if self._arrested:
+                self._arrested, self._peak_energy = False, 0.0
+
+    def _pass_time(self, end: float) -> None:
+        """Let time pass for what is at rest: its pore pressure still drains."""
+        if self.particles.count:
+            self.granted, self.granted_ratio = np.zeros((2, self.particles.awake))
+            step.consolidate(self, end - self.time)
+        self.time = end
+
     def _next_step(self, left: float) -> float:
-        longest = self.survey.longest_step
+        longest = min(self.survey.longest_step, self.inflow.latest_step - self.time)
         if left <= longest:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
@@ -167,7 +190,7 @@ class Simulation:
             return
         self._peak_energy = max(self._peak_energy, energy)
         self.rest_speed = np.sqrt(rest_energy * self._peak_energy / p.volume.sum())
-        if energy <= rest_energy * self._peak_energy:
+        if energy <= rest_energy * self._peak_energy and self.inflow.held(p).size == 0:
             p.velocity[:] = 0.0
             p.entrainment_rate[:] = 0.0
             self._arrested = True
@@ -233,9 +256,11 @@ class Simulation:
 
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
-        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested
+        rows = self.inflow.rows_entered
+        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested, rows
 
     def restore(self, snapshot) -> None:
         """Go back to a snapshot."""
-        self.particles, self.time, self.outflow, self._peak_energy, self._arrested = snapshot
+        self.particles, self.time, self.outflow, self._peak_energy, self._arrested, rows = snapshot
+        self.inflow.rows_entered = rows
         self._changed = True

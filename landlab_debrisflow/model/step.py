@@ -31,13 +31,16 @@ NO_SOURCE = np.zeros(1)
 def advance(sim, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     friction_and_kick(sim, 0.5 * dt)
+    sim.inflow.hold(sim, sim.time + 0.5 * dt)
     dilution = entrain(sim, dt)
     move(sim, dt, dilution)
+    sim.inflow.enter(sim, sim.time + dt)
     find_ground(sim, dt)
     interact(sim)
     sleep.wake_disturbed(sim)
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
+    sim.inflow.hold(sim, sim.time + dt)
     check(sim)
 
 
@@ -60,6 +63,7 @@ def entrain(sim, dt: float):
     m = p.awake
     rate, wanted, dilution = np.zeros(m), np.empty(m), np.empty(m)
     sim.physics.erosion.entrainment_rate(base(sim, slice(m)), rate)
+    rate[sim.inflow.held(p)] = 0.0
     np.divide(rate * p.volume[:m], p.depth[:m], out=wanted)
     wanted *= dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x[:m], p.y[:m], p.spread[:m], wanted)
@@ -140,6 +144,7 @@ def interact(sim) -> None:
     sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
+    sim.inflow.hold_thickness(p)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)

@@ -59,7 +59,7 @@ def columns_dataset(profile, particles, coefficient_of_consolidation: float, tim
     )
 
 
-def maps_dataset(grid, physics, numerics, budget, time: float) -> xr.Dataset:
+def maps_dataset(grid, physics, numerics, budget, time: float, hydrographs=()) -> xr.Dataset:
     """Return elevation, soil and all fields of the flow over ``y`` and ``x``, with all parameters."""
     data = {}
     for field in NODE_FIELDS:
@@ -81,6 +81,8 @@ def maps_dataset(grid, physics, numerics, budget, time: float) -> xr.Dataset:
         attributes[kind] = type(law).__name__
         attributes |= {f"{kind} {key}": _plain(value) for key, value in describe(law).items()}
     attributes |= {f"numerics {key}": _plain(value) for key, value in describe(numerics).items()}
+    for k, hydrograph in enumerate(hydrographs):
+        attributes |= {f"inflow {k} {key}": value for key, value in describe(hydrograph).items()}
     return xr.Dataset(data, coordinates, attributes)
 
 
