@@ -43,6 +43,7 @@ class Simulation:
         self.walled = False  # whether there are closed nodes
         # what the stages of a step hand on to each other, per particle (model/step.py)
         self.ground = self.cosine = self.cells = self.survey = None
+        self.computed = np.zeros(0, bool)  # whose sums over neighbours were done in this step
         self.granted = self.granted_ratio = np.zeros(0)
         self.owed = np.zeros(0)
         self.drained = None  # where the base is, if anywhere
@@ -132,6 +133,8 @@ class Simulation:
         """
         end = self.time + duration
         self._wake()
+        if self.particles.count:
+            step.check(self)
         while self.time < end and not self.at_rest:
             if self.idle:
                 self.wait(end)

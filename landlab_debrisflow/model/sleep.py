@@ -22,7 +22,7 @@ def wake_disturbed(sim) -> None:
     p = sim.particles
     if p.awake == p.count:
         return
-    _wake(sim, p.awake + np.flatnonzero(sim.cells.computed[p.awake :]))
+    _wake(sim, p.awake + np.flatnonzero(sim.computed[p.awake :]))
 
 
 def wake_all(sim) -> None:
@@ -64,7 +64,7 @@ def catch_up(sim, first: int | None = None, last: int | None = None) -> None:
 def fall_asleep(sim) -> None:
     """Let those fall asleep whom nothing in their column can set free."""
     p = sim.particles
-    lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~sim.cells.computed[: p.awake]
+    lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~sim.computed[: p.awake]
     places = np.flatnonzero(lying)
     if places.size == 0:
         return
@@ -104,7 +104,7 @@ def _exchange(sim, these, those) -> None:
         return
     sim.particles.exchange(these, those)
     to, of = np.concatenate([these, those]), np.concatenate([those, these])
-    for values in (sim.ground, sim.cosine, sim.cells.computed, sim.drained):
+    for values in (sim.ground, sim.cosine, sim.computed, sim.drained):
         if values is not None:
             values[..., to] = values[..., of]
     # an order of sorted places is not kept: it is made anew in every step

@@ -142,6 +142,7 @@ def interact(sim) -> None:
     if sim.walled:
         state, changed = mirror(state, changed, sim.bed.nodes, sim.status)
     sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
+    sim.computed = sim.cells.computed[: p.count]
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p)
@@ -163,7 +164,7 @@ def check(sim) -> None:
     """Look at the whole; raise SimulationError if anything that moves is not finite."""
     p, nodes = sim.particles, sim.bed.nodes
     sim.survey = survey(
-        p, None if sim.cells is None else sim.cells.computed, sim.cosine, sim.physics.material.gravity,
+        p, sim.computed, sim.cosine, sim.physics.material.gravity,
         sim.numerics.courant_number, min(nodes.dx, nodes.dy),
     )  # fmt: skip
     if (place := sim.survey.broken) >= 0:
