@@ -34,26 +34,26 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
         cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
         are particles to kick; the others may be longer.
     rest_speed : float
-        A particle that is being slowed and falls below this comes to rest [m s-1].
+        A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1].
     """
     for i in range(mass.size):
         c = cosine[i]
         nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
         across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
-        u = velocity[0, i] + dt * (push[0, i] - across * nx)
-        v = velocity[1, i] + dt * (push[1, i] - across * ny)
-        w = velocity[2, i] + dt * (push[2, i] - across * nz - gravity)
+        ax, ay, az = push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
+        u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
         if speed == 0.0:
             factor = 0.0
         else:
             was = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
-            left = speed - dt * yield_stress[i] / mass[i]
+            resistance = yield_stress[i] / mass[i]
+            left = speed - dt * resistance
             if left < 0.0:  # not max(): a NaN must survive
                 left = 0.0
             left /= 1.0 + dt * drag[i] / mass[i]
-            slowing = left * left < was
-            factor = 0.0 if slowing and left < rest_speed else left / speed
+            resting = left < rest_speed and left * left < was and ax * ax + ay * ay + az * az <= resistance * resistance
+            factor = 0.0 if resting else left / speed
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 
 
@@ -111,13 +111,15 @@ def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, to
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
         if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):
             touched_wall[i] = 1
+            # what is left is the projection on the direction along the wall: never faster
             if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
-                velocity[1, i] = 0.0
+                left = (velocity[0, i] + velocity[2, i] * ground[1, i]) / (1.0 + ground[1, i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * ground[1, i]
             elif status[_nearest(x[i], new_y, dx, dy, columns, rows)] != CLOSED:
-                velocity[0, i] = 0.0
+                left = (velocity[1, i] + velocity[2, i] * ground[2, i]) / (1.0 + ground[2, i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * ground[2, i]
             else:
-                velocity[0, i], velocity[1, i] = 0.0, 0.0
-            velocity[2, i] = ground[1, i] * velocity[0, i] + ground[2, i] * velocity[1, i]
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
 
 
 @kernel

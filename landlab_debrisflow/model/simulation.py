@@ -4,6 +4,7 @@ import logging
 
 import numpy as np
 
+from ..core.errors import SimulationError
 from ..physics.column.start import initial_profile
 from ..spatial.summation import SMOOTHING_RATIO
 from ..terrain.bed import Bed
@@ -16,6 +17,9 @@ from .physics import Physics
 from .release import THICKNESS_RANGE, place_particles
 
 log = logging.getLogger("landlab_debrisflow")
+
+MOST_UNHELD = 0.5
+"""Part of the volume that may lie where friction does not hold it when all is stopped."""
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -141,6 +145,8 @@ class Simulation:
                 continue
             left = end - self.time
             dt = self._next_step(left)
+            if self.time + dt == self.time:
+                raise SimulationError("time step", -1, self.time, dt)
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
             self._steps += 1
@@ -184,16 +190,21 @@ class Simulation:
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
 
     def _look_for_rest(self) -> None:
-        """Stop everything once the kinetic energy is a negligible part of its peak.
+        """Stop everything once the kinetic energy is a negligible part of its peak, and friction holds most of it.
 
-        Without this, remnants on slopes above their apparent friction angle creep for ever.
+        Without this, remnants on slopes above their apparent friction angle creep for ever. But where most could
+        not stay, the flow is only turning, as on a counter-slope.
         """
-        p, rest_energy, energy = self.particles, self.numerics.rest_energy, self.survey.energy
+        p, rest_energy, survey = self.particles, self.numerics.rest_energy, self.survey
         if p.count == 0:
             return
-        self._peak_energy = max(self._peak_energy, energy)
+        self._peak_energy = max(self._peak_energy, survey.energy)
         self.rest_speed = np.sqrt(rest_energy * self._peak_energy / p.volume.sum())
-        if energy <= rest_energy * self._peak_energy and self.inflow.held(p).size == 0:
+        if survey.energy > rest_energy * self._peak_energy or self.inflow.held(p).size:
+            return
+        awake = slice(p.awake)
+        stays = step.held(self, awake, p.basal_excess_pore_pressure[awake])
+        if p.volume[awake][~stays].sum() <= MOST_UNHELD * p.volume.sum():
             p.velocity[:] = 0.0
             p.entrainment_rate[:] = 0.0
             self._arrested = True

@@ -11,7 +11,6 @@ Those asleep are kept behind those awake, so the stages of a step work on one st
 import numpy as np
 
 from . import step
-from .motion import kick
 
 STEPS_BETWEEN_LOOKS = 16
 """Steps after which those that may fall asleep are looked for: looking is cheap, but not free."""
@@ -89,13 +88,7 @@ def _held(sim, which: slice):
     none = np.zeros(n)
     physics.column.synchronise(step.columns(p, which), step.forcing(sim, which, none, none))
     highest = np.maximum(p.excess_pore_pressure[which].max(axis=1), p.basal_excess_pore_pressure[which])
-    state = step.base(sim, which)._replace(excess_pore_pressure=np.maximum(highest, 0.0))
-    yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
-    physics.friction.basal_resistance(state, yield_stress, drag)
-    thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
-    mass = physics.material.density * p.thickness[which]
-    kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)
-    return ~np.any(velocity, axis=0)
+    return step.held(sim, which, np.maximum(highest, 0.0))
 
 
 def _exchange(sim, these, those) -> None:

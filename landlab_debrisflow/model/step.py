@@ -14,7 +14,7 @@ from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import sleep
 from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
-from .timestep import survey
+from .timestep import survey, viscous_share
 from .walls import mirror
 
 STEPS_TO_SLEEP = 4
@@ -135,7 +135,7 @@ def interact(sim) -> None:
         return
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness),
-        p.thickness, p.gradient_term, sim.cosine, material.gravity,
+        p.thickness, p.thickening, p.gradient_term, sim.cosine, material.gravity,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
@@ -164,7 +164,7 @@ def check(sim) -> None:
     p, nodes = sim.particles, sim.bed.nodes
     sim.survey = survey(
         p, sim.computed, sim.cosine, sim.physics.material.gravity,
-        sim.numerics.courant_number, min(nodes.dx, nodes.dy),
+        sim.numerics.courant_number * viscous_share(sim.numerics.shock_viscosity), min(nodes.dx, nodes.dy),
     )  # fmt: skip
     if (place := sim.survey.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
@@ -191,6 +191,18 @@ def forcing(sim, which: slice, granted, granted_ratio) -> ColumnForcing:
         NO_SOURCE, np.array([material.coefficient_of_consolidation]),
         material.water_density / material.buoyant_density, True,
     )  # fmt: skip
+
+
+def held(sim, which: slice, pressure):
+    """Return which particles friction would hold at rest under some basal excess pore pressure, shape (n,) [Pa]."""
+    p, physics = sim.particles, sim.physics
+    n = pressure.size
+    yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
+    physics.friction.basal_resistance(base(sim, which)._replace(excess_pore_pressure=pressure), yield_stress, drag)
+    thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
+    mass = physics.material.density * p.thickness[which]
+    kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)
+    return ~np.any(velocity, axis=0)
 
 
 def base(sim, which: slice) -> BasalState:

@@ -10,6 +10,29 @@ TERRAIN_FRACTION = 0.25
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
+LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
+"""Of the fastest wave on a lattice, over celerity / smoothing length: its angular frequency, and the rate at which a
+shock viscosity of 1 damps it (docs/decisions.md, Flow 2)."""
+
+
+def viscous_share(viscosity: float) -> float:
+    """Return by what the Courant number must fall for a shock viscosity > 1, which is taken explicitly [-].
+
+    Damped leapfrog bears x = c dt / l up to (1.63 x)^2/4 + 1.17 viscosity x/2 = 1.
+
+    Examples
+    --------
+    >>> viscous_share(0.5), viscous_share(1.0), round(viscous_share(10.0), 2)
+    (1.0, 1.0, 0.19)
+    """
+
+    def limit(strength):
+        a, b = 0.25 * LATTICE_FREQUENCY**2, 0.5 * LATTICE_DAMPING * strength
+        return (np.sqrt(b * b + 4.0 * a) - b) / (2.0 * a)
+
+    return float(min(1.0, limit(viscosity) / limit(1.0)))
+
+
 class Survey(NamedTuple):
     """What the particles that are awake look like as a whole."""
 
@@ -60,8 +83,9 @@ def _survey(
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if computed[i]:
             waves = max(waves, celerity / smoothing_length[i] + max(thickening[i], 0.0) / thickness[i])
-        # v dt + 1/2 a dt^2 within the way, with the most that gravity and thrust can do; also of those that wait
-        gain = gravity * np.sqrt(max(0.0, 1.0 - cosine[i] * cosine[i])) + np.sqrt(push2)
+        # v dt + 1/2 a dt^2 within the way, also of those that wait: with the most that thrust and gravity, or friction,
+        # can do, so that stopping is resolved to that way, too
+        gain = gravity + np.sqrt(push2)
         across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
         energy += volume[i] * speed2
         fastest = max(fastest, speed + celerity)

@@ -51,7 +51,7 @@ def mirror(state: FlowState, changed, nodes: Nodes, status):
     return state._replace(**images), both(changed)
 
 
-ALIKE = ("z", "volume", "smoothing_length", "longest", "thickness", "gradient_term", "cos_slope")
+ALIKE = ("z", "volume", "smoothing_length", "longest", "thickness", "thickening", "gradient_term", "cos_slope")
 """What an image has in common with its particle."""
 
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))

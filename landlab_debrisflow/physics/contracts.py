@@ -99,6 +99,7 @@ class FlowState(NamedTuple):
     smoothing_length: Array  # [m]
     longest: Array  # cap of the smoothing length [m]
     thickness: Array  # slope-normal, of the step before [m]
+    thickening: Array  # -h div v, of the step before [m s-1]
     gradient_term: Array  # Omega of the grad-h formulation, of the step before [-]
     cos_slope: Array  # [-]
     gravity: float  # [m s-2]

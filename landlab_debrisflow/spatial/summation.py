@@ -39,7 +39,7 @@ _SLOPE = _NORM / SMOOTHING_RATIO**2
 _PLACES_PER_CELL = 2.0**23  # +-2^31 of them are 256 cells: far beyond any window
 _LANES = 16  # floats in the widest vector register
 _X, _Y, _Z = 0, 1, 2  # rows of what is packed as whole numbers
-_U, _V, _W, _INVERSE, _REACH, _STRENGTH, _CELERITY, _THINNESS, _VOLUME = range(9)  # and as floats
+_U, _V, _W, _INVERSE, _REACH, _STRENGTH, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)  # and as floats
 
 # numba computes in double where a constant is one; and an index that may be negative is not vectorised
 _F, _U64 = np.float32, np.uint64
@@ -59,6 +59,7 @@ class Moving(NamedTuple):
     strength: np.ndarray  # (n,) g_n / (2 Omega) [m s-2]
     celerity: np.ndarray  # (n,) of waves [m s-1]
     thickness: np.ndarray  # (n,) slope-normal, of the last time [m]
+    thickening: np.ndarray  # (n,) -h div v, of the last time [m s-1]
 
 
 class Sums(NamedTuple):
@@ -88,7 +89,8 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
     Notes
     -----
     a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
-    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j) for approaching pairs, w = min(0, v_ij . r_ij / r).
+    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j), w = min(0, v_ij . r_ij / r + k r): pairs that approach faster
+    than in the uniform convergence k = min(-div v/2 of i, of j), k >= 0, which is no shock and must not be damped.
     Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
     that of Monaghan (1997).
 
@@ -97,7 +99,7 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
     length was set: one pass per time step is enough. The strength has Omega of the pass before.
     """
     n = moving.x.size
-    places, packed = np.empty((3, n + _LANES), np.int32), np.empty((9, n + _LANES), np.float32)
+    places, packed = np.empty((3, n + _LANES), np.int32), np.empty((10, n + _LANES), np.float32)
     quantum = cells.size / _PLACES_PER_CELL
     _pack(cells.order, *moving[:6], *moving[7:], quantum, places, packed)
     over_cells(
@@ -107,7 +109,9 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
 
 
 @kernel
-def _pack(order, x, y, z, velocity, volume, length, strength, celerity, thickness, quantum, places, packed):
+def _pack(
+    order, x, y, z, velocity, volume, length, strength, celerity, thickness, thickening, quantum, places, packed
+):  # fmt: skip
     """Put particles in the order of cells; lengths become numbers of quanta."""
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
     for k in range(order.size):
@@ -120,7 +124,9 @@ def _pack(order, x, y, z, velocity, volume, length, strength, celerity, thicknes
         packed[_INVERSE, k] = 0.5 * quantum / length[i]
         packed[_REACH, k] = volume[i] * (5.0 * _NORM) / (l2 * l2)
         packed[_STRENGTH, k], packed[_CELERITY, k] = strength[i], celerity[i]
-        packed[_THINNESS, k], packed[_VOLUME, k] = 1.0 / thickness[i], volume[i]
+        thinness = 1.0 / thickness[i]
+        packed[_THINNESS, k], packed[_VOLUME, k] = thinness, volume[i]
+        packed[_CONVERGENCE, k] = 0.5 * quantum * max(0.0, thickening[i] * thinness)
 
 
 @kernel
@@ -161,7 +167,7 @@ def _sum(
     first, last, columns, order, start, reach, box, window, awake, places, packed, quantum, viscosity,
     volumes, lengths, longest, thickness, gradient_term, next_length, acceleration, thickening,
 ):  # fmt: skip
-    where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((9, order.size + 2 * _LANES), np.float32)
+    where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((10, order.size + 2 * _LANES), np.float32)
     half_viscosity = _F(0.5 * viscosity)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
@@ -175,7 +181,8 @@ def _sum(
             xi, yi, zi = places[_X, k], places[_Y, k], places[_Z, k]
             ui, vi, wi = packed[_U, k], packed[_V, k], packed[_W, k]
             inverse, own = packed[_INVERSE, k], packed[_REACH, k] / packed[_VOLUME, k]
-            si, ci, thin = packed[_STRENGTH, k], packed[_CELERITY, k], packed[_THINNESS, k]
+            si, ci = packed[_STRENGTH, k], packed[_CELERITY, k]
+            thin, uniform = packed[_THINNESS, k], packed[_CONVERGENCE, k]
             total, change, ax, ay, az, inflow = _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
             for j in range(m):
                 dx = _F(np.int32(xi - where[_X, j]))
@@ -187,7 +194,7 @@ def _sum(
                 q = r * inverse
                 ti, tj = max(_ZERO, _ONE - q), max(_ZERO, _ONE - r * what[_INVERSE, j])
                 closing = (what[_U, j] - ui) * dx + (what[_V, j] - vi) * dy + (what[_W, j] - wi) * dz
-                approach = max(_ZERO, closing) * inverse_r
+                approach = max(_ZERO, closing - min(uniform, what[_CONVERGENCE, j]) * r2) * inverse_r
                 shock = (
                     half_viscosity * (ci + what[_CELERITY, j] + _THREE * approach) * approach
                     * min(thin, what[_THINNESS, j])

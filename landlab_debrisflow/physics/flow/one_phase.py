@@ -20,5 +20,6 @@ class OnePhase:
         moving = Moving(
             state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
             0.5 * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness), state.thickness,
+            state.thickening,
         )  # fmt: skip
         sum_over_neighbours(cells, moving, shock_viscosity, sums, threads)
