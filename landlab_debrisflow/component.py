@@ -9,17 +9,17 @@ from landlab import Component, RasterModelGrid
 
 from . import inputs
 from .core.variables import NODE_FIELDS, OUTPUT_PREFIX
+from .ground import Ground
 from .inflow_inputs import check_lines, check_strips, read_hydrographs
 from .model.footprint import NOW, PEAKS, Footprint
 from .model.inflow import Inflow
+from .model.journal import Journal
 from .model.ledger import Ledger
 from .model.numerics import Numerics
 from .model.physics import build_declared, build_physics
 from .model.simulation import Simulation
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
-from .spatial.transfer import Nodes
-from .terrain.bed import Bed
-from .terrain.surface import Surface
+from .spatial.transfer import REACH
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -104,7 +104,8 @@ class DebrisFlow(Component):
         self._simulation = Simulation(self._physics, self._numerics, entering)
         self._settled = np.zeros(grid.number_of_nodes)
         self._ledger = Ledger(grid.dx * grid.dy)
-        self._seen = None  # elevation and status as the last call left them
+        self._ground = Ground(grid, self._physics.material.bed_pressure_ratio)
+        self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
         self._said_nothing_to_do = False
 
     # ---- what a user calls ----
@@ -218,47 +219,52 @@ class DebrisFlow(Component):
     def _all_or_nothing(self):
         """Leave grid and model as they were if anything goes wrong inside, an interrupt included."""
         names = [f for f in self._info if f in self.grid.at_node and "out" in self._info[f]["intent"]]
-        fields = {name: self.grid.at_node[name].copy() for name in names}
-        simulation, ledger = self._simulation.snapshot(), self._ledger.snapshot()
-        settled, seen = self._settled.copy(), self._seen
+        fields = [self.grid.at_node[name] for name in names] + [self._settled]
+        self._undo = Journal(fields, self.grid.number_of_node_columns)
+        simulation, ledger, lying = self._simulation.snapshot(), self._ledger.snapshot(), self._lying
         try:
             yield
         except BaseException:
-            for name, values in fields.items():
-                self.grid.at_node[name][:] = values
+            self._undo.restore()
             self._simulation.restore(simulation)
             self._ledger.restore(ledger)
-            self._settled, self._seen = settled, seen
+            self._lying = lying
+            self._ground.forget()
             raise
 
     def _begin(self, take_release=True):
         """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
-        grid, at, sim = self.grid, self.grid.at_node, self._simulation
-        inputs.check_boundaries(grid)
-        elevation, soil, ratio, drained = inputs.read_bed(grid, self._physics.material.bed_pressure_ratio)
+        grid, ground, sim = self.grid, self._ground, self._simulation
+        changed = ground.read()
         check_lines(grid, sim.inflow)
-        release = inputs.read_release(grid, soil) if take_release else np.zeros(grid.number_of_nodes)
-        status = np.array(grid.status_at_node, np.int64)
-        changed = self._seen is None or not all(map(np.array_equal, self._seen, (elevation, status)))
-        if failing := bool(release.any()):
-            inputs.lower_ground(grid, release, soil)
-            self._ledger.released += float(release.sum() * grid.dx * grid.dy)
+        failing, depth = inputs.read_release(grid, ground.soil) if take_release else (np.zeros(0, int), np.zeros(0))
+        if failing.size:
+            rows = failing // grid.number_of_node_columns
+            self._undo.cover(rows.min(), rows.max() + 1)
+            ground.fail(failing, depth)
+            self._ledger.released += float(depth.sum() * grid.dx * grid.dy)
         elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
             self._said_nothing_to_do = True
-        nodes = Nodes(status == grid.BC_NODE_IS_CORE, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
-        closed = (status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
-        surface = Surface(elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
-        bed = Bed(nodes, surface, elevation, soil, at[OUTPUT_PREFIX + "eroded_depth"], ratio, drained)
-        sim.inflow.aim(surface)
+        bed = ground.make_bed()
+        sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
-        sim.on(bed, status, changed or failing)
-        shown = {name: at[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
-        self._footprint = Footprint(nodes, shown, self._numerics.arrival_depth, sim.time)
-        self._ledger.watch_soil(nodes.core, soil)
-        if failing:
-            sim.release(release)
-            self._record()
+        sim.on(bed, ground.status, changed or failing.size > 0)
+        shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
+        self._footprint = Footprint(bed.nodes, shown, self._numerics.arrival_depth, sim.time)
+        soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
+        self._ledger.watch_soil(bed.nodes.core, soil)
+        self._journals = [self._undo] if soil is None else [self._undo, soil]
+        if failing.size:
+            sim.release(failing, depth)
+        self._cover()
+        self._record()
+
+    def _cover(self):
+        """Keep the rows of the grid that the next step may change."""
+        south, north = self._simulation.extent()
+        for journal in self._journals if south <= north else ():
+            journal.cover(int(south / self.grid.dy) - REACH, int(north / self.grid.dy) + REACH + 2)
 
     def _advance(self, duration, stop_at_rest):
         """Run, stopping where an observer wants to look while there is an event."""
@@ -268,6 +274,7 @@ class DebrisFlow(Component):
             sim.wait(end)
             watching = () if sim.idle else self._observers
             looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
+            self._cover()
             sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
             self._record()
             for observer, look in zip(watching, looks, strict=True):
@@ -275,26 +282,35 @@ class DebrisFlow(Component):
                     self._show()
                     observer.observe(self)
 
+    def _follow(self):
+        sim = self._simulation
+        self._cover()
+        self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
+
     def _record(self):
         self._footprint.record(self._simulation.particles, self._simulation.time)
 
-    def _follow(self):
-        sim = self._simulation
-        self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
-
     def _settle(self):
-        elevation, core = self.grid.at_node["topographic__elevation"], self._simulation.bed.nodes.core
-        nodes, depth = self._ledger.deposit(core, elevation, self._simulation.settle)
+        elevation, bed = self._ground.elevation, self._simulation.bed
+        self._ledger.watch_soil(None, None)  # what settles becomes soil, too
+        rise = Journal([elevation], self.grid.number_of_node_columns)
+        self._journals = [self._undo, rise]
+        self._cover()
+        nodes, depth = self._simulation.settle()
+        self._ledger.count_deposit(bed.nodes.core, rise)
         self._settled[nodes] += depth
+        self._lying = np.union1d(self._lying, nodes)
         self._footprint.clear()
 
     def _finish(self):
         """Show the deposit, and remember the terrain to notice what other components change."""
         self._show()
-        self._seen = self.grid.at_node["topographic__elevation"].copy(), self._simulation.status
+        self._ground.remember(self._undo.nodes)
 
     def _show(self):
         """Write the deposit: what has settled and what lies still now."""
-        self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"][:] = self._settled
+        field = self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
         nodes, depth = self._simulation.resting_depth()
-        self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"][nodes] += depth
+        field[self._lying] = self._settled[self._lying]
+        field[nodes] = self._settled[nodes] + depth
+        self._lying = nodes

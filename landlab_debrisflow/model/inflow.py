@@ -50,6 +50,12 @@ class Source:
         towards = hydrograph.direction
         self.towards = None if towards is None else np.array([np.cos(np.radians(towards)), np.sin(np.radians(towards))])
 
+    @property
+    def y_range(self):
+        """Least and largest y where it may enter [m]."""
+        ends = self.start[1], self.end[1]
+        return min(ends) - self.strip, max(ends) + self.strip
+
     def rows(self):
         """Return time [s] and thickness [m] of every row and how many particles are in it."""
         rows, before = [], 0

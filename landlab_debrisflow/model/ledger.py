@@ -1,6 +1,6 @@
 """The accounts of volume: every term is measured on its own, none is the rest of the others."""
 
-import numpy as np
+from .journal import Journal
 
 
 class Ledger:
@@ -16,28 +16,21 @@ class Ledger:
         self._area = area
         self.released = self.deposited = 0.0
         self._eroded = 0.0  # in earlier calls
-        self._core = self._soil = self._soil_before = None
+        self._core = self._soil = None
 
-    def watch_soil(self, core, soil) -> None:
-        """Measure erosion as the fall of a field of soil depth, shape (nodes,) [m], from now on; None: no field."""
+    def watch_soil(self, core, soil: Journal | None) -> None:
+        """Measure erosion as the fall of the soil depth kept in a journal, on core nodes, from now on; None: no more."""
         self._eroded = self.eroded
         self._core, self._soil = core, soil
-        self._soil_before = None if soil is None else soil[core]
 
     @property
     def eroded(self) -> float:
         """Volume eroded so far [m3], also in the middle of a call."""
-        if self._soil is None:
-            return self._eroded
-        return self._eroded + float(np.sum(self._soil_before - self._soil[self._core]) * self._area)
+        return self._eroded + (0.0 if self._soil is None else self._soil.fall(0, self._core) * self._area)
 
-    def deposit(self, core, elevation, lay_down):
-        """Call `lay_down()` and count by how much volume `elevation`, shape (nodes,) [m], rises."""
-        self.watch_soil(None, None)
-        before = elevation[core]
-        result = lay_down()
-        self.deposited += float(np.sum(elevation[core] - before) * self._area)
-        return result
+    def count_deposit(self, core, elevation: Journal) -> None:
+        """Count by how much volume the elevation kept in a journal has risen on core nodes."""
+        self.deposited -= elevation.fall(0, core) * self._area
 
     def budget(self, simulation) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""

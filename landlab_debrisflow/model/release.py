@@ -20,7 +20,7 @@ STEP = 0.5
 """Length of one relaxation step in l^2 times the logarithmic gradient: half of what is stable."""
 
 
-def place_particles(depth, spacing, surface: Surface, count: int):
+def place_particles(depth, spacing, corner, surface: Surface, count: int):
     """Place `count` particles so that each stands for an equal part of the volume.
 
     Parameters
@@ -29,6 +29,8 @@ def place_particles(depth, spacing, surface: Surface, count: int):
         Vertical thickness that fails [m]; 0 where nothing does.
     spacing : tuple of float
         Node spacing (dx, dy) [m].
+    corner : tuple of int
+        Row and column of its first node in the raster.
     surface : Surface
         The ground below the release.
     count : int
@@ -38,6 +40,8 @@ def place_particles(depth, spacing, surface: Surface, count: int):
     -------
     x, y : ndarray, shape (count,)
         Map coordinates [m].
+    here : ndarray, shape (count,)
+        Thickness that fails in the cell each stands in [m].
     """
     x, y, share = _samples(depth, spacing, SAMPLES_PER_PARTICLE * count)
     group = _split_equally(x, y, share, count)
@@ -48,7 +52,9 @@ def place_particles(depth, spacing, surface: Surface, count: int):
     one = np.zeros(count, np.int64)
     one[group] = np.arange(x.size)
     centre_x[outside], centre_y[outside] = x[one[outside]], y[one[outside]]
-    return _relax(centre_x, centre_y, x, y, share, depth, spacing, surface)
+    x0, y0 = corner[1] * spacing[0], corner[0] * spacing[1]
+    x, y = _relax(centre_x, centre_y, x, y, share, depth, spacing, lambda x, y: surface.sample(x + x0, y + y0))
+    return x + x0, y + y0, _depth_at(depth, spacing, x, y)
 
 
 def _depth_at(depth, spacing, x, y):
@@ -121,7 +127,7 @@ def _extent(values, group, groups):
     return low, high
 
 
-def _relax(x, y, sample_x, sample_y, share, depth, spacing, surface):
+def _relax(x, y, sample_x, sample_y, share, depth, spacing, read_ground):
     """Let the particles repel each other while the samples, with negative volume, hold them in place.
 
     The force is the gradient of the distance between the particles' thickness and the samples', both
@@ -131,7 +137,7 @@ def _relax(x, y, sample_x, sample_y, share, depth, spacing, surface):
     n, volume = x.size, share.sum() / x.size
 
     def length_and_ground(px, py):
-        ground = surface.sample(px, py)
+        ground = read_ground(px, py)
         cosine = 1.0 / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
         return SMOOTHING_RATIO * np.sqrt(volume / (_depth_at(depth, spacing, px, py) * cosine)), cosine, ground[0]
 

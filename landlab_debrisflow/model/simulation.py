@@ -68,22 +68,38 @@ class Simulation:
         self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
 
-    def release(self, depth) -> float:
-        """Turn a depth of failing ground, shape (nodes,) [m], into particles at rest on the bed below.
+    def extent(self) -> tuple[float, float]:
+        """Return least and largest y of what may change the ground in the next step [m]; nothing: the first is larger."""
+        y = self.particles.y
+        ends = [(y.min(), y.max())] if y.size else []
+        ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]
+        return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
+
+    def release(self, nodes, depth) -> float:
+        """Turn failing ground into particles at rest on the bed below.
+
+        Parameters
+        ----------
+        nodes : ndarray of int
+            Where it fails.
+        depth : ndarray
+            Vertical thickness that fails there [m].
 
         Returns
         -------
         float
             The volume released, summed over the particles [m3].
         """
-        p, nodes, material = self.particles, self.bed.nodes, self.physics.material
-        depth = depth.reshape(-1, nodes.columns)
-        volume = depth.sum() * nodes.area
-        count = self.numerics.count_for(np.count_nonzero(depth) * nodes.area)
-        x, y = place_particles(depth, (nodes.dx, nodes.dy), self.bed.surface, count)
+        p, raster, material = self.particles, self.bed.nodes, self.physics.material
+        volume = depth.sum() * raster.area
+        count = self.numerics.count_for(nodes.size * raster.area)
+        rows, columns = np.divmod(nodes, raster.columns)
+        corner = rows.min(), columns.min()  # only the part of the raster that fails is looked at
+        failing = np.zeros((rows.max() - corner[0] + 1, columns.max() - corner[1] + 1))
+        failing[rows - corner[0], columns - corner[1]] = depth
+        x, y, here = place_particles(failing, (raster.dx, raster.dy), corner, self.bed.surface, count)
         ground = self.bed.surface.sample(x, y)
         each = volume / count
-        here = depth[np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)]
         normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
         least = THICKNESS_RANGE * normal.max()
         new = p.append(

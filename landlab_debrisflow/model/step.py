@@ -139,7 +139,7 @@ def interact(sim) -> None:
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
-        state, changed = mirror(state, changed, sim.bed.nodes, sim.status)
+        state, changed = mirror(state, changed, sim.bed.nodes, sim.status, p.touched_wall)
     sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sim.computed = sim.cells.computed[: p.count]
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)

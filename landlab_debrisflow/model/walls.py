@@ -8,11 +8,12 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..physics.contracts import FlowState
+from ..spatial.summation import SMOOTHING_RATIO
 from ..spatial.transfer import Nodes
 from .motion import CLOSED
 
 
-def mirror(state: FlowState, changed, nodes: Nodes, status):
+def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
     """Append the mirror images of particles that walls within their support make.
 
     Parameters
@@ -23,6 +24,8 @@ def mirror(state: FlowState, changed, nodes: Nodes, status):
     nodes : Nodes
     status : ndarray, shape (nodes,)
         Node statuses as Landlab numbers them.
+    touched : ndarray of int8, shape (n,)
+        Set to 1 for those that move within their own spacing of a wall.
 
     Returns
     -------
@@ -45,11 +48,16 @@ def mirror(state: FlowState, changed, nodes: Nodes, status):
     def both(values):
         return np.concatenate([values, values[source]])
 
+    near = np.any(np.abs(wall - np.array([state.x[source], state.y[source]])) < SPACING * support[source], axis=0)
+    touched[source[near & np.any(state.velocity[:, source], axis=0)]] = 1
     images = {name: both(getattr(state, name)) for name in ALIKE}
     images |= {"x": np.concatenate([state.x, x]), "y": np.concatenate([state.y, y])}
     images["velocity"] = np.concatenate([state.velocity, velocity], axis=1)
     return state._replace(**images), both(changed)
 
+
+SPACING = 0.5 / SMOOTHING_RATIO
+"""Spacing of particles over their support."""
 
 ALIKE = ("z", "volume", "smoothing_length", "longest", "thickness", "thickening", "gradient_term", "cos_slope")
 """What an image has in common with its particle."""

@@ -2,6 +2,7 @@
 
 Every node value is the value at the beginning of the call less what was eroded since, in one
 subtraction: rounding does not pile up over thousands of steps, and elevation and soil move together.
+Values of the beginning are kept when a node is first lowered: a large raster costs nothing.
 """
 
 import numpy as np
@@ -26,7 +27,7 @@ class Bed:
         Erodible depth [m], changed in place; None: nothing erodes.
     eroded_depth : ndarray, shape (nodes,)
         Cumulative erosion [m], changed in place.
-    pressure_ratio : ndarray, shape (nodes,)
+    pressure_ratio : ndarray, shape (nodes,) or (1,)
         Excess pore pressure of the bed over its liquefaction value [-].
     drained : ndarray of bool, shape (nodes,), or None
         Where a drain holds the excess pore pressure at 0; None: nowhere.
@@ -36,8 +37,7 @@ class Bed:
         self.nodes, self.surface, self.elevation, self.soil = nodes, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
         self.drained = drained
-        self._elevation, self._eroded_depth = elevation.copy(), eroded_depth.copy()
-        self._soil = None if soil is None else soil.copy()
+        self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
         self._taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._demand = np.zeros((1, elevation.size))
         self._share = np.empty(elevation.size)
@@ -65,8 +65,7 @@ class Bed:
             return granted, ratio
         nodes = self.nodes
         count = _erode(
-            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._soil, self._elevation,
-            self._eroded_depth, self.pressure_ratio, self._demand[0], self._share, self._touched,
+            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._before, self.pressure_ratio, self._demand[0], self._share, self._touched,
             self._taken, self.soil, self.elevation, self.eroded_depth, granted, ratio,
         )  # fmt: skip
         at = self._touched[:count]
@@ -100,8 +99,7 @@ class Bed:
 
 @kernel
 def _erode(
-    core, columns, dx, dy, x, y, spread, wanted, soil_before, elevation_before, eroded_before, pressure_ratio,
-    demand, share, touched, taken, soil, elevation, eroded_depth, granted, ratio,
+    core, columns, dx, dy, x, y, spread, wanted, before, pressure_ratio, demand, share, touched, taken, soil, elevation, eroded_depth, granted, ratio,
 ):  # fmt: skip
     """Add up what is wanted of every node, share what it has, give it out and lower the node; return how many nodes."""
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
@@ -116,11 +114,13 @@ def _erode(
                 demand[node] += weight[k] * wanted[i]
     for k in range(found):
         node = touched[k]
-        share[node] = min(1.0, (soil_before[node] - taken[node]) * area / demand[node])
-        taken[node] = min(taken[node] + share[node] * demand[node] / area, soil_before[node])
-        soil[node] = soil_before[node] - taken[node]
-        elevation[node] = elevation_before[node] - taken[node]
-        eroded_depth[node] = eroded_before[node] + taken[node]
+        if taken[node] == 0.0:
+            before[0, node], before[1, node], before[2, node] = soil[node], elevation[node], eroded_depth[node]
+        share[node] = min(1.0, (before[0, node] - taken[node]) * area / demand[node])
+        taken[node] = min(taken[node] + share[node] * demand[node] / area, before[0, node])
+        soil[node] = before[0, node] - taken[node]
+        elevation[node] = before[1, node] - taken[node]
+        eroded_depth[node] = before[2, node] + taken[node]
         demand[node] = 0.0
     for i in range(x.size):
         if wanted[i] > 0.0:
@@ -128,7 +128,7 @@ def _erode(
             for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
                 got = weight[k] * share[index[k]]
                 part += got
-                pressure += got * pressure_ratio[index[k]]
+                pressure += got * pressure_ratio[min(index[k], pressure_ratio.size - 1)]
             granted[i] = wanted[i] * part
             ratio[i] = pressure / part if part > 0.0 else 0.0
     return found
