@@ -168,7 +168,7 @@ def _sum(
     volumes, lengths, longest, thickness, gradient_term, next_length, acceleration, thickening,
 ):  # fmt: skip
     where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((10, order.size + 2 * _LANES), np.float32)
-    half_viscosity = _F(0.5 * viscosity)
+    quarter = _F(0.25 * viscosity)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
             continue
@@ -196,7 +196,7 @@ def _sum(
                 closing = (what[_U, j] - ui) * dx + (what[_V, j] - vi) * dy + (what[_W, j] - wi) * dz
                 approach = max(_ZERO, closing - min(uniform, what[_CONVERGENCE, j]) * r2) * inverse_r
                 shock = (
-                    half_viscosity * (ci + what[_CELERITY, j] + _THREE * approach) * approach
+                    quarter * (ci + what[_CELERITY, j] + _THREE * approach) * approach
                     * min(thin, what[_THINNESS, j])
                 )  # fmt: skip
                 # W = norm/l^2 (1 - q)^4 (1 + 4 q), grad W = -5 norm/l^4 (1 - q)^3 r

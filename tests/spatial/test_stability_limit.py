@@ -5,9 +5,9 @@ import pytest
 
 from landlab_debrisflow import Numerics
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, sum_pressure_gradient
+from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
 
-SHIFT = 1e-5  # of one particle, in spacings: second-order terms of the central difference are 1e-10
+SHIFT = 3e-3  # of one particle, in spacings: second-order terms are 1e-5, positions are rounded to 1e-7
 
 
 def lattice(kind):
@@ -26,12 +26,11 @@ def response(x, y, middle, axis):
         moved = [x.copy(), y.copy()]
         moved[axis][middle] += sign * SHIFT
         cells = sort_into_cells(*moved, np.full(n, 2.0 * SMOOTHING_RATIO))
-        acceleration, thickening, one = np.empty((3, n)), np.empty(n), np.ones(n)
-        sum_pressure_gradient(
-            cells, *moved, 0.0 * one, np.zeros((3, n)), one, SMOOTHING_RATIO * one, 0.5 * one, one, one, 0.0,
-            acceleration, thickening,
-        )  # fmt: skip
-        found.append(acceleration[:2])
+        one, zero, sums = np.ones(n), np.zeros(n), Sums(*np.empty((3, n)), np.empty((3, n)), np.empty(n))
+        length = SMOOTHING_RATIO * one
+        moving = Moving(*moved, zero, np.zeros((3, n)), one, length, length, 0.5 * one, one, one, zero)
+        sum_over_neighbours(cells, moving, 0.0, sums)
+        found.append(sums.acceleration[:2])
     return (found[0] - found[1]) / (2.0 * SHIFT)
 
 

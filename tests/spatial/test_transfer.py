@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.spatial.transfer import WIDEST, Nodes, gather, scatter
+from landlab_debrisflow.spatial.transfer import WIDEST, Nodes, scatter
 
 ROWS, COLUMNS, DX, DY = 9, 12, 2.0, 3.0
 
@@ -44,23 +44,6 @@ def test_particles_without_volume_do_not_count(nodes, particles):
     values[0, 50:] = 0.0
     _, sums = add(nodes, particles, values)
     np.testing.assert_allclose(sums.sum(axis=1), 50.0, rtol=1e-14)
-
-
-def test_a_constant_comes_back(nodes, particles):
-    values = np.where(nodes.core, 7.5, np.nan)[None, :]  # the others are not even read
-    np.testing.assert_allclose(gather(nodes, *particles, values), 7.5, rtol=1e-14)  # weights sum to one
-
-
-def test_gather_is_the_mean_under_the_tent(nodes):
-    """A narrow tent is bilinear, and away from holes a linear field comes back exactly at any width."""
-    y, x = np.divmod(np.arange(ROWS * COLUMNS), COLUMNS)
-    values = (0.5 * x * DX - 0.25 * y * DY)[None, :]
-    px, py = np.array([8.3 * DX]), np.array([4.4 * DY])
-    got = gather(nodes, px, py, np.array([0.0]), values)[0]
-    assert got == pytest.approx(0.5 * px - 0.25 * py, rel=1e-14)
-    # a tent of twice the spacing is still a partition of unity with the right centre
-    got = gather(nodes, px, py, np.array([2 * DY]), values)[0]
-    assert got == pytest.approx(0.5 * 8.3 * DX - 0.25 * 4.4 * DY, abs=0.1 * DX)
 
 
 @pytest.mark.parametrize("spread", [0.5, 1.0, 2.5, WIDEST, 10.0])
