@@ -7,7 +7,7 @@ import math
 
 from ...core.jit import inner, kernel
 from ..contracts import BASE_IMPERMEABLE, BASE_PRESCRIBED
-from .closed import DIFFUSION_CAP, closed_pressure, gained_limits
+from .closed import DIFFUSION_CAP, closed_pressure
 from .layer import is_seen
 from .memory import (
     BASE,
@@ -63,14 +63,6 @@ def passed_in(coefficient_times_dt, thickness, volume, before):
     return DIFFUSION_CAP if passed > 0.0 else 0.0
 
 
-@inner
-def beyond(memory, i, load, lower):
-    """Return whether a closed column may have left its bounds somewhere."""
-    _, _, least, most = gained_limits(memory, i)
-    slack = ROUNDING * load
-    return most > load + slack or least < -lower * load - slack
-
-
 @kernel
 def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels):
     """Put one step of the flow on what some columns are owed, and write the pressure at their base.
@@ -114,10 +106,11 @@ def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, wave
         passed = passed_in(coefficient * dt, thicknesses[i], volume, before)
         memory[i, CURRENT_LOAD] = load
         if contact == CLOSED:
-            pressure, error = closed_pressure(memory, i, passed, load, old_load, gain, loading)
+            pressure, error, least, most = closed_pressure(memory, i, passed, load, old_load, gain, loading)
             is_due = error > LOOK_SHARE * tolerance * load
-            if bounded:
-                is_due |= beyond(memory, i, load, lower)
+            if bounded:  # or it may have left its bounds somewhere
+                slack = ROUNDING * load
+                is_due |= most > load + slack or least < -lower * load - slack
                 pressure = min(max(pressure, -lower * load), load)
             basal_pressure[i] = pressure
             if is_due:

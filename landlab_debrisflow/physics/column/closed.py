@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from ...core.jit import inner, kernel
-from .layer import base_share, layer, wave_of_layer
+from .layer import layer, layer_content, wave_of_layer
 from .memory import (
     BED_PRESSURE,
     BEND,
@@ -65,10 +65,15 @@ def close(profile, memory, which, waves):
         passed, removed, kept = 0.25 * math.pi * content * content, 0.0, 0.0
         low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
         if jump != 0.0:
-            for k in range(cells):
-                part = jump * (base_share(cells, 0.0, passed) if k == 0 else layer(k / cells, 0.0, passed))
-                profile[i, k] -= part
-                removed += part * (0.5 if k == 0 else 1.0)
+            missing = cells * layer_content(0.0, passed)
+            for k in range(1, cells):
+                share = layer(k / cells, 0.0, passed)
+                missing -= share
+                profile[i, k] -= jump * share
+                removed += jump * share
+            share = min(max(2.0 * missing, 0.0), 1.0)  # as in `layer.base_share`
+            profile[i, 0] -= jump * share
+            removed += 0.5 * jump * share
             for j in range(cells):
                 parts[j] = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
                 kept += parts[j] * 0.5 * cells * waves.uniform[IMPERMEABLE, 0, j]
@@ -206,7 +211,7 @@ def gained_limits(memory, i):
 
 @inner
 def closed_pressure(memory, i, passed, load, old_load, gain, loading):
-    """Put one step on a column; return its pressure at the base, and by how much that may be wrong.
+    """Put one step on a column; return its basal pressure, by how much that may be wrong, and its limits over eta.
 
     The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly.
     """
@@ -225,4 +230,4 @@ def closed_pressure(memory, i, passed, load, old_load, gain, loading):
     pressure += lift * max(1.0 - lost, 0.0) + gain
     error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
     low, high, least, most = gained_limits(memory, i)
-    return min(max(pressure, low, least), high, most), error
+    return min(max(pressure, low, least), high, most), error, least, most
