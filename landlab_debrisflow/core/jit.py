@@ -1,18 +1,35 @@
-"""The one place that names numba's decorator, so that every kernel is compiled alike.
+"""The one place that names numba's decorators, so that every kernel is compiled alike.
 
 Kernels are cached on disk, release the interpreter lock (members of an ensemble and ranges of
 cells run in threads) and may reorder sums, but never assume that numbers are finite: a NaN must
 survive until the check after the step. Reordering happens at compile time, so results stay
 bit-equal from run to run.
+
+What is compiled once and cached is what Python calls. All that a kernel calls is compiled again as
+a part of it, so a large function is best called from one place, and a stage that is called from
+several is best a kernel that Python calls (3 to 6 us). `python -m benchmarks.start --kernels` shows
+what each costs.
 """
 
 from typing import Any
 
 import numba
+from numba.extending import register_jitable
 
 _REORDER = {"reassoc", "contract", "arcp", "nsz"}
 
-kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER)
+_CHOICES: dict[str, Any] = {
+    "nogil": True,
+    "error_model": "numpy",
+    "no_cfunc_wrapper": True,  # nothing is called from C
+}
 
-approximate_kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=_REORDER | {"afn"})
+kernel: Any = numba.njit(cache=True, fastmath=_REORDER, **_CHOICES)
+"""For what Python calls."""
+
+approximate_kernel: Any = numba.njit(cache=True, fastmath=_REORDER | {"afn"}, **_CHOICES)
 """The same for sums of floats whose reciprocal roots may be the processor's estimate, refined once (3e-7)."""
+
+inner: Any = register_jitable(fastmath=_REORDER, **_CHOICES)
+"""For what only kernels call: it has no entry from Python and no file in the cache, which halves what it costs.
+Called from Python it is what it looks like, Python."""

@@ -7,7 +7,7 @@ drift leaves the tangent plane, and lands higher or lower than the kicks know.
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import inner, kernel
 
 STILL = 1e-3
 """Displacement over smoothing length, and relative change of volume, below which the sums over
@@ -122,7 +122,7 @@ def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, to
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
 
 
-@kernel
+@inner
 def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
     """Return whether the way leads into a closed node, or between two of them that touch at a corner."""
     rows = status.size // columns
@@ -139,7 +139,7 @@ def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
     )
 
 
-@kernel
+@inner
 def _nearest(x, y, dx, dy, columns, rows):
     """Return the flat index of the nearest node, or -1 if the position is not a number."""
     if not (np.isfinite(x) and np.isfinite(y)):

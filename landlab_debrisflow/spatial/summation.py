@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import approximate_kernel, kernel
+from ..core.jit import approximate_kernel, inner, kernel
 from .cells import Cells, over_cells
 
 SMOOTHING_RATIO = 1.4
@@ -129,7 +129,7 @@ def _pack(
         packed[_CONVERGENCE, k] = 0.5 * quantum * max(0.0, thickening[i] * thinness)
 
 
-@kernel
+@inner
 def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what):
     """Copy the particles that may act on a cell into the scratch; return their number, rounded up to whole vectors."""
     rows = (start.size - 1) // columns

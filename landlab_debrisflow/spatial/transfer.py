@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import inner, kernel
 
 WIDEST = 4.0
 """Largest half-width of a tent in node spacings."""
@@ -60,7 +60,7 @@ def scatter(nodes: Nodes, x, y, spread, values, sums, touched):
     return touched[: _scatter(nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, values, sums, touched)]
 
 
-@kernel
+@inner
 def weigh(core, columns, dx, dy, x, y, spread, index, weight):
     """Write the core nodes under one tent and their normalised weights; return how many."""
     rows = core.size // columns

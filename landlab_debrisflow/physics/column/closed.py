@@ -7,15 +7,19 @@ the column above goes with the square root of time.
 
 import math
 
-from ...core.jit import kernel
-from .layer import base_share, layer, wave_of_layer
+import numpy as np
+
+from ...core.jit import inner, kernel
+from .layer import layer, layer_content, wave_of_layer
 from .memory import (
     BED_PRESSURE,
     BEND,
     CLOSED,
     CONTACT,
+    CONTENT,
     GAIN,
     HIGH,
+    JUMP,
     LAYER,
     LEAST,
     LEVELS,
@@ -37,7 +41,7 @@ DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
 LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
 
 
-@kernel
+@inner
 def base_slope(profile, i, cells):
     """Return dp/d(eta) at the base as seen from inside, no steeper than twice the lowest cell [Pa]."""
     step, next_step = profile[i, 0] - profile[i, 1], profile[i, 1] - profile[i, 2]
@@ -46,141 +50,154 @@ def base_slope(profile, i, cells):
 
 
 @kernel
-def close(profile, memory, i, jump, content, waves, work):
-    """Turn the levels of one column into the waves it decays in over an impermeable base.
+def close(profile, memory, which, waves):
+    """Turn the levels of some columns into the waves they decay in over an impermeable base; `look` at them next.
 
-    Over the base there may be a layer that levels hardly see, of this ``jump`` and ``content`` (`eroding.bring`). It is
-    taken as what has diffused from a base held at that jump, and goes into the waves by itself: those of the levels
-    get what levels have of its content, the shorter ones what they lack at the base.
+    Over the base there may be a layer that levels hardly see, of some jump and content (`eroding`). It is taken as
+    what has diffused from a base held at that jump, and goes into the waves by itself: those of the levels get what
+    levels have of its content, the shorter ones what they lack at the base.
     """
     cells = profile.shape[1] - 1
-    bed = memory[i, BED_PRESSURE] if jump != 0.0 else profile[i, 0]
-    passed, removed, kept, levels, parts = 0.25 * math.pi * content * content, 0.0, 0.0, work[0], work[1]
-    low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
-    if jump != 0.0:
+    levels, parts = np.empty(cells), np.empty(cells)
+    for i in which:
+        jump, content = memory[i, JUMP], memory[i, CONTENT]
+        bed = memory[i, BED_PRESSURE] if jump != 0.0 else profile[i, 0]
+        passed, removed, kept = 0.25 * math.pi * content * content, 0.0, 0.0
+        low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
+        if jump != 0.0:
+            missing = cells * layer_content(0.0, passed)
+            for k in range(1, cells):
+                share = layer(k / cells, 0.0, passed)
+                missing -= share
+                profile[i, k] -= jump * share
+                removed += jump * share
+            share = min(max(2.0 * missing, 0.0), 1.0)  # as in `layer.base_share`
+            profile[i, 0] -= jump * share
+            removed += 0.5 * jump * share
+            for j in range(cells):
+                parts[j] = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
+                kept += parts[j] * 0.5 * cells * waves.uniform[IMPERMEABLE, 0, j]
+        share = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
+        slope = base_slope(profile, i, cells)
+        unseen = bed - profile[i, 0]
         for k in range(cells):
-            part = jump * (base_share(cells, 0.0, passed) if k == 0 else layer(k / cells, 0.0, passed))
-            profile[i, k] -= part
-            removed += part * (0.5 if k == 0 else 1.0)
+            levels[k] = profile[i, k] - slope * waves.eta[k]
         for j in range(cells):
-            parts[j] = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
-            kept += parts[j] * 0.5 * cells * waves.uniform[IMPERMEABLE, 0, j]
-    share = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
-    slope = base_slope(profile, i, cells)
-    unseen = bed - profile[i, 0]
-    for k in range(cells):
-        levels[k] = profile[i, k] - slope * waves.eta[k]
-    for j in range(cells):
-        amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
-        for k in range(cells):
-            amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
-        if share != 0.0:
-            amplitude, unseen = amplitude + share * parts[j], unseen - share * parts[j]
-        profile[i, j] = amplitude
-    for octave in range(OCTAVES):  # by the wave in its middle; the last has what is left
-        part = 0.0
-        if share != 0.0:
-            part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
-            part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), unseen)
-        memory[i, LAYER + octave] = part
-        unseen -= part
-    for octave in range(OCTAVES):
-        memory[i, TAIL + octave] = slope * waves.octaves[octave]
-    memory[i, CONTACT] = CLOSED
-    memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST] = low, high, least, most
-    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN], memory[i, SWING] = 0.0, 0.0, 1.0, 0.0, 0.0
-    look(profile, memory, i, waves, work)
+            amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
+            for k in range(cells):
+                amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
+            if share != 0.0:
+                amplitude, unseen = amplitude + share * parts[j], unseen - share * parts[j]
+            profile[i, j] = amplitude
+        for octave in range(OCTAVES):  # by the wave in its middle; the last has what is left
+            part = 0.0
+            if share != 0.0:
+                part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
+                part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), unseen)
+            memory[i, LAYER + octave] = part
+            unseen -= part
+        for octave in range(OCTAVES):
+            memory[i, TAIL + octave] = slope * waves.octaves[octave]
+        memory[i, CONTACT] = CLOSED
+        memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST] = low, high, least, most
+        memory[i, PASSED] = memory[i, LIFT] = memory[i, GAIN] = memory[i, SWING] = 0.0
+        memory[i, SCALE] = 1.0
 
 
 @kernel
-def open_up(profile, memory, i, waves, work):
-    """Turn the waves of one column into pressures at levels, which see of a thin layer no more than its content."""
-    look(profile, memory, i, waves, work)
+def open_up(profile, memory, which, waves):
+    """Turn the waves of some columns, just looked at, into pressures at levels.
+
+    Of a thin layer levels see no more than its content.
+    """
     cells = profile.shape[1] - 1
-    levels = work[0]
-    tail = 0.0
-    for octave in range(OCTAVES):
-        tail += memory[i, TAIL + octave]
-    tail /= waves.pattern[IMPERMEABLE, 0]
-    low, high, least, most = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST]
-    for k in range(cells):
-        levels[k] = tail * waves.pattern[IMPERMEABLE, k]
-    for j in range(cells):
+    levels = np.empty(cells)
+    for i in which:
+        tail = 0.0
+        for octave in range(OCTAVES):
+            tail += memory[i, TAIL + octave]
+        tail /= waves.pattern[IMPERMEABLE, 0]
+        low, high, least, most = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST]
         for k in range(cells):
-            levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
-    lost = 0.0
-    for k in range(cells):
-        eta = waves.eta[k]
-        profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
-        lost += (levels[k] - profile[i, k]) * (0.5 if k == 0 else 1.0)
-    # what the bounds took off goes into the base level, as far as they let it: the content does not jump
-    profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, least), high, most)
-    profile[i, cells] = 0.0
-    memory[i, CONTACT] = LEVELS
+            levels[k] = tail * waves.pattern[IMPERMEABLE, k]
+        for j in range(cells):
+            for k in range(cells):
+                levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
+        lost = 0.0
+        for k in range(cells):
+            eta = waves.eta[k]
+            profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
+            lost += (levels[k] - profile[i, k]) * (0.5 if k == 0 else 1.0)
+        # what the bounds took off goes into the base level, as far as they let it: the content does not jump
+        profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, least), high, most)
+        profile[i, cells] = 0.0
+        memory[i, CONTACT], memory[i, JUMP] = LEVELS, 0.0
 
 
 @kernel
-def look(profile, memory, i, waves, work):
-    """Let the waves of one column decay by what has passed since the last look, under the loads since then."""
+def look(profile, memory, which, waves):
+    """Let the waves of some columns decay by what has passed since the last look, under the loads since then."""
     ramp, uniform, squares = waves.ramp[IMPERMEABLE], waves.uniform[IMPERMEABLE], waves.squares
     cells = profile.shape[1] - 1
-    passed, lift, scale, gain = memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
-    factors = work[1]
-    decay = math.exp(-0.25 * math.pi * math.pi * passed)
-    square = decay * decay
-    factor = square * square
-    factor = factor * factor
-    ratio = factor
-    for j in range(cells):  # exp(-wave^2 passed), with one exponential for all
-        factors[j] = decay
-        decay *= ratio
-        ratio *= factor
-    if lift != 0.0 or gain != 0.0:
-        # what a wave gains: exactly, but linear in time where that formula cancels
-        brief = passed < BRIEF
-        rate, now = (0.0, 0.5) if brief else (1.0 / passed, 0.0)
+    factors = np.empty(cells)
+    for i in which:
+        passed, lift, scale, gain = memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
+        decay = math.exp(-0.25 * math.pi * math.pi * passed)
+        square = decay * decay
+        factor = square * square
+        factor = factor * factor
+        ratio = factor
+        for j in range(cells):  # exp(-wave^2 passed), with one exponential for all
+            factors[j] = decay
+            decay *= ratio
+            ratio *= factor
+        if lift != 0.0 or gain != 0.0:
+            # what a wave gains: exactly, but linear in time where that formula cancels
+            brief = passed < BRIEF
+            rate, now = (0.0, 0.5) if brief else (1.0 / passed, 0.0)
+            for j in range(cells):
+                settled = rate * (lift * ramp[1, j] + gain * uniform[1, j])
+                gained = now * (lift * ramp[0, j] + gain * uniform[0, j])
+                profile[i, j] = (profile[i, j] * scale - settled + gained) * factors[j] + settled + gained
+        else:
+            for j in range(cells):
+                profile[i, j] *= scale * factors[j]
+        pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
+        square = waves.octave_rate
+        decay = math.exp(-square * passed)
+        for octave in range(OCTAVES):
+            x = square * passed
+            evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
+            memory[i, LAYER + octave] *= scale * decay
+            memory[i, TAIL + octave] = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
+            amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
+            first = square * amplitude
+            second = square * first
+            pressure += amplitude
+            rate += first
+            bend += second
+            remainder += square * abs(second)
+            decay *= decay
+            decay *= decay
+            square *= 4.0
         for j in range(cells):
-            settled = rate * (lift * ramp[1, j] + gain * uniform[1, j])
-            gained = now * (lift * ramp[0, j] + gain * uniform[0, j])
-            profile[i, j] = (profile[i, j] * scale - settled + gained) * factors[j] + settled + gained
-    else:
-        for j in range(cells):
-            profile[i, j] *= scale * factors[j]
-    pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
-    square = waves.octave_rate
-    decay = math.exp(-square * passed)
-    for octave in range(OCTAVES):
-        x = square * passed
-        evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
-        memory[i, LAYER + octave] *= scale * decay
-        memory[i, TAIL + octave] = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
-        amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
-        first = square * amplitude
-        second = square * first
-        pressure += amplitude
-        rate += first
-        bend += second
-        remainder += square * abs(second)
-        decay *= decay
-        decay *= decay
-        square *= 4.0
-    for j in range(cells):
-        square, amplitude = squares[j], profile[i, j]
-        first = square * amplitude
-        second = square * first
-        pressure += amplitude
-        rate += first
-        bend += second
-        remainder += square * abs(second)
-    low, high, least, most = gained_limits(memory, i)
-    memory[i, LOW], memory[i, HIGH] = low, high
-    memory[i, LEAST], memory[i, MOST] = least + cells * min(gain, 0.0), most + cells * max(gain, 0.0)
-    memory[i, PRESSURE] = pressure
-    memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
-    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN], memory[i, SWING] = 0.0, 0.0, 1.0, 0.0, 0.0
+            square, amplitude = squares[j], profile[i, j]
+            first = square * amplitude
+            second = square * first
+            pressure += amplitude
+            rate += first
+            bend += second
+            remainder += square * abs(second)
+        low, high, least, most = gained_limits(memory, i)
+        memory[i, LOW], memory[i, HIGH] = low, high
+        memory[i, LEAST], memory[i, MOST] = least + cells * min(gain, 0.0), most + cells * max(gain, 0.0)
+        memory[i, PRESSURE] = pressure
+        memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
+        memory[i, PASSED] = memory[i, LIFT] = memory[i, GAIN] = memory[i, SWING] = 0.0
+        memory[i, SCALE] = 1.0
 
 
-@kernel
+@inner
 def gained_limits(memory, i):
     """Return the limits of one column with what has been put on it since the last look; see `waves.limits`."""
     lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
@@ -192,9 +209,9 @@ def gained_limits(memory, i):
     )  # fmt: skip
 
 
-@kernel
+@inner
 def closed_pressure(memory, i, passed, load, old_load, gain, loading):
-    """Put one step on a column; return its pressure at the base, and by how much that may be wrong.
+    """Put one step on a column; return its basal pressure, by how much that may be wrong, and its limits over eta.
 
     The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly.
     """
@@ -213,4 +230,4 @@ def closed_pressure(memory, i, passed, load, old_load, gain, loading):
     pressure += lift * max(1.0 - lost, 0.0) + gain
     error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
     low, high, least, most = gained_limits(memory, i)
-    return min(max(pressure, low, least), high, most), error
+    return min(max(pressure, low, least), high, most), error, least, most

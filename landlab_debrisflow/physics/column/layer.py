@@ -7,13 +7,13 @@ the thickness.
 
 import math
 
-from ...core.jit import kernel
+from ...core.jit import inner
 
 ROOT_PI = math.sqrt(math.pi)
 SEEN = 1.5  # cells from which levels can follow the layer
 
 
-@kernel
+@inner
 def layer(distance, grown, passed):
     """Return what has come of a boundary held at 1, ``distance`` from the base.
 
@@ -39,7 +39,7 @@ def layer(distance, grown, passed):
     return min(0.5 * (math.erfc(before) + beyond), 1.0)
 
 
-@kernel
+@inner
 def layer_content(grown, passed):
     """Return the content of the layer: what came in with the soil and what diffused in."""
     if grown <= 0.0:
@@ -53,13 +53,13 @@ def layer_content(grown, passed):
     return grown + inflow * passed / grown
 
 
-@kernel
+@inner
 def is_seen(cells, grown, passed):
     """Return whether levels can follow the layer."""
     return cells * (grown + 2.0 * math.sqrt(passed)) > SEEN
 
 
-@kernel
+@inner
 def base_share(cells, grown, passed):
     """Return how much of the half cell of the base level the layer fills: its content but for that at other levels."""
     if passed <= 0.0:
@@ -70,7 +70,7 @@ def base_share(cells, grown, passed):
     return min(max(2.0 * reached, 0.0), 1.0)
 
 
-@kernel
+@inner
 def wave_of_layer(number, passed):
     """Return what the layer over a base that stood still has of the wave ``number``, over an impermeable base.
 

@@ -7,6 +7,9 @@ CONTACT, JUST, VOLUME, LOAD, CURRENT_LOAD = range(5)
 # while the base prescribes or gives: c_v t / h^2 since the last advance, pressure of the bed now, that at the base
 # then, pressure by a porosity source, diffusion left over, volume when this contact began
 DIFFUSION, BED_PRESSURE, BASE, SOURCE, OWED, TOUCHED = range(5, 11)
+# while not closed: what the levels do not see of a base that changed shortly before its contact ended, as a jump at
+# that base and the content of the layer over it, over the jump and the thickness
+JUMP, CONTENT = 11, 12
 
 # while closed, of the last look: least and largest pressure, and pressure over eta; pressure at the base, its parabola
 # in c_v t / h^2, and by how much that may be wrong, over the cube of it

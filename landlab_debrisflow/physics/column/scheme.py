@@ -2,8 +2,6 @@
 
 from typing import NamedTuple
 
-from .waves import Waves, waves_of
-
 OVERBURDEN, PROPORTIONAL, UNLOADED = 0, 1, 2
 LOADING = {"overburden": OVERBURDEN, "proportional": PROPORTIONAL, "none": UNLOADED}
 BED_CONTACT = ("dirichlet", "flux")
@@ -17,7 +15,6 @@ class Scheme(NamedTuple):
     literal: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
     flux: bool  # new soil brings its own pressure and no more; else the bed prescribes that of the base
     tolerance: float  # error of the pressure over the load that skipping aims at [-]; 0: no skipping
-    waves: Waves
 
 
 LEVELS_ERROR = 0.3
@@ -28,5 +25,5 @@ def scheme_of(law, stretching: bool) -> Scheme:
     """Return the choices of a law as kernels read them."""
     return Scheme(
         stretching, LOADING[law.loading_source], law.source_includes_erosion, law.bed_contact == "flux",
-        LEVELS_ERROR / (law.levels - 1) ** 2 if law.tolerance is None else law.tolerance, waves_of(law.levels),
+        LEVELS_ERROR / (law.levels - 1) ** 2 if law.tolerance is None else law.tolerance,
     )  # fmt: skip

@@ -7,10 +7,10 @@ liquefied grain stays so. No new extreme appears. Interpolation does not keep th
 to the last digit; to put back what it lost makes an error of the first order in the width of a level.
 """
 
-from ...core.jit import kernel
+from ...core.jit import inner
 
 
-@kernel
+@inner
 def interpolate(values, ratios, cells, position):
     """Return the cubic through four of ``values``, held between the two that enclose ``position``.
 
@@ -31,7 +31,7 @@ def interpolate(values, ratios, cells, position):
     return min(max(cubic, min(one, other) * position), max(one, other) * position)
 
 
-@kernel
+@inner
 def stretch_profile(profile, i, stretch, load, new_load, weight, scale, entry, new_entry, work):
     """Stretch one column.
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import inner
 
 IMPERMEABLE, PRESCRIBED = 0, 1
 TAIL_END, TAIL_POINTS = 1.6, 256  # the table of the tail runs over sqrt(c_v t / h^2) * cells: exp(-pi^2 1.6^2) = 1e-11
@@ -100,7 +100,7 @@ def _tail(cells: int, kind: int) -> np.ndarray:
     return np.array(table) / table[0]
 
 
-@kernel
+@inner
 def tail_left(passed, cells, table):
     """Return what is left of a tail of 1 after ``passed`` = c_v t / h^2."""
     position = math.sqrt(passed) * (cells * (TAIL_POINTS - 1) / TAIL_END)
@@ -110,7 +110,7 @@ def tail_left(passed, cells, table):
     return table[low] + (position - low) * (table[low + 1] - table[low])
 
 
-@kernel
+@inner
 def limits(profile, i, low, high, eta):
     """Return the least and largest pressure, and pressure over eta, of one column, a base and the surface.
 
@@ -126,7 +126,7 @@ def limits(profile, i, low, high, eta):
     return low, high, least, most
 
 
-@kernel
+@inner
 def evolve(profile, i, kind, passed, base, new_base, kink, lift, source, waves, work):
     """Let the levels of one column diffuse by ``passed`` = c_v t / h^2 while they are loaded.
 
