@@ -41,6 +41,8 @@ def test_the_volume_is_the_integral_of_the_discharge(hill):
     assert largest < 0.06 * VOLUME
     flow.run_one_step(3.0)
     assert flow.budget["inflow"] == pytest.approx(VOLUME, rel=1e-14)
+    # when nothing more flows in nothing is prescribed any more, not even right behind the line
+    assert rows.held(flow._simulation.particles).size == 0 and float(flow.particles.x.min()) < 21.0
     volumes = flow.particles.volume.values
     assert volumes.size == 300 and np.all(volumes == volumes[0])  # no light beside heavy
 
@@ -205,10 +207,11 @@ def test_it_flows_in_obliquely_with_the_discharge_given():
     np.testing.assert_allclose(p.thickness.values[held], 30.0 / (5.0 * 20.0 * np.cos(np.radians(30.0))), rtol=1e-12)
 
 
-def test_pore_pressure_comes_in_as_given(hill):
+@pytest.mark.parametrize("column", ["ale", "classical", {"law": "ale", "scheme": "lax_wendroff"}])
+def test_pore_pressure_comes_in_as_given(hill, column):
     inflow = LINE | {"times": [0.0, 10.0], "discharge": 40.0, "velocity": 4.0, "pressure_ratio": [0.2, 0.8]}
     undrained = {"coefficient_of_consolidation": 0.0}
-    flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material=undrained)
+    flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material=undrained, column=column)
     flow.run_one_step(5.0)
     p, rows = flow.particles, flow._simulation.particles.inflow_row
     held, time = rows >= 0, flow._simulation.inflow._time
