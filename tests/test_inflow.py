@@ -41,6 +41,8 @@ def test_the_volume_is_the_integral_of_the_discharge(hill):
     assert largest < 0.06 * VOLUME
     flow.run_one_step(3.0)
     assert flow.budget["inflow"] == pytest.approx(VOLUME, rel=1e-14)
+    # when nothing more flows in nothing is prescribed any more, not even right behind the line
+    assert rows.held(flow._simulation.particles).size == 0 and float(flow.particles.x.min()) < 21.0
     volumes = flow.particles.volume.values
     assert volumes.size == 300 and np.all(volumes == volumes[0])  # no light beside heavy
 
@@ -123,6 +125,17 @@ def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hi
     assert not np.any(p.inflow_row[p.x > 20.0 + 1.01 * cosine * simulation.inflow.sources[0].strip] >= 0)
 
 
+def test_in_the_strip_rows_are_where_the_velocity_has_brought_them():
+    flow = DebrisFlow(inclined((20, 80), 5.0, 0.5), inflow=SURGE, erosion="none", numerics={"particle_count": 400})
+    flow.run_one_step(3.5)
+    p, inflow = flow._simulation.particles, flow._simulation.inflow
+    held, source = inflow.held(p), inflow.sources[0]
+    assert np.unique(p.inflow_row[held]).size > 1
+    way = source.way(3.5) - source.way(inflow._time[p.inflow_row[held]])
+    np.testing.assert_allclose(p.x[held], 20.0 + way / np.hypot(1.0, 0.5), rtol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 4.0 + 2.0 * 2.5 / 3.0, rtol=1e-12)
+
+
 def test_no_step_leaps_over_rows(monkeypatch):
     """On a coarse grid fast thin flow could go ten times as far in a step as its rows are apart."""
     grid = inclined((20, 40), 50.0, 0.3)
@@ -145,14 +158,16 @@ def test_no_step_leaps_over_rows(monkeypatch):
 
 def test_a_slow_inflow_is_not_arrested_after_a_fast_release(hill, monkeypatch):
     release_slab(hill, (60.0, 48.0), 8.0, 1.0)
-    slow = LINE | {"times": [0.0, 500.0], "discharge": 0.5, "velocity": 0.05}
+    slow = LINE | {"line_end": (20.0, 40.0), "times": [0.0, 500.0], "discharge": 0.05, "velocity": 0.05}
     flow = DebrisFlow(hill, inflow=slow, numerics={"particle_count": 50})
     simulation, waited = flow._simulation, []
-    monkeypatch.setattr(simulation, "_pass_time", waited.append)
-    flow.run_one_step(150.0)
+    pass_time = simulation._pass_time
+    monkeypatch.setattr(simulation, "_pass_time", lambda end: (waited.append(end), pass_time(end)))
+    flow.run_one_step(60.0)
     p = simulation.particles
     held = simulation.inflow.held(p)
-    assert waited == [] and held.size  # it waits while all is arrested
+    # It would wait if all were arrested. The first row enters after 10 s, the release lies still after 30 s
+    assert waited == [] and held.size
     np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 0.05, rtol=1e-12)
 
 
@@ -192,10 +207,11 @@ def test_it_flows_in_obliquely_with_the_discharge_given():
     np.testing.assert_allclose(p.thickness.values[held], 30.0 / (5.0 * 20.0 * np.cos(np.radians(30.0))), rtol=1e-12)
 
 
-def test_pore_pressure_comes_in_as_given(hill):
+@pytest.mark.parametrize("column", ["ale", "classical", {"law": "ale", "scheme": "lax_wendroff"}])
+def test_pore_pressure_comes_in_as_given(hill, column):
     inflow = LINE | {"times": [0.0, 10.0], "discharge": 40.0, "velocity": 4.0, "pressure_ratio": [0.2, 0.8]}
     undrained = {"coefficient_of_consolidation": 0.0}
-    flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material=undrained)
+    flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material=undrained, column=column)
     flow.run_one_step(5.0)
     p, rows = flow.particles, flow._simulation.particles.inflow_row
     held, time = rows >= 0, flow._simulation.inflow._time
