@@ -13,6 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 GRAVITY = 9.81
+START = 1e-200  # a time so short that a dam break is still the step it starts from [s]
 
 
 def _masked(h, *velocity):
@@ -25,12 +26,12 @@ def _masked(h, *velocity):
 
 
 def ritter(x, time: float, depth: float = 1.0, gravity: float = GRAVITY):
-    """Dam break on a dry flat bed without friction (Ritter, 1892), ``time`` > 0."""
+    """Dam break on a dry flat bed without friction (Ritter, 1892)."""
     return mangeney(x, time, depth, 0.0, 0.0, gravity)
 
 
 def mangeney(x, time: float, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0, gravity: float = GRAVITY):
-    """Dam break on a dry plane with Coulomb friction below its slope (Mangeney, Heinrich & Roche, 2000), ``time`` > 0.
+    """Dam break on a dry plane with Coulomb friction below its slope (Mangeney, Heinrich & Roche, 2000).
 
     Ritter's solution in a frame that falls with ``m = g cos(slope) (tan(slope) - friction)``: the reservoir as a
     whole moves at ``m t``, the front is at ``2 c0 t + m t^2/2`` and the rarefaction starts at ``-c0 t + m t^2/2``.
@@ -38,7 +39,7 @@ def mangeney(x, time: float, depth: float = 1.0, slope: float = 0.0, friction: f
     normal, pull = _plane(slope, friction, gravity)
     if pull < 0.0:
         raise ValueError("friction holds the reservoir: no solution of this form")
-    celerity, x = np.sqrt(normal * depth), np.asarray(x, dtype=float)
+    celerity, x, time = np.sqrt(normal * depth), np.asarray(x, dtype=float), max(time, START)
     place = (x - 0.5 * pull * time**2) / time  # in the falling frame, over time
     wave = np.clip((2.0 * celerity - place) / 3.0, 0.0, celerity)
     return _masked(wave**2 / normal, 2.0 * (celerity - wave) + pull * time)
@@ -72,7 +73,7 @@ def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float =
 def stoker(x, time: float, depth: float = 1.0, depth_ahead: float = 0.1, gravity: float = GRAVITY):
     """Dam break on a wet flat bed without friction (Stoker, 1957, section 10.8), ``0 < depth_ahead < depth``."""
     middle, _, shock = stoker_states(depth, depth_ahead, gravity)
-    celerity, x = np.sqrt(gravity * depth), np.asarray(x, dtype=float)
+    celerity, x, time = np.sqrt(gravity * depth), np.asarray(x, dtype=float), max(time, START)
     wave = np.clip((2.0 * celerity - x / time) / 3.0, np.sqrt(gravity * middle), celerity)
     ahead = x > shock * time
     return np.where(ahead, depth_ahead, wave**2 / gravity), np.where(ahead, 0.0, 2.0 * (celerity - wave))
