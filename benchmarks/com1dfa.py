@@ -127,7 +127,9 @@ def compare(case, found, gx, gy, angle, radius, solution, inside) -> Result:
         "L2 of hu at particles": norms(weight, found["h"][used] * speed, hu).l2,
     }  # fmt: skip
     n = found["x"].size
-    return Result(case, "com1DFA", round(math.sqrt(n)), n, int(found["steps"]), float(found["cpu"]), *rows["true"], scalars)
+    return Result(
+        case, "com1DFA", round(math.sqrt(n)), n, int(found["steps"]), float(found["cpu"]), *rows["true"], scalars
+    )
 
 
 def similarity(python, radius) -> Result:

@@ -134,7 +134,11 @@ def _rates(state, z, rate, spacing, g, pull, mu, dry, wall, radial, line, slopes
                     below, above = below * i / (i + 0.5), above * (i + 1.0) / (i + 0.5)
                     push += 0.5 * g * line[0, i + 2] ** 2 / ((i + 0.5) * spacing)
                 if direction == 0:
-                    rate[0, r, c], rate[1, r, c], rate[2, r, c] = 0.0, pull[0] * line[0, i + 2], pull[1] * line[0, i + 2]
+                    rate[0, r, c], rate[1, r, c], rate[2, r, c] = (
+                        0.0,
+                        pull[0] * line[0, i + 2],
+                        pull[1] * line[0, i + 2],
+                    )
                 rate[0, r, c] += below * out[0, i + 1] - above * out[0, i + 2]
                 rate[along, r, c] += below * out[2, i + 1] - above * out[1, i + 2] + push
                 rate[3 - along, r, c] += below * out[3, i + 1] - above * out[3, i + 2]

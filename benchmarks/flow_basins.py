@@ -231,4 +231,6 @@ def curved_channel(particles, mu=0.0, duration=12.0, finest=None):
     errors = (nothing, nothing)
     if finest is not None:
         errors = norms(1.0, depth, finest[0]), norms(1.0, discharge, finest[1])
-    return Result("curved channel", "ours", round(math.sqrt(particles)), b.x.size, spent[1], spent[0], *errors, scalars), (depth, discharge)
+    return Result(
+        "curved channel", "ours", round(math.sqrt(particles)), b.x.size, spent[1], spent[0], *errors, scalars
+    ), (depth, discharge)

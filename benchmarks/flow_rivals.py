@@ -32,7 +32,11 @@ def _volumes(name, x, y, spacing, time, solution, slope=0.0, friction=0.0, bed=N
         h, u, v = np.broadcast_arrays(*solution(x, y, t))
         return h, h * u, h * v
 
-    keywords = {"gravity_normal": G * math.cos(slope), "gravity_along": (G * math.sin(slope), 0.0), "friction": friction}
+    keywords = {
+        "gravity_normal": G * math.cos(slope),
+        "gravity_along": (G * math.sin(slope), 0.0),
+        "friction": friction,
+    }
     if bed is not None:
         keywords["bed"] = bed
     finite_volume.solve(*state(0.0), spacing, 0.0, **keywords)  # loads or compiles
@@ -73,7 +77,9 @@ def dam_break(name, count) -> Result:
 def _square(west, east, half, count):
     spacing = (east - west) / count
     rows = 2 * round(half / spacing)
-    return *np.meshgrid(west + spacing * (np.arange(count) + 0.5), spacing * (np.arange(rows) + 0.5 - rows / 2)), spacing
+    return *np.meshgrid(
+        west + spacing * (np.arange(count) + 0.5), spacing * (np.arange(rows) + 0.5 - rows / 2)
+    ), spacing
 
 
 def cap(count, degrees=30.0) -> Result:
