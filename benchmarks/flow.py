@@ -1,0 +1,171 @@
+"""Accuracy of the flow against its cost: ``python -m benchmarks.flow [--quick] [--peer PYTHON]``.
+
+Every case runs with the shipped engine through its public interface and one default setting; beside it the same
+engine with fixed smoothing lengths (the paper's class of SPH), a plain finite-volume scheme and, with --peer, an
+interpreter that has avaframe 2.1, com1DFA. Norms are defined in benchmarks/flow_measure.py, what is measured where in
+flow_planes.py, flow_basins.py, flow_blocks.py. Writes benchmarks/flow.txt and docs/flow.png.
+
+Two settings are not the default's, and only in basins: settling is off everywhere, and in basins rest_energy = 0,
+because water that swings passes through rest.
+"""
+
+import argparse
+import math
+from functools import partial
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+from rich.console import Console
+from rich.table import Table
+
+from benchmarks import com1dfa
+from benchmarks import flow_basins as basins
+from benchmarks import flow_blocks as blocks
+from benchmarks import flow_planes as planes
+from benchmarks import flow_rivals as rivals
+
+STRIPS = "Ritter", "Stoker", "Mangeney", "dam break 22/21"
+
+
+def _cases():
+    """Yield case, how to run ours, numbers for ours, how to run finite volumes, numbers for them."""
+    along, rows = (48, 96, 198), (50, 100, 200, 400)
+    for case in (planes.ritter, planes.stoker, planes.mangeney):
+        name = case.__name__.capitalize()
+        yield name, case, along, partial(rivals.dam_break, name), rows
+    yield "dam break 22/21", planes.slope_dam_break, along, rivals.slope_dam_break, rows
+    many, cells = (500, 2000, 8000), (40, 80, 160)
+    yield "similarity", planes.similarity, many, rivals.similarity, cells
+    yield "cap 30 deg", planes.cap, many, rivals.cap, (*cells, 320)
+    for case in (basins.thacker_planar, basins.thacker_curved):
+        name = case.__name__.replace("_", " ").capitalize()
+        yield name, case, many, partial(rivals.thacker, name), cells
+    for word, ahead in (("wet", 0.1), ("dry", 0.0)):
+        ours, volumes = partial(basins.circular_dam_break, ahead=ahead), partial(rivals.circular_dam, ahead=ahead)
+        yield f"circular dam, {word}", ours, (1000, 4000, 16000), volumes, cells
+
+
+CASES = {name: rest for name, *rest in _cases()}
+LOOK = {
+    "ours": ("tab:blue", "o"), "fixed length": ("tab:orange", "s"), "finite volume": ("tab:green", "^"),
+    "com1DFA": ("tab:red", "D"),
+}  # fmt: skip
+
+
+def charted(quick, put):
+    """Run all methods on the cases of the chart."""
+    results = []
+    for ours, numbers, volumes, cells in CASES.values():
+        cut = slice(0, 2 if quick else None)
+        ours(numbers[0])  # compiles
+        runs = [(ours, n) for n in numbers[cut]]
+        runs += [(partial(rivals.fixed, ours), n) for n in numbers[:2]]  # it does not converge
+        runs += [(volumes, n) for n in cells[cut]]
+        results += [put(run(n)) for run, n in runs]
+    return results
+
+
+def uncharted(quick, put):
+    """Run ours on the cases without a rival."""
+    size = 1 if quick else 4
+    results = [put(planes.cap(500 * size, degrees)) for degrees in (0.0, 15.0, 45.0)]
+    results += [put(planes.ridge(n)) for n in (24, 48)[: 1 if quick else 2]]
+    results += [put(case(48, walls=True)) for case in (planes.ritter, planes.stoker, planes.mangeney)]
+    results += [put(blocks.block(500, degrees)) for degrees in (0.0, 10.0, 16.0, 20.0, 30.0, 45.0, 60.0)]
+    results += [put(blocks.eroding_block(300)), put(blocks.consolidating_block(400))]
+    results += [put(blocks.resting_slab(200)), put(blocks.stopping_slab(300))]
+    for n in (1000, 4000, 16000)[: 1 if quick else 3]:
+        results += [put(basins.lake_damped(n)), put(basins.lake_rough(n))]
+    finest, fields = basins.curved_channel(2000 * size)
+    results += [put(basins.curved_channel(n, finest=fields)[0]) for n in (500, 2000)[: 1 if quick else 2]]
+    return [*results, put(finest)]
+
+
+def order(results, result):
+    """Return the observed order of L1 of h in the particles' spacing, from the run before of the same kind."""
+    same = [r for r in results if (r.case, r.method) == (result.case, result.method)]
+    at = same.index(result)
+    # `along` of a body in the plane is the root of the number of particles; com1DFA's spacing is its kernel radius
+    ratio = result.along / same[at - 1].along if at else 1.0
+    if result.method == "com1DFA" and at:
+        ratio = same[at - 1].scalars["kernel radius [m]"] / result.scalars["kernel radius [m]"]
+    return math.log(same[at - 1].h.l1 / result.h.l1) / math.log(ratio) if at and ratio > 1.0 else math.nan
+
+
+def tables(results, console) -> None:
+    """Print errors, then what is special to each case."""
+    errors = Table(title="Relative errors (definitions: benchmarks/flow_measure.py)", title_justify="left")
+    words = ("case", "method", "along", "all", "steps", "CPU s", "M/s")
+    words += tuple(f"{norm} {field}" for field in ("h", "hu") for norm in ("L1", "L2", "max")) + ("order",)
+    for word in words:
+        errors.add_column(word, justify="left" if word in ("case", "method") else "right", no_wrap=True)
+    for r in results:
+        if not math.isnan(r.h.l1):
+            numbers = [f"{v:.4f}" for v in (*r.h, *r.hu)]
+            now = order(results, r)
+            row = [r.case, r.method, str(r.along), str(r.particles), str(r.steps), f"{r.cpu:.3g}", f"{r.rate:.2f}"]
+            errors.add_row(*row, *numbers, "" if math.isnan(now) else f"{now:.2f}")
+    console.print(errors)
+    special = Table(title="What is special to a case (ours, fixed length, com1DFA)", title_justify="left")
+    for word in ("case", "method", "all", "steps", "CPU s", "measures"):
+        special.add_column(
+            word, no_wrap=word != "measures", justify="right" if word in ("all", "steps", "CPU s") else "left"
+        )
+    for r in results:
+        if r.scalars:
+            text = ", ".join(f"{name} {value:.3g}" for name, value in r.scalars.items())
+            special.add_row(r.case, r.method, str(r.particles), str(r.steps), f"{r.cpu:.3g}", text)
+    console.print(special)
+
+
+def draw(results, path) -> None:
+    """Draw error against CPU time, one panel per case."""
+    figure, axes = plt.subplots(2, 5, figsize=(15.5, 6.6), sharey=True, constrained_layout=True)
+    for axis, case in zip(axes.ravel(), CASES, strict=True):
+        for method, (colour, mark) in LOOK.items():
+            these = [r for r in results if (r.case, r.method) == (case, method)]
+            times = [max(r.cpu, 1e-3) for r in these]
+            axis.plot(times, [100.0 * r.h.l1 for r in these], color=colour, marker=mark, ms=5, lw=1.3, label=method)
+            axis.plot(
+                times, [100.0 * r.hu.l1 for r in these], color=colour, marker=mark, ms=5, lw=0.9, ls=":", mfc="none"
+            )
+        axis.set(xscale="log", yscale="log", ylim=(0.1, 100.0), xlim=(8e-4, 40.0))
+        axis.set_title(
+            case + (", per 12 rows" if case in ("Ritter", "Stoker", "Mangeney", "dam break 22/21") else ""), fontsize=10
+        )
+        axis.grid(alpha=0.3)
+    for axis in axes[:, 0]:
+        axis.set_ylabel("relative L1 error (%)")
+    for axis in axes[1]:
+        axis.set_xlabel("CPU time, one thread (s)")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncol=5, frameon=False,
+                  title="solid: h, dotted and open: hu; more particles or cells to the right")  # fmt: skip
+    figure.savefig(path, dpi=80)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="few particles only; writes nothing")
+    parser.add_argument("--peer", metavar="PYTHON", help="an interpreter with avaframe==2.1")
+    options = parser.parse_args()
+    console = Console(record=True, width=190)
+
+    def put(result):
+        console.log(f"{result.case}, {result.method}, {result.along}: {result.cpu:.2f} CPU s")
+        return result
+
+    results = charted(options.quick, put)
+    if options.peer:
+        results += [put(result) for result in com1dfa.results(options.peer, options.quick)]
+    results += uncharted(options.quick, put)
+    console.export_text()  # forget the log
+    tables(results, console)
+    if not options.quick:
+        root = Path(__file__).parents[1]
+        (root / "benchmarks" / "flow.txt").write_text(console.export_text())
+        draw(results, root / "docs" / "flow.png")
+
+
+if __name__ == "__main__":
+    main()

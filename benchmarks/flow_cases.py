@@ -1,0 +1,129 @@
+"""Cases with known solutions on which schemes of depth-averaged flow are compared.
+
+``case.solution(x, y, t)`` returns h, u, v; at ``t = 0`` it is the start. One-dimensional cases have no extent in y.
+Releases are about 1 m deep, and no time is a moment at which everything rests, where errors have nothing to be
+relative to.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks import exact
+
+
+@dataclass(frozen=True)
+class Case:
+    """A flow and its solution.
+
+    Parameters
+    ----------
+    name : str
+    solution : callable
+        ``(x, y, t)`` to h, u, v: exact, or converged.
+    time : float
+        [s].
+    extent : tuple of float
+        x from, to, and y from, to in two dimensions: room for the flow until then [m].
+    slope : float
+        Of the plane, down x [rad].
+    friction : float
+        Apparent friction coefficient [-].
+    bed : callable, optional
+        ``(x, y)`` to elevation [m], instead of a plane.
+    """
+
+    name: str
+    solution: Callable
+    time: float
+    extent: tuple
+    slope: float = 0.0
+    friction: float = 0.0
+    bed: Callable | None = None
+
+    @property
+    def gravity_normal(self) -> float:
+        return exact.GRAVITY * math.cos(self.slope)
+
+    @property
+    def gravity_along(self) -> tuple[float, float]:
+        return exact.GRAVITY * math.sin(self.slope), 0.0
+
+    def cells(self, count: int):
+        """Centres x, y and size of the square cells, ``count`` of them along x; y has one row in one dimension."""
+        spacing = (self.extent[1] - self.extent[0]) / count
+        x = self.extent[0] + spacing * (np.arange(count) + 0.5)
+        if len(self.extent) == 2:
+            return x[None, :], np.zeros((1, count)), spacing
+        rows = round((self.extent[3] - self.extent[2]) / spacing)
+        return *np.meshgrid(x, self.extent[2] + spacing * (np.arange(rows) + 0.5)), spacing
+
+    def state(self, x, y, time: float):
+        """h, hu, hv at points."""
+        h, u, v = np.broadcast_arrays(*self.solution(x, y, time))
+        return h, h * u, h * v
+
+
+def relative_errors(h, hu, hv, exact_h, exact_hu, exact_hv) -> dict[str, float]:
+    """L1, L2 and greatest error of depth and momentum over the same norm of the exact ones, at equal weights."""
+    pairs = {
+        "h": (np.abs(h - exact_h), np.abs(exact_h)),
+        "hu": (np.hypot(hu - exact_hu, hv - exact_hv), np.hypot(exact_hu, exact_hv)),
+    }
+    norms = {"L1": np.sum, "L2": np.linalg.norm, "max": np.max}
+    return {
+        f"{norm}_{name}": float(measure(error) / measure(size))
+        for name, (error, size) in pairs.items()
+        for norm, measure in norms.items()
+    }
+
+
+def _along(solution, *values):
+    """A solution in one dimension as one of x, y and t, without motion across."""
+
+    def three(x, y, t):
+        h, u = solution(x, t, *values)
+        return h, u, np.zeros_like(h)
+
+    return three
+
+
+def _circular(depth_ahead):
+    """Circular dam break, converged."""
+
+    def solution(x, y, t):
+        from benchmarks.finite_volume import circular_dam_break  # it imports this module
+
+        return circular_dam_break(x, y, t, depth_ahead=depth_ahead)
+
+    return solution
+
+
+def _cases():
+    r22, r30, r35 = math.radians(22.0), math.radians(30.0), math.radians(35.0)
+    tan15, tan25 = math.tan(math.radians(15.0)), math.tan(math.radians(25.0))
+    swing = 2.0 * math.pi * 10.0 / math.sqrt(2.0 * exact.GRAVITY)  # 14.2 s
+    yield Case("ritter", _along(exact.ritter), 1.0, (-10.0, 10.0))
+    yield Case("stoker", _along(exact.stoker), 2.0, (-10.0, 10.0))
+    yield Case("mangeney", _along(exact.mangeney, 1.0, r22, tan15), 2.0, (-16.0, 16.0), r22, tan15)
+    for name, friction in (("ridge", 0.0), ("ridge_friction", 0.3)):
+        yield Case(name, _along(exact.ridge, 10.0, 1.0, r30, friction), 5.0, (-15.0, 90.0), r30, friction)
+    yield Case("cap", lambda x, y, t: exact.cap(x, y, t, 10.0, 1.0, r30), 5.0, (-15.0, 90.0, -26.25, 26.25), r30)
+    yield Case("similarity", exact.similarity, 5.0, (-100.0, 140.0, -100.0, 100.0), r35, tan25)
+    bowl = {"bed": exact.basin}
+
+    def to_and_fro(x, y, t):
+        return exact.thacker_planar(x, y, t, orbit=(5.0, 0.0))
+
+    yield Case("thacker_line_1d", to_and_fro, 2.25 * swing, (-16.0, 16.0), **bowl)
+    square = (-16.0, 16.0, -16.0, 16.0)
+    yield Case("thacker_line", to_and_fro, 2.25 * swing, square, **bowl)
+    yield Case("thacker_circle", exact.thacker_planar, 2.0 * swing, square, **bowl)
+    yield Case("thacker_curved", exact.thacker_curved, 1.125 * swing, square, **bowl)  # its period is half as long
+    yield Case("circular_dam_wet", _circular(0.1), 2.0, (-25.0, 25.0, -25.0, 25.0))
+    yield Case("circular_dam_dry", _circular(0.0), 2.0, (-25.0, 25.0, -25.0, 25.0))
+
+
+CASES = {case.name: case for case in _cases()}
