@@ -33,7 +33,7 @@ STRIDE = 1.5  # growth of a column in one advance over the square root of the to
 LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
 BED_SHARE = 0.25  # of that growth: pressure of the bed or by a source since the last advance, over the load
 GRADED = 0.5  # growth in one advance over that since the base changed: the layer over it is young at first
-ROUNDING = 1e-9  # of the bounds, within which a wave need not be looked at
+BEYOND = 0.1  # of the load by which levels above a closed base may be beyond their bounds until they are looked at
 
 CHANGED, DUE_WAVES, DUE_LEVELS = range(3)
 """Rows of the lists of columns that `account` writes: stands on something else; to be looked at; to be advanced."""
@@ -64,7 +64,7 @@ def passed_in(coefficient_times_dt, thickness, volume, before):
 
 
 @kernel
-def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels):
+def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels, slack):
     """Put one step of the flow on what some columns are owed, and write the pressure at their base.
 
     Parameters
@@ -82,6 +82,8 @@ def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, wave
         before is put on the first of them, and nothing else is done with it.
     waves, levels : int
         How many are on the latter two rows already.
+    slack : float
+        Part of the load by which a closed column may be beyond its bounds.
 
     Returns
     -------
@@ -106,11 +108,13 @@ def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, wave
         passed = passed_in(coefficient * dt, thicknesses[i], volume, before)
         memory[i, CURRENT_LOAD] = load
         if contact == CLOSED:
-            pressure, error, least, most = closed_pressure(memory, i, passed, load, old_load, gain, loading)
+            pressure, error, least, most, lost = closed_pressure(memory, i, passed, load, old_load, gain, loading)
             is_due = error > LOOK_SHARE * tolerance * load
-            if bounded:  # or it may have left its bounds somewhere
-                slack = ROUNDING * load
-                is_due |= most > load + slack or least < -lower * load - slack
+            if bounded:
+                # it may have left its bounds somewhere. What that is worth reaches the base like a load does; the base
+                # itself is held at once
+                excess = max(most - load, -lower * load - least, 0.0)
+                is_due |= error + lost * excess > LOOK_SHARE * tolerance * load or excess > slack * load
                 pressure = min(max(pressure, -lower * load), load)
             basal_pressure[i] = pressure
             if is_due:

@@ -211,7 +211,8 @@ def gained_limits(memory, i):
 
 @inner
 def closed_pressure(memory, i, passed, load, old_load, gain, loading):
-    """Put one step on a column; return its basal pressure, by how much that may be wrong, and its limits over eta.
+    """Put one step on a column; return its basal pressure, by how much that may be wrong, its limits over eta, and
+    what part of an even load since the last look has gone from the base.
 
     The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly.
     """
@@ -230,4 +231,4 @@ def closed_pressure(memory, i, passed, load, old_load, gain, loading):
     pressure += lift * max(1.0 - lost, 0.0) + gain
     error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
     low, high, least, most = gained_limits(memory, i)
-    return min(max(pressure, low, least), high, most), error, least, most
+    return min(max(pressure, low, least), high, most), error, least, most, lost

@@ -10,12 +10,15 @@ that called them all would be compiled with a copy of each, and most of them twi
 
 import numpy as np
 
-from .account import CHANGED, DUE_LEVELS, DUE_WAVES, account, stand
+from .account import BEYOND, CHANGED, DUE_LEVELS, DUE_WAVES, account, stand
 from .closed import close, look, open_up
 from .eroding import diffuse, grow, settle
 from .flux import grow_by_flux, seal
 from .memory import CLOSED, CONTACT, CURRENT_LOAD, FLUX, LEVELS, SEALED, VOLUME
 from .waves import waves_of
+
+ROUNDING = 1e-9
+"""Part of the load by which a closed column may be beyond its bounds once it was looked at."""
 
 
 def advance_columns(columns, forcing, dt, basal_pressure, scheme):
@@ -36,8 +39,8 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     """
     memory, cells, due = columns.memory, columns.profile.shape[1] - 1, np.empty((3, basal_pressure.size), np.int64)
 
-    def count(which, dt, waves=0, levels=0):
-        return account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels)
+    def count(which, dt, waves=0, levels=0, slack=BEYOND):
+        return account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels, slack)
 
     changed, waves, levels = count(np.arange(basal_pressure.size), dt)
     if changed:
@@ -49,11 +52,10 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     if waves:
         which = due[DUE_WAVES, :waves].copy()
         look(columns.profile, memory, which, waves_of(cells + 1))
-        _, beyond, _ = count(which, 0.0)  # the base as it is seen now, and who is still due: it left its bounds
+        _, beyond, _ = count(which, 0.0, slack=ROUNDING)  # the base as it is seen now, and who is beyond its bounds
         if beyond:
             which = due[DUE_WAVES, :beyond].copy()
             _to_levels(columns, which, forcing, basal_pressure, scheme)
-            _advance_levels(columns, which, forcing, basal_pressure, False, scheme)
             _to_waves(columns, which)
             count(which, 0.0)
 
@@ -82,6 +84,7 @@ def _to_levels(columns, which, forcing, basal_pressure, scheme):
         waves = waves_of(profile.shape[1])
         look(profile, columns.memory, closed, waves)
         open_up(profile, columns.memory, closed, waves)
+        settle(columns, closed, forcing, basal_pressure)
     if (others := which[contact > CLOSED]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
 
