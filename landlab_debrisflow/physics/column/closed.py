@@ -106,24 +106,12 @@ def close(profile, memory, which, waves):
 
 @kernel
 def open_up(profile, memory, which, waves):
-    """Turn the waves of some columns, just looked at, into pressures at levels.
-
-    Of a thin layer levels see no more than its content.
-    """
+    """Turn the waves of some columns, just looked at, into pressures at levels."""
     cells = profile.shape[1] - 1
     levels = np.empty(cells)
     for i in which:
-        tail = 0.0
-        for octave in range(OCTAVES):
-            tail += memory[i, TAIL + octave]
-        tail /= waves.pattern[IMPERMEABLE, 0]
-        low, high, least, most = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST]
-        for k in range(cells):
-            levels[k] = tail * waves.pattern[IMPERMEABLE, k]
-        for j in range(cells):
-            for k in range(cells):
-                levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
-        lost = 0.0
+        _synthesise(profile, memory, i, waves, levels)
+        low, high, least, most, lost = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST], 0.0
         for k in range(cells):
             eta = waves.eta[k]
             profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
@@ -137,7 +125,7 @@ def open_up(profile, memory, which, waves):
 @kernel
 def look(profile, memory, which, waves):
     """Let the waves of some columns decay by what has passed since the last look, under the loads since then."""
-    ramp, uniform, squares = waves.ramp[IMPERMEABLE], waves.uniform[IMPERMEABLE], waves.squares
+    ramp, uniform = waves.ramp[IMPERMEABLE], waves.uniform[IMPERMEABLE]
     cells = profile.shape[1] - 1
     factors = np.empty(cells)
     for i in which:
@@ -162,7 +150,6 @@ def look(profile, memory, which, waves):
         else:
             for j in range(cells):
                 profile[i, j] *= scale * factors[j]
-        pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
         square = waves.octave_rate
         decay = math.exp(-square * passed)
         for octave in range(OCTAVES):
@@ -170,31 +157,79 @@ def look(profile, memory, which, waves):
             evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
             memory[i, LAYER + octave] *= scale * decay
             memory[i, TAIL + octave] = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
-            amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
-            first = square * amplitude
-            second = square * first
-            pressure += amplitude
-            rate += first
-            bend += second
-            remainder += square * abs(second)
             decay *= decay
             decay *= decay
             square *= 4.0
-        for j in range(cells):
-            square, amplitude = squares[j], profile[i, j]
-            first = square * amplitude
-            second = square * first
-            pressure += amplitude
-            rate += first
-            bend += second
-            remainder += square * abs(second)
+        _bend(profile, memory, i, waves)
         low, high, least, most = gained_limits(memory, i)
         memory[i, LOW], memory[i, HIGH] = low, high
         memory[i, LEAST], memory[i, MOST] = least + cells * min(gain, 0.0), most + cells * max(gain, 0.0)
-        memory[i, PRESSURE] = pressure
-        memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
         memory[i, PASSED] = memory[i, LIFT] = memory[i, GAIN] = memory[i, SWING] = 0.0
         memory[i, SCALE] = 1.0
+
+
+@inner
+def _bend(profile, memory, i, waves):
+    """Remember of one column its pressure at the base, the parabola in c_v t / h^2 it goes by, and its remainder."""
+    pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
+    square = waves.octave_rate
+    for octave in range(OCTAVES):
+        amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
+        first = square * amplitude
+        second = square * first
+        pressure += amplitude
+        rate += first
+        bend += second
+        remainder += square * abs(second)
+        square *= 4.0
+    for j in range(profile.shape[1] - 1):
+        square, amplitude = waves.squares[j], profile[i, j]
+        first = square * amplitude
+        second = square * first
+        pressure += amplitude
+        rate += first
+        bend += second
+        remainder += square * abs(second)
+    memory[i, PRESSURE] = pressure
+    memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
+
+
+@kernel
+def hold(profile, memory, which, waves, loads, thicknesses, lower, clipped):
+    """Hold some columns, just looked at, between suction and liquefaction at their levels; count what that takes off.
+
+    Waves too short for the levels stay as they are.
+    """
+    cells = profile.shape[1] - 1
+    levels = np.empty(cells)
+    for i in which:
+        _synthesise(profile, memory, i, waves, levels)
+        load, removed = loads[i], 0.0
+        for k in range(cells):
+            most = load * waves.eta[k]
+            taken = levels[k] - min(max(levels[k], -lower * most), most)
+            removed += abs(taken) * (0.5 if k == 0 else 1.0)
+            if taken != 0.0:
+                for j in range(cells):
+                    profile[i, j] -= waves.project[IMPERMEABLE, k, j] * taken
+        clipped[i] += removed * thicknesses[i] / cells
+        memory[i, LOW], memory[i, HIGH] = max(memory[i, LOW], -lower * load), min(memory[i, HIGH], load)
+        memory[i, LEAST], memory[i, MOST] = max(memory[i, LEAST], -lower * load), min(memory[i, MOST], load)
+        _bend(profile, memory, i, waves)
+
+
+@inner
+def _synthesise(profile, memory, i, waves, levels):
+    """Write the pressures of one column at the levels; of a thin layer they see no more than its content."""
+    tail = 0.0
+    for octave in range(OCTAVES):
+        tail += memory[i, TAIL + octave]
+    tail /= waves.pattern[IMPERMEABLE, 0]
+    for k in range(levels.size):
+        levels[k] = tail * waves.pattern[IMPERMEABLE, k]
+    for j in range(levels.size):
+        for k in range(levels.size):
+            levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
 
 
 @inner

@@ -11,7 +11,7 @@ that called them all would be compiled with a copy of each, and most of them twi
 import numpy as np
 
 from .account import BEYOND, CHANGED, DUE_LEVELS, DUE_WAVES, account, stand
-from .closed import close, look, open_up
+from .closed import close, hold, look, open_up
 from .eroding import diffuse, grow, settle
 from .flux import grow_by_flux, seal
 from .memory import CLOSED, CONTACT, CURRENT_LOAD, FLUX, LEVELS, SEALED, VOLUME
@@ -55,8 +55,10 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
         _, beyond, _ = count(which, 0.0, slack=ROUNDING)  # the base as it is seen now, and who is beyond its bounds
         if beyond:
             which = due[DUE_WAVES, :beyond].copy()
-            _to_levels(columns, which, forcing, basal_pressure, scheme)
-            _to_waves(columns, which)
+            hold(
+                columns.profile, memory, which, waves_of(cells + 1), forcing.liquefaction_pressure, forcing.thickness,
+                forcing.water_to_buoyant, columns.clipped,
+            )  # fmt: skip
             count(which, 0.0)
 
 
