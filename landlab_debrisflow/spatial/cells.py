@@ -64,12 +64,12 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
 
 @kernel
 def _extent(x, y, support):
-    """Return least x, extent in x, least y, extent in y, and mean support."""
+    """Return least x, extent in x, least y, extent in y, and the harmonic mean of the supports."""
     west, east, south, north, total = x[0], x[0], y[0], y[0], 0.0
     for i in range(x.size):
         west, east, south, north = min(west, x[i]), max(east, x[i]), min(south, y[i]), max(north, y[i])
-        total += support[i]
-    return west, east - west, south, north - south, total / x.size
+        total += 1.0 / support[i]
+    return west, east - west, south, north - south, x.size / total
 
 
 @kernel
