@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.jit import kernel
 
-TERRAIN_FRACTION = 0.25
+TERRAIN_FRACTION = 0.5
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
