@@ -131,7 +131,7 @@ def lake_damped(particles, rate=0.16, duration=150.0) -> Result:
 def lake_rough(particles, duration=30.0) -> Result:
     """A lake 2 m deep over waves of .5 m by 20 m: its first acceleration against g sin^3(theta), then its currents."""
     bed, depth, edge = _lake(particles, 0.5, 20.0, 2.0)
-    flow = on_bed(bed, depth, edge + 10.0, 0.5, particles)
+    flow = on_bed(bed, depth, edge + 10.0, 1.0, particles)
     flow.run_one_step(1e-3 - flow.elapsed_time)
     b = body(flow)
     here = np.hypot(b.x, b.y) < 30.0
@@ -172,7 +172,7 @@ def circular_dam_break(particles, ahead=0.1, duration=2.0) -> Result:
         r = np.hypot(x, y)
         return np.where(r < 10.0, 1.0, np.where(r < reach, ahead, 0.0))
 
-    flow = on_bed(lambda x, y: 0.0 * x, depth, 32.0, 0.25, particles)
+    flow = on_bed(lambda x, y: 0.0 * x, depth, 32.0, 0.5, particles)
     before = energy(flow)
     spent = advance(flow, duration)
     end = flow.elapsed_time
