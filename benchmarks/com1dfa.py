@@ -61,7 +61,8 @@ def settings(radius, friction_angle, placing) -> str:
     """Return the configuration, as differences from com1DFA's default."""
     general = {
         "simTypeList": "null", "resType": "FT|FV|Vx|Vy|Vz", "tSteps": "", "relThFromFile": "True",
-        "secRelArea": "False", "rho": RHO, "initPartDistType": placing, "iniStep": "False", "dt": 0.02 * radius, "tEnd": END, "stopCrit": 0.0,
+        "secRelArea": "False", "rho": RHO,
+        "initPartDistType": placing, "iniStep": "False", "dt": 0.02 * radius, "tEnd": END, "stopCrit": 0.0,
         "sphOption": 2, "viscOption": 1, "subgridMixingFactor": 10.0, "sphKernelRadius": radius, "meshCellSize": radius,
         "massPerParticleDeterminationMethod": "MPPKR", "nPPK0": 20, "sphKR0": 5, "aPPK": -1.5, "splitOption": 0,
         "frictModel": "Coulomb", "mucoulomb": math.tan(math.radians(friction_angle)), "curvAccInFriction": 0,

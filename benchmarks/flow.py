@@ -96,7 +96,7 @@ def tables(results, console) -> None:
     """Print errors, then what is special to each case."""
     errors = Table(title="Relative errors (definitions: benchmarks/flow_measure.py)", title_justify="left")
     words = ("case", "method", "along", "all", "steps", "CPU s", "M/s")
-    words += tuple(f"{norm} {field}" for field in ("h", "hu") for norm in ("L1", "L2", "max")) + ("order",)
+    words += (*(f"{norm} {field}" for field in ("h", "hu") for norm in ("L1", "L2", "max")), "order")
     for word in words:
         errors.add_column(word, justify="left" if word in ("case", "method") else "right", no_wrap=True)
     for r in results:

@@ -66,5 +66,6 @@ def test_a_circular_cap_keeps_its_shape_whatever_the_slope(degrees):
 
 def test_a_cap_with_friction_follows_the_similarity_solution():
     found = flow_planes.similarity(500)
-    # 35 degrees, friction 25; measured .010 and .013, of which .006 and .008 are the solution's own: it linearises friction
+    # 35 degrees, friction 25; measured .010 and .013, of which .006 and .008 are the solution's own: it linearises
+    # friction
     assert found.h.l1 < 0.015 and found.hu.l1 < 0.02
