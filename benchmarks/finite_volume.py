@@ -15,7 +15,6 @@ shared with the package. ``python -m benchmarks.finite_volume`` prints its error
 import math
 import time as clock
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numba
 import numpy as np
@@ -249,29 +248,6 @@ def solve(h, hu, hv, spacing: float, time: float, gravity_normal: float = GRAVIT
     cpu = clock.process_time() - begin
     shape = np.shape(h)
     return FVResult(*(a.reshape(shape) for a in state), steps, cpu)
-
-
-@lru_cache(maxsize=8)
-def _radial_dam_break(time, radius, depth, depth_ahead, reach, count):
-    """Centres of rings, depth and radial velocity there."""
-    r = (np.arange(count) + 0.5) * reach / count
-    found = solve(np.where(r < radius, depth, depth_ahead), 0.0 * r, 0.0 * r, reach / count, time, radial=True)
-    return r, found.h, np.divide(found.hu, found.h, out=np.zeros(count), where=found.h > DRY * depth)
-
-
-def circular_dam_break(x, y, time: float, radius: float = 10.0, depth: float = 1.0, depth_ahead: float = 0.0,
-                       reach: float = 26.0, count: int = 5200):  # fmt: skip
-    """h, u, v of a cylinder of water set free on a flat bed: its equation in r, converged; kept for the session.
-
-    There is no exact solution. Linear between rings of 5 mm; half as many change the L1 norm of h and of hu at 2 s by
-    2.4e-4 and 4.2e-4 on a dry bed, by 2.9e-4 and 5.8e-4 on water of 0.1 m. Takes some 2 s of CPU time.
-    """
-    distance = np.hypot(x, y)
-    if time <= 0.0:
-        return np.where(distance < radius, depth, depth_ahead), 0.0 * distance, 0.0 * distance
-    r, h, u = _radial_dam_break(time, radius, depth, depth_ahead, reach, count)
-    outward = np.interp(distance, r, u) / np.maximum(distance, 1e-12)
-    return np.interp(distance, r, h), outward * x, outward * y
 
 
 def rival_row(case: Case | str, count: int) -> dict:

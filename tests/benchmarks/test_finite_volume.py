@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks import exact
-from benchmarks.finite_volume import circular_dam_break, rival_row, solve
-from benchmarks.flow_cases import CASES, relative_errors
+from benchmarks.finite_volume import rival_row, solve
+from benchmarks.flow_cases import CASES, circular_dam_break, relative_errors
 
 G = 9.81
 SLOPE = math.radians(20.0)
