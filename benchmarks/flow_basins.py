@@ -10,7 +10,7 @@ import numpy as np
 from landlab import RasterModelGrid
 
 from benchmarks import exact
-from benchmarks.finite_volume import circular_dam_break as radial_dam_break
+from benchmarks.flow_cases import circular_dam_break as radial_dam_break
 from benchmarks.flow_measure import Norms, Result, advance, body, compare, energy, momentum, norms
 from landlab_debrisflow import DebrisFlow
 from tests.grids import dry_block, place, release
