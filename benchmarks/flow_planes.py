@@ -103,7 +103,7 @@ def dam_break(name, along, angle, mu, downstream, solution, walls=False, length=
     spent = spent[0] * min(1.0, HALF_STRIP * d / side), spent[1]
     scalars = {
         "particles in all": count,
-        "energy drift": energy(flow) / before - 1.0,
+        "energy drift": energy(flow) / before - 1.0 if mu == 0.0 else math.nan,
         "speed across over celerity": float(np.abs(b.velocity[1][here]).max()) / celerity,
     }
     if not downstream:
