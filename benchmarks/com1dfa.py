@@ -8,7 +8,8 @@ com1DFA labels its last state one time step later than it is; errors are given a
 Its thickness lives on a raster, so errors are those of the raster (cells of the kernel radius) and, beside them, of
 its particles. The dam break starts from uniformly placed particles: the random ones of its default make the plateau
 run ahead. Settings are those of its own tests: sphOption 2, viscOption 1, subgridMixingFactor 10, dt = 0.02 s per metre
-of kernel radius, 20 (radius/5 m)^-1.5 particles per kernel radius, explicit friction (its implicit default hardly leaves rest).
+of kernel radius, 20 (radius/5 m)^-1.5 particles per kernel radius, explicit friction (with its default, implicit, the
+cap hardly leaves rest: 2.1 m/s after 5 s instead of 9.4).
 """
 
 import json
@@ -59,12 +60,13 @@ RHO = 200.0
 def settings(radius, friction_angle, placing) -> str:
     """Return the configuration, as differences from com1DFA's default."""
     general = {
-        "simTypeList": "null", "resType": "FT|FV|Vx|Vy|Vz", "tSteps": "", "relThFromFile": "True", "secRelArea": "False",
-        "rho": RHO, "initPartDistType": placing, "iniStep": "False", "dt": 0.02 * radius, "tEnd": END, "stopCrit": 0.0,
+        "simTypeList": "null", "resType": "FT|FV|Vx|Vy|Vz", "tSteps": "", "relThFromFile": "True",
+        "secRelArea": "False", "rho": RHO,
+        "initPartDistType": placing, "iniStep": "False", "dt": 0.02 * radius, "tEnd": END, "stopCrit": 0.0,
         "sphOption": 2, "viscOption": 1, "subgridMixingFactor": 10.0, "sphKernelRadius": radius, "meshCellSize": radius,
         "massPerParticleDeterminationMethod": "MPPKR", "nPPK0": 20, "sphKR0": 5, "aPPK": -1.5, "splitOption": 0,
-        "frictModel": "Coulomb", "mucoulomb": math.tan(math.radians(friction_angle)), "curvAccInFriction": 0, "explicitFriction": 1,
-        "dam": "False",
+        "frictModel": "Coulomb", "mucoulomb": math.tan(math.radians(friction_angle)), "curvAccInFriction": 0,
+        "explicitFriction": 1, "dam": "False",
     }  # fmt: skip
     lines = ["[GENERAL]", *(f"{key} = {value}" for key, value in general.items())]
     return "\n".join([*lines, "[VISUALISATION]", "contourResType = FT", "[EXPORTS]", "exportData = False", ""])
@@ -138,8 +140,10 @@ def similarity(python, radius) -> Result:
     def thickness(s, y):
         return 4.0 * np.maximum(0.0, 1.0 - (s**2 + y**2) / 6400.0)
 
+    def everywhere(s, y):
+        return np.ones(np.shape(s), bool)
+
     found, gx, gy = run(python, radius, 35.0, 25.0, (-200.0, 1800.0, -250.0, 250.0), thickness, "random")
-    everywhere = lambda s, y: np.ones(np.shape(s), bool)  # noqa: E731
     return compare("similarity", found, gx, gy, 35.0, radius, exact.similarity, everywhere)
 
 

@@ -5,7 +5,7 @@ depth-averaged along ``x`` and ``y`` [m/s]. Angles are in radians, ``slope`` is 
 coefficient ``friction`` is the apparent one, ``(rho'/rho) (1 - r) tan(phi)``, which is ``tan(delta)`` where dry.
 A dam stands at ``x = 0`` with its reservoir at ``x < 0``; caps start centred at the origin, at rest. All functions
 of position broadcast ``x`` and ``y`` and return ``h, u`` in one dimension and ``h, u, v`` in two. Velocities are 0
-where nothing flows. A circular dam break has no exact solution: see `benchmarks.finite_volume.circular_dam_break`.
+where nothing flows. A circular dam break has no exact solution: see `benchmarks.flow_cases.circular_dam_break`.
 """
 
 import numpy as np

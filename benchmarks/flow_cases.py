@@ -8,6 +8,7 @@ relative to.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -90,15 +91,29 @@ def _along(solution, *values):
     return three
 
 
-def _circular(depth_ahead):
-    """Circular dam break, converged."""
+@lru_cache(maxsize=8)
+def _radial_dam_break(time, radius, depth, depth_ahead, reach, count):
+    """Centres of rings, depth and radial velocity there."""
+    from benchmarks.finite_volume import solve  # it runs the cases of this module
 
-    def solution(x, y, t):
-        from benchmarks.finite_volume import circular_dam_break  # it imports this module
+    r = (np.arange(count) + 0.5) * reach / count
+    found = solve(np.where(r < radius, depth, depth_ahead), 0.0 * r, 0.0 * r, reach / count, time, radial=True)
+    return r, found.h, np.divide(found.hu, found.h, out=np.zeros(count), where=found.h > 1e-9 * depth)
 
-        return circular_dam_break(x, y, t, depth_ahead=depth_ahead)
 
-    return solution
+def circular_dam_break(x, y, time: float, radius: float = 10.0, depth: float = 1.0, depth_ahead: float = 0.0,
+                       reach: float = 26.0, count: int = 5200):  # fmt: skip
+    """h, u, v of a cylinder of water set free on a flat bed: its equation in r, converged; kept for the session.
+
+    There is no exact solution. Linear between rings of 5 mm; half as many change the L1 norm of h and of hu at 2 s by
+    2.4e-4 and 4.2e-4 on a dry bed, by 2.9e-4 and 5.8e-4 on water of 0.1 m. Takes some 2 s of CPU time.
+    """
+    distance = np.hypot(x, y)
+    if time <= 0.0:
+        return np.where(distance < radius, depth, depth_ahead), 0.0 * distance, 0.0 * distance
+    r, h, u = _radial_dam_break(time, radius, depth, depth_ahead, reach, count)
+    outward = np.interp(distance, r, u) / np.maximum(distance, 1e-12)
+    return np.interp(distance, r, h), outward * x, outward * y
 
 
 def _cases():
@@ -122,8 +137,8 @@ def _cases():
     yield Case("thacker_line", to_and_fro, 2.25 * swing, square, **bowl)
     yield Case("thacker_circle", exact.thacker_planar, 2.0 * swing, square, **bowl)
     yield Case("thacker_curved", exact.thacker_curved, 1.125 * swing, square, **bowl)  # its period is half as long
-    yield Case("circular_dam_wet", _circular(0.1), 2.0, (-25.0, 25.0, -25.0, 25.0))
-    yield Case("circular_dam_dry", _circular(0.0), 2.0, (-25.0, 25.0, -25.0, 25.0))
+    for name, ahead in (("circular_dam_wet", 0.1), ("circular_dam_dry", 0.0)):
+        yield Case(name, partial(circular_dam_break, depth_ahead=ahead), 2.0, (-25.0, 25.0, -25.0, 25.0))
 
 
 CASES = {case.name: case for case in _cases()}

@@ -1,8 +1,9 @@
-"""The only places where the suite reaches inside the engine: counting time steps, and the rival."""
+"""The only place where the suite reaches inside the engine (to count time steps), and the rival as a law of the flow."""
 
 from contextlib import contextmanager
 
 from landlab_debrisflow.model import step
+from landlab_debrisflow.physics.flow import OnePhase
 
 
 @contextmanager
@@ -21,18 +22,29 @@ def counting_steps():
         step.advance = original
 
 
+class FixedLength:
+    """The paper's class of SPH: smoothing lengths stay as released, without the terms of their gradient."""
+
+    def interact(self, state, cells, shock_viscosity, threads, sums):
+        """Write the sums; a length at its cap is not adapted, and its gradient term is 1."""
+        length = state.smoothing_length
+        OnePhase().interact(state._replace(longest=length), cells, shock_viscosity, threads, sums)
+        sums.next_length[:] = length[: sums.next_length.size]
+
+
+_law = [None]
+
+
+def law_of_flow():
+    """Return the law of the flow a case is to run with; None is the default."""
+    return _law[0]
+
+
 @contextmanager
 def fixed_smoothing_length():
-    """The paper's class of SPH: smoothing lengths stay as released, without the terms of their gradient."""
-    original = step.sum_thickness
-
-    def sum_thickness(cells, x, y, z, volume, smoothing_length, longest, out, *rest):
-        # a length at its cap is not adapted, and its gradient term is 1
-        original(cells, x, y, z, volume, smoothing_length, smoothing_length, out, *rest)
-        out[2][:] = smoothing_length
-
-    step.sum_thickness = sum_thickness
+    """Let the cases inside the block run with the rival."""
+    _law[0] = FixedLength()
     try:
         yield
     finally:
-        step.sum_thickness = original
+        _law[0] = None

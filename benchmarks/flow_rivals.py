@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from benchmarks import exact, finite_volume
+from benchmarks import exact, finite_volume, flow_cases
 from benchmarks import flow_basins as basins
 from benchmarks import flow_planes as planes
 from benchmarks.flow_hooks import fixed_smoothing_length
@@ -132,7 +132,7 @@ def circular_dam(count, ahead) -> Result:
     x, y, spacing = _square(-25.0, 25.0, 25.0, count)
 
     def solution(x, y, t):
-        return finite_volume.circular_dam_break(x, y, t, depth_ahead=ahead)
+        return flow_cases.circular_dam_break(x, y, t, depth_ahead=ahead)
 
     name = f"circular dam, {'wet' if ahead else 'dry'}"
     return _volumes(name, x, y, spacing, 2.0, solution, inside=lambda x, y: np.hypot(x, y) < 25.0)
