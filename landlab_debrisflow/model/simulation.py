@@ -15,6 +15,7 @@ from .numerics import Numerics
 from .particles import Particles
 from .physics import Physics
 from .release import THICKNESS_RANGE, place_particles
+from .timestep import Pace
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -51,7 +52,7 @@ class Simulation:
         self.granted = self.granted_ratio = np.zeros(0)
         self.owed = np.zeros(0)
         self.drained = None  # where the base is, if anywhere
-        self._steps = 0
+        self._steps, self._pace = 0, Pace()
 
     def on(self, bed: Bed, status, changed: bool) -> None:
         """Put the simulation on a bed for the call that follows.
@@ -115,6 +116,7 @@ class Simulation:
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         step.consolidate(self, 0.0)
         self._peak_energy, self._arrested = 0.0, False
+        self._pace.restart()
         return float(p.volume[new].sum())
 
     def _find_everything(self, sweeps: int = 1) -> None:
@@ -200,7 +202,8 @@ class Simulation:
         self.time = end
 
     def _next_step(self, left: float) -> float:
-        longest = min(self.survey.longest_step, self.inflow.latest_step - self.time)
+        longest = self._pace.longest(self.survey.longest_step, self.survey.energy)
+        longest = min(longest, self.inflow.latest_step - self.time)
         if left <= longest:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step

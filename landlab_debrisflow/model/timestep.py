@@ -10,6 +10,60 @@ TERRAIN_FRACTION = 0.5
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
 
 
+GROWTH = 0.02
+"""Largest part of its volume a particle may take up in a step."""
+
+FASTER = 1.5
+"""A step may be so many times the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+
+FIRST = 1.0 / 64.0
+"""First step after a release over the one that would be stable."""
+
+TO_STOP = 0.25
+"""Part of the time to stop, as the flow is slowing now, that a step may take; the time of rest is known to that."""
+
+SLOWEST = 1.0 / 16.0
+"""But no less than this part of the one that would be stable: what swings turns, and does not stop."""
+
+
+class Pace:
+    """Steps that follow how the flow starts and stops."""
+
+    def __init__(self):
+        self._step = self._speed = np.inf
+
+    def restart(self) -> None:
+        """Something new is released."""
+        self._step = 0.0
+
+    def longest(self, stable: float, energy: float) -> float:
+        """Return how long the next step may be [s].
+
+        Parameters
+        ----------
+        stable : float
+            What stability and resolution allow [s].
+        energy : float
+            Of the flow now [m5 s-2].
+
+        Examples
+        --------
+        >>> pace = Pace()
+        >>> pace.restart()
+        >>> pace.longest(0.64, 1.0), pace.longest(0.64, 1.0)
+        (0.01, 0.015)
+        >>> pace = Pace()
+        >>> pace.longest(0.1, 1.0), pace.longest(0.1, 0.64)  # a fifth of the speed lost in 0.1 s
+        (0.1, 0.1)
+        """
+        speed, before, step = np.sqrt(energy), self._speed, self._step
+        allowed = min(stable, max(FASTER * step, FIRST * stable))
+        if speed < before < np.inf:
+            allowed = min(allowed, max(TO_STOP * step * speed / (before - speed), SLOWEST * stable))
+        self._step, self._speed = allowed, speed
+        return float(allowed)
+
+
 LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
 """Of the fastest wave on a lattice, over celerity / smoothing length: its angular frequency, and the rate at which a
 shock viscosity of 1 damps it (docs/decisions.md, Flow 2)."""
@@ -63,18 +117,20 @@ def survey(particles, computed, cosine, gravity: float, courant_number: float, n
         Smaller one of the raster's [m].
     """
     p = particles
-    waves, across, energy, fastest, broken = _survey(
+    waves, growth, across, energy, fastest, broken = _survey(
         p.awake, computed, cosine, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
-        p.thickening, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
+        p.thickening, p.smoothing_length, p.volume, p.basal_excess_pore_pressure, p.entrainment_rate, p.depth,
     )  # fmt: skip
-    return Survey(min(courant_number / max(waves, 1e-300), across), energy, fastest, broken)
+    longest = min(courant_number / max(waves, 1e-300), GROWTH / max(growth, 1e-300), across)
+    return Survey(longest, energy, fastest, broken)
 
 
 @kernel
 def _survey(
-    count, computed, cosine, gravity, way, velocity, thrust, thickness, thickening, smoothing_length, volume, pressure
-):
-    waves, across, energy, fastest, broken = 0.0, np.inf, 0.0, 0.0, -1
+    count, computed, cosine, gravity, way, velocity, thrust, thickness, thickening, smoothing_length, volume, pressure,
+    entrainment_rate, depth,
+):  # fmt: skip
+    waves, growth, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
     for i in range(count):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
@@ -87,6 +143,7 @@ def _survey(
         # can do, so that stopping is resolved to that way, too
         gain = gravity + np.sqrt(push2)
         across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
+        growth = max(growth, entrainment_rate[i] / depth[i])
         energy += volume[i] * speed2
         fastest = max(fastest, speed + celerity)
-    return waves, across, energy, fastest, broken
+    return waves, growth, across, energy, fastest, broken
