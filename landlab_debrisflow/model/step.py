@@ -94,7 +94,7 @@ def move(sim, dt: float, dilution) -> None:
     p, nodes = sim.particles, sim.bed.nodes
     left, sim.owed = np.empty(p.awake, np.int64), np.empty(p.awake)
     if sim.granted.any():  # the bed below has sunk: that is no fall of the flow
-        sim.bed.surface.read_elevation(p.x[: p.awake], p.y[: p.awake], p.z)
+        p.z[: p.awake] = sim.bed.surface.sample(p.x[: p.awake], p.y[: p.awake])[0]
     drift(
         p.x, p.y, p.z, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, sim.owed, left,
         p.touched_wall,
