@@ -51,9 +51,10 @@ def friction_and_kick(sim, dt: float) -> None:
     sim.physics.friction.basal_resistance(base(sim, slice(m)), yield_stress, drag)
     mass = material.density * p.thickness[:m]
     kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
-    stop_at_walls(
-        m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
-    )
+    if sim.walled:
+        stop_at_walls(
+            m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
+        )
 
 
 def entrain(sim, dt: float):
