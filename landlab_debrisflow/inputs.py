@@ -109,7 +109,9 @@ def check_release(grid, name: str, nodes, depth, soil) -> None:
         return (depth[bad][0], nodes[bad][0]) if bad.any() else None
 
     if found := first(~np.isfinite(depth)):
-        raise InputError(f"{name} must be finite, got {found[0]} at {_where(grid, found[1])}; set 0 where nothing fails")
+        raise InputError(
+            f"{name} must be finite, got {found[0]} at {_where(grid, found[1])}; set 0 where nothing fails"
+        )
     if found := first(depth < 0.0):
         raise InputError(
             f"{name} must be >= 0 m, got {found[0]:g} at {_where(grid, found[1])}; give the thickness that fails as "
