@@ -70,6 +70,7 @@ def test_walls_of_closed_nodes(gap, angle):
     p, grid = scene.flow.particles, scene.grid
     row, column = (np.floor(p[k].values / 5.0 + 0.5).astype(int) for k in "yx")
     assert not (grid.status_at_node[row * 61 + column] == grid.BC_NODE_IS_CLOSED).any()
+    assert scene.flow.outflow_by_edge["inside"] == 0.0  # where a particle over a closed node would be booked
     behind = float(p.volume.values[p.x.values > 207.0].sum()) + scene.flow.outflow_by_edge["east"]
     assert (behind > 0.0) == gap
 

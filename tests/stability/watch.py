@@ -103,7 +103,9 @@ class Watch:
             self.energy.append(float((volume * (kinetic + z + 0.5 * cosine * h)).sum() / mass))
             self.centre.append([float((volume * p[k].values).sum() / mass) for k in "xyz"])
         fall = np.sqrt(2.0 * self.g * np.maximum(self.top - z, 0.0))
-        bound = np.sqrt(2.0 * self.g * np.maximum(self.top + self.rise - z, 0.0)) + 2.0 * np.sqrt(self.g * self.thickest)
+        bound = np.sqrt(2.0 * self.g * np.maximum(self.top + self.rise - z, 0.0)) + 2.0 * np.sqrt(
+            self.g * self.thickest
+        )
         self.excess = max(self.excess, float((speed - bound).max()))
         self.head = max(self.head, float((z + kinetic).max()) - self.top)
         self.finite &= all(np.isfinite(p[name].values).all() for name in FINITE)
