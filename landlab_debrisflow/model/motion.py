@@ -75,7 +75,8 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
     status : ndarray, shape (nodes,)
         Status of the nodes.
     owed : ndarray, shape (n,)
-        Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see `follow_ground`.
+        Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
+        `follow_ground`.
     left : ndarray of int, shape (n,)
         Written: the open node over which the particle left, -1 if it did not, -2 if its position is not a number.
     touched_wall : ndarray of int8, shape (n,)
@@ -103,8 +104,8 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
 def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
     """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
 
-    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor
-    counts as moving.
+    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it
+    neither erodes nor counts as moving.
     """
     rows = status.size // columns
     for i in range(count):

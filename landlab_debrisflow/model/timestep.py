@@ -14,7 +14,7 @@ GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
 FASTER = 1.5
-"""A step may be so many times the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
 
 FIRST = 1.0 / 64.0
 """First step after a release over the one that would be stable."""
