@@ -143,7 +143,7 @@ def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
 @inner
 def _nearest(x, y, dx, dy, columns, rows):
     """Return the flat index of the nearest node, or -1 if the position is not a number."""
-    if not (np.isfinite(x) and np.isfinite(y)):
+    if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
         return -1
     r = min(max(int(np.floor(y / dy + 0.5)), 0), rows - 1)
     c = min(max(int(np.floor(x / dx + 0.5)), 0), columns - 1)

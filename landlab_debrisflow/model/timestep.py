@@ -134,7 +134,7 @@ def _survey(
     for i in range(count):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
-        if not np.isfinite(speed2 + push2 + thickness[i] + pressure[i]):
+        if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:  # isfinite() is reordered away (core/jit.py)
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if computed[i]:

@@ -105,7 +105,6 @@ def test_any_scene_on_terrain_as_a_dem_has_it(terrain, laws):
     check(terrain, laws)
 
 
-@pytest.mark.xfail(strict=True, reason="beds that bend within a step give head away; walls on steep ground too")
 @scenes(60)
 @given(terrain=ground(10.0), laws=LAWS)
 def test_any_scene_on_crevices(terrain, laws):

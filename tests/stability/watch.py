@@ -18,6 +18,7 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.column import NoExcessPressure
+from landlab_debrisflow.physics.flow import OnePhase
 
 G = 9.81
 
@@ -44,10 +45,11 @@ class Steps:
 
 
 class NoThrust:
-    """A flow law without inner forces: particles move alone."""
+    """A flow law without inner forces: particles have a thickness, and move alone."""
 
-    def thrust(self, state, cells, shock_viscosity, threads, acceleration, thickening):
-        acceleration[:], thickening[:] = 0.0, 0.0
+    def interact(self, state, cells, shock_viscosity, threads, sums):
+        OnePhase().interact(state, cells, shock_viscosity, threads, sums)
+        sums.acceleration[:], sums.thickening[:] = 0.0, 0.0
 
 
 def unresolved_rise(grid):
