@@ -1,4 +1,4 @@
-"""The only place where the suite reaches inside the engine (to count time steps), and the rival as a law of the flow."""
+"""The only place where the suite reaches inside the engine (to count time steps), and the rival as a law of flow."""
 
 from contextlib import contextmanager
 

@@ -8,6 +8,7 @@ import numpy as np
 from landlab import Component, RasterModelGrid
 
 from . import inputs
+from .citation import PAPER
 from .core.variables import NODE_FIELDS, OUTPUT_PREFIX
 from .ground import Ground
 from .inflow_inputs import check_lines, check_strips, read_hydrographs
@@ -73,15 +74,7 @@ class DebrisFlow(Component):
 
     _name = "DebrisFlow"
     _unit_agnostic = False
-    _cite_as = """
-    @article{pastor2022ale,
-      author = {Pastor, Manuel and others},
-      title = {An {ALE} finite difference--{SPH} depth integrated model for pore pressure evolution on
-               landslides over erodible terrains},
-      journal = {International Journal for Numerical and Analytical Methods in Geomechanics},
-      volume = {46}, pages = {1127--1153}, year = {2022}, doi = {10.1002/nag.3339}
-    }
-    """
+    _cite_as = PAPER
     _info: ClassVar = {field.name: field.info for field in NODE_FIELDS}
 
     def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
@@ -94,12 +87,7 @@ class DebrisFlow(Component):
         self._hydrographs = read_hydrographs(inflow)
         super().__init__(grid)
         inputs.check_boundaries(grid)
-        new_arrival = "debris_flow__arrival_time" not in grid.at_node
-        self.initialize_output_fields()
-        if "debris_flow__release_depth" not in grid.at_node:
-            grid.add_zeros("debris_flow__release_depth", at="node", units="m")
-        if new_arrival:
-            grid.at_node["debris_flow__arrival_time"][:] = -1.0
+        inputs.add_fields(self)
         entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
         self._simulation = Simulation(self._physics, self._numerics, entering)
         self._settled = np.zeros(grid.number_of_nodes)
@@ -258,7 +246,7 @@ class DebrisFlow(Component):
         if failing.size:
             sim.release(failing, depth)
         self._cover()
-        self._record()
+        self._footprint.record(sim.particles, sim.time)
 
     def _cover(self):
         """Keep the rows of the grid that the next step may change."""
@@ -269,14 +257,13 @@ class DebrisFlow(Component):
     def _advance(self, duration, stop_at_rest):
         """Run, stopping where an observer wants to look while there is an event."""
         sim, end = self._simulation, self._simulation.time + duration
-
         while sim.time < end and not (stop_at_rest and self.at_rest):
             sim.wait(end)
             watching = () if sim.idle else self._observers
             looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
             self._cover()
             sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
-            self._record()
+            self._footprint.record(sim.particles, sim.time)
             for observer, look in zip(watching, looks, strict=True):
                 if sim.time >= look or sim.idle:
                     self._show()
@@ -286,9 +273,6 @@ class DebrisFlow(Component):
         sim = self._simulation
         self._cover()
         self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
-
-    def _record(self):
-        self._footprint.record(self._simulation.particles, self._simulation.time)
 
     def _settle(self):
         elevation, bed = self._ground.elevation, self._simulation.bed

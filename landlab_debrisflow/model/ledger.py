@@ -19,7 +19,7 @@ class Ledger:
         self._core = self._soil = None
 
     def watch_soil(self, core, soil: Journal | None) -> None:
-        """Measure erosion as the fall of the soil depth kept in a journal, on core nodes, from now on; None: no more."""
+        """Measure erosion as the fall of the soil depth in a journal, on core nodes, from now on; None: no more."""
         self._eroded = self.eroded
         self._core, self._soil = core, soil
 

@@ -75,7 +75,8 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
     status : ndarray, shape (nodes,)
         Status of the nodes.
     owed : ndarray, shape (n,)
-        Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see `follow_ground`.
+        Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
+        `follow_ground`.
     left : ndarray of int, shape (n,)
         Written: the open node over which the particle left, -1 if it did not, -2 if its position is not a number.
     touched_wall : ndarray of int8, shape (n,)
@@ -103,8 +104,8 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
 def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
     """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
 
-    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor
-    counts as moving.
+    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it
+    neither erodes nor counts as moving.
     """
     rows = status.size // columns
     for i in range(count):
@@ -142,7 +143,7 @@ def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
 @inner
 def _nearest(x, y, dx, dy, columns, rows):
     """Return the flat index of the nearest node, or -1 if the position is not a number."""
-    if not (np.isfinite(x) and np.isfinite(y)):
+    if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
         return -1
     r = min(max(int(np.floor(y / dy + 0.5)), 0), rows - 1)
     c = min(max(int(np.floor(x / dx + 0.5)), 0), columns - 1)

@@ -70,7 +70,7 @@ class Simulation:
         self._changed |= changed
 
     def extent(self) -> tuple[float, float]:
-        """Return least and largest y of what may change the ground in the next step [m]; nothing: the first is larger."""
+        """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
         y = self.particles.y
         ends = [(y.min(), y.max())] if y.size else []
         ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]

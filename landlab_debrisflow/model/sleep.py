@@ -82,7 +82,7 @@ def fall_asleep(sim) -> None:
 
 
 def _held(sim, which: slice):
-    """Return whether friction holds particles at rest under the highest pressure their columns can bring to the base."""
+    """Return whether friction holds particles under the highest pressure their columns can bring to the base."""
     p, physics = sim.particles, sim.physics
     n = which.stop - which.start
     none = np.zeros(n)

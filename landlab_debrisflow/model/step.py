@@ -134,8 +134,9 @@ def interact(sim) -> None:
     p, material, numerics = sim.particles, sim.physics.material, sim.numerics
     if p.count == 0:
         return
+    longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
     state = FlowState(
-        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness),
+        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
         p.thickness, p.thickening, p.gradient_term, sim.cosine, material.gravity,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP

@@ -14,7 +14,7 @@ GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
 FASTER = 1.5
-"""A step may be so many times the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
 
 FIRST = 1.0 / 64.0
 """First step after a release over the one that would be stable."""
@@ -134,7 +134,7 @@ def _survey(
     for i in range(count):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
-        if not np.isfinite(speed2 + push2 + thickness[i] + pressure[i]):
+        if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:  # isfinite() is reordered away (core/jit.py)
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if computed[i]:

@@ -89,9 +89,9 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
     Notes
     -----
     a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
-    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j), w = min(0, v_ij . r_ij / r + k r): pairs that approach faster
-    than in the uniform convergence k = min(-div v/2 of i, of j), k >= 0, which is no shock and must not be damped.
-    Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
+    P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j), w = min(0, v_ij . r_ij / r + k r): pairs that approach
+    faster than in the uniform convergence k = min(-div v/2 of i, of j), k >= 0, which is no shock and must not be
+    damped. Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
     that of Monaghan (1997).
 
     The sum S(l) of thickness wants to be h(l) = ratio^2 V / l^2. Newton on h - S(l(h)) = 0 has the slope

@@ -65,8 +65,9 @@ class Bed:
             return granted, ratio
         nodes = self.nodes
         count = _erode(
-            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._before, self.pressure_ratio, self._demand[0], self._share, self._touched,
-            self._taken, self.soil, self.elevation, self.eroded_depth, granted, ratio,
+            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._before, self.pressure_ratio,
+            self._demand[0], self._share, self._touched, self._taken, self.soil, self.elevation,
+            self.eroded_depth, granted, ratio,
         )  # fmt: skip
         at = self._touched[:count]
         self.surface.move_to(at, self.elevation[at])
@@ -99,7 +100,8 @@ class Bed:
 
 @kernel
 def _erode(
-    core, columns, dx, dy, x, y, spread, wanted, before, pressure_ratio, demand, share, touched, taken, soil, elevation, eroded_depth, granted, ratio,
+    core, columns, dx, dy, x, y, spread, wanted, before, pressure_ratio, demand, share, touched, taken,
+    soil, elevation, eroded_depth, granted, ratio,
 ):  # fmt: skip
     """Add up what is wanted of every node, share what it has, give it out and lower the node; return how many nodes."""
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)

@@ -88,7 +88,9 @@ def test_thickness_is_the_sum_over_all_pairs(count, seed):
     exact = plain_sum(c, c["length"])
     np.testing.assert_allclose(capped, exact, rtol=ROUNDING)
     assert np.all(omega == 1.0)
-    np.testing.assert_allclose(length, np.minimum(c["length"], SMOOTHING_RATIO * np.sqrt(c["volume"] / exact)), rtol=ROUNDING)
+    np.testing.assert_allclose(
+        length, np.minimum(c["length"], SMOOTHING_RATIO * np.sqrt(c["volume"] / exact)), rtol=ROUNDING
+    )
 
 
 def test_the_newton_step_uses_the_slope_of_the_sum():

@@ -2,7 +2,7 @@
 
 ENERGY = 2e-3
 """Rise of a body's energy over the kinetic energy it reaches: measured 1e-5 to 4e-4 where the bed is smooth on the
-scale of a step, 1.5e-3 over a cliff of 200 m; the error of a kick-drift-kick step goes with the square of its length."""
+scale of a step, 1.5e-3 over a cliff of 200 m; the error of a step goes with the square of its length."""
 
 STILL = 1e-3
 """Particles that moved by less, over their smoothing length, are not summed again (docs/decisions.md, Flow 5): the

@@ -25,6 +25,10 @@ SHORT = {"courant_number": 1e-5, "gravity": 0.5}
 """Duration where a bound makes steps tiny or falls fast [s]; elsewhere 2 s."""
 
 
+REFUSED = {"solid_density": 1.0, "water_density": 1e5}
+"""Bounds that do not go with the default of the other density: grains must be heavier than water."""
+
+
 def bounds():
     """Yield keyword, law, parameter and value for all bounds, choices and switches that are declared."""
     laws = [("numerics", None, Numerics), ("material", None, Material)]
@@ -46,7 +50,7 @@ def bounds():
                 yield pytest.param(keyword, name, field.name, value, id=f"{name or keyword}-{field.name}-{value}")
 
 
-@pytest.mark.parametrize(("keyword", "law", "parameter", "value"), bounds())
+@pytest.mark.parametrize(("keyword", "law", "parameter", "value"), list(bounds()))
 def test_at_its_bound(keyword, law, parameter, value):
     grid = inclined((20, 60), 5.0, 0.5, soil=1.0, foot=150.0)
     release_slab(grid, (30.0, 48.0), 8.0, 1.0)
@@ -54,11 +58,11 @@ def test_at_its_bound(keyword, law, parameter, value):
     keywords = {"numerics": {"particle_count": 60}, keyword: values}
     if keyword == "numerics" and not parameter.startswith("particle"):
         keywords["numerics"] = {"particle_count": 60, **values}
-    try:
-        flow = DebrisFlow(grid, **keywords)
-    except ParameterError as error:
-        assert parameter in str(error)  # two that do not go together: said in words, not by a crash
+    if parameter in REFUSED and REFUSED[parameter] == value:  # not with the default of another: said in words
+        with pytest.raises(ParameterError, match=parameter):
+            DebrisFlow(grid, **keywords)
         return
+    flow = DebrisFlow(grid, **keywords)
     flow.run_one_step(SHORT.get(parameter, 2.0))  # the balance is checked in every call (conftest)
     p = flow.particles
     assert [name for name in FINITE if not np.isfinite(p[name].values).all()] == []

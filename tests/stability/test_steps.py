@@ -8,7 +8,6 @@ from . import scenes
 from .checks import assert_sound
 from .watch import Scene
 
-
 LOOKS = 20
 """A look ends a step; at the longest steps there are 70 of them in a period."""
 
@@ -40,7 +39,9 @@ def test_beyond_the_limit_it_does_blow_up():
     """What the bound protects from: twice the limit, put past the check."""
     scene = Scene(scenes.bowl(), scenes.period(), count=2000, looks=LOOKS)
     object.__setattr__(scene.flow._numerics, "courant_number", 2.44)
-    assert scene.run().watch.gain > 0.1 * 3.5e-2  # [m], the largest kinetic energy of the exact solution; measured 2.7e-2
+    assert (
+        scene.run().watch.gain > 0.1 * 3.5e-2
+    )  # [m], the largest kinetic energy of the exact solution; measured 2.7e-2
 
 
 @pytest.mark.parametrize(

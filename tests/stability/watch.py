@@ -18,6 +18,7 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.column import NoExcessPressure
+from landlab_debrisflow.physics.flow import OnePhase
 
 G = 9.81
 
@@ -44,10 +45,11 @@ class Steps:
 
 
 class NoThrust:
-    """A flow law without inner forces: particles move alone."""
+    """A flow law without inner forces: particles have a thickness, and move alone."""
 
-    def thrust(self, state, cells, shock_viscosity, threads, acceleration, thickening):
-        acceleration[:], thickening[:] = 0.0, 0.0
+    def interact(self, state, cells, shock_viscosity, threads, sums):
+        OnePhase().interact(state, cells, shock_viscosity, threads, sums)
+        sums.acceleration[:], sums.thickening[:] = 0.0, 0.0
 
 
 def unresolved_rise(grid):
@@ -103,7 +105,9 @@ class Watch:
             self.energy.append(float((volume * (kinetic + z + 0.5 * cosine * h)).sum() / mass))
             self.centre.append([float((volume * p[k].values).sum() / mass) for k in "xyz"])
         fall = np.sqrt(2.0 * self.g * np.maximum(self.top - z, 0.0))
-        bound = np.sqrt(2.0 * self.g * np.maximum(self.top + self.rise - z, 0.0)) + 2.0 * np.sqrt(self.g * self.thickest)
+        bound = np.sqrt(2.0 * self.g * np.maximum(self.top + self.rise - z, 0.0)) + 2.0 * np.sqrt(
+            self.g * self.thickest
+        )
         self.excess = max(self.excess, float((speed - bound).max()))
         self.head = max(self.head, float((z + kinetic).max()) - self.top)
         self.finite &= all(np.isfinite(p[name].values).all() for name in FINITE)

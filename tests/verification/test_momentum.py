@@ -14,6 +14,34 @@ from ..grids import dry_block, inclined, place, release_cap, release_slab
 G = 9.81
 
 
+class Sums:
+    """What acts on the particles, added up at every kick.
+
+    Each sum over neighbours is made of floats: it is known to 6e-8 of the sum of the sizes of its parts. These are
+    g_n h 2.33/l on a lattice, for 2.33/l is the integral of |grad W|. Before that they are equal and opposite
+    between two particles, to the last bit.
+    """
+
+    def __init__(self, flow, monkeypatch):
+        self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, step.kick
+
+        def watched(velocity, push, ground, cosine, *rest):
+            p, dt = flow._simulation.particles, rest[-1]
+            normal = cosine * np.array([-ground[1], -ground[2], np.ones(cosine.size)])
+            across = ((push + np.array([[0.0], [0.0], [-G]])) * normal).sum(axis=0)
+            self.thrust += dt * (p.volume * push).sum(axis=1)
+            self.bed -= dt * (p.volume * (np.array([[0.0], [0.0], [G]]) + across * normal)).sum(axis=1)
+            self.sizes += dt * float((p.volume * G * cosine * p.thickness * 2.33 / p.smoothing_length).sum())
+            kick(velocity, push, ground, cosine, *rest)
+
+        monkeypatch.setattr(step, "kick", watched)
+
+    @property
+    def rounding(self):
+        """What the momentum is known to, had all sums been rounded the same way [m4 s-1]."""
+        return 0.5 * np.finfo(np.float32).eps * self.sizes
+
+
 def momentum(flow):
     """Return the sum of V v over all particles, shape (3,) [m4 s-1]."""
     p = flow._simulation.particles
@@ -38,31 +66,29 @@ def body(slope=0.0, shape=(30, 60), soil=None, **keywords):
     return grid, dry_block(0.0, particle_count=300, rest_energy=0.0, **keywords)
 
 
-def test_a_body_on_a_smooth_plain_keeps_its_momentum():
+def test_a_body_on_a_smooth_plain_keeps_its_momentum(monkeypatch):
     grid, keywords = body()
     flow = thrown(grid, (12.0, -3.0), **keywords)
-    before = momentum(flow)
+    before, sums = momentum(flow), Sums(flow, monkeypatch)
     flow.run_one_step(5.0)
     p = flow.particles
     assert float(p.x.std()) > 15.0 and flow.budget["outflow"] == 0.0  # its thrust has spread it from 10 m
-    # forces between particles of equal volume are equal and opposite to the last digit, also at different times of
-    # their sleep: round-off of 300 x 80 sums
-    np.testing.assert_allclose(momentum(flow), before, rtol=0, atol=1e-12 * np.linalg.norm(before))
+    # measured 7e-10 of the momentum, and 1.6e-7 if all sums were rounded the same way
+    np.testing.assert_allclose(momentum(flow), before, rtol=0, atol=sums.rounding)
 
 
-def test_on_an_incline_it_gains_what_gravity_gives_along_the_bed():
+def test_on_an_incline_it_gains_what_gravity_gives_along_the_bed(monkeypatch):
     slope = 0.5
     grid, keywords = body(slope)
     flow = thrown(grid, (0.0, 4.0), **keywords)
-    before, start = momentum(flow), flow.elapsed_time
+    before, start, sums = momentum(flow), flow.elapsed_time, Sums(flow, monkeypatch)
     flow.run_one_step(3.0)
     cosine = 1.0 / math.hypot(1.0, slope)
     along = np.array([cosine, 0.0, -slope * cosine])
     gain = flow.budget["moving"] * G * slope * cosine * (flow.elapsed_time - start)
     assert flow.budget["outflow"] == 0.0
-    # Gravity and the reaction of a plane bed are constant, so any step is exact. But the chords between particles
-    # and with them the thrust lie in the plane only to the digits of elevation
-    np.testing.assert_allclose(momentum(flow) - before, gain * along, rtol=0, atol=1e-11 * gain)
+    # gravity and the reaction of a plane bed are constant, so any step is exact. Measured 6e-10, bound 9e-8
+    np.testing.assert_allclose(momentum(flow) - before, gain * along, rtol=0, atol=sums.rounding)
 
 
 def test_coulomb_friction_takes_what_its_law_says():
@@ -82,30 +108,21 @@ def test_soil_that_is_picked_up_brings_no_momentum(monkeypatch):
     """The balance closes with the reaction of the bed alone, into which the body digs a hollow."""
     grid, keywords = body(soil=5.0, erosion={"law": "growth", "growth_rate": 3e-3})
     flow = thrown(grid, (12.0, -3.0), **keywords)
-    bed, thrust, kick, turn = np.zeros(3), np.zeros(3), step.kick, step.turn
+    sums, bend, follow_ground = Sums(flow, monkeypatch), np.zeros(3), step.follow_ground
 
-    def watched_kick(velocity, push, ground, cosine, *rest):
-        volume, dt = flow._simulation.particles.volume, rest[-1]
-        normal = cosine * np.array([-ground[1], -ground[2], np.ones(cosine.size)])
-        force = push + np.array([[0.0], [0.0], [-G]])
-        thrust[:] += dt * (volume * push).sum(axis=1)
-        bed[:] += dt * (volume * (force - push - (force * normal).sum(axis=0) * normal)).sum(axis=1)
-        kick(velocity, push, ground, cosine, *rest)
-
-    def watched_turn(velocity, *rest):  # the reaction of a bed that curves
+    def watched(ground, velocity, *rest):  # the reaction of a bed that curves
         was = velocity.copy()
-        turn(velocity, *rest)
-        bed[:] += (flow._simulation.particles.volume * (velocity - was)).sum(axis=1)
+        follow_ground(ground, velocity, *rest)
+        bend[:] += (flow._simulation.particles.volume * (velocity - was)).sum(axis=1)
 
-    monkeypatch.setattr(step, "kick", watched_kick)
-    monkeypatch.setattr(step, "turn", watched_turn)
+    monkeypatch.setattr(step, "follow_ground", watched)
     before, volume = momentum(flow), flow.budget["moving"]
     flow.run_one_step(4.0)
-    size = np.linalg.norm(before)
+    size, bed = np.linalg.norm(before), sums.bed + bend
     assert flow.budget["moving"] > 1.1 * volume and flow.budget["outflow"] == 0.0
-    # equal and opposite also between particles that took up unequal volumes
-    assert np.abs(thrust).max() < 1e-13 * size
-    np.testing.assert_allclose(momentum(flow) - before, bed, rtol=0, atol=1e-12 * size)
+    # equal and opposite also between particles that took up unequal volumes: measured 3e-10, bound 1.6e-7
+    assert np.abs(sums.thrust).max() < sums.rounding
+    np.testing.assert_allclose(momentum(flow) - before, bed + sums.thrust, rtol=0, atol=1e-12 * size)
     # the sides of the hollow, up to 18 cm deep, push back: measured 6e-3
     assert 1e-3 < abs(bed[0]) / size < 1e-2
 
@@ -132,19 +149,23 @@ def test_entrainment_itself_conserves_momentum_to_round_off(monkeypatch):
 
 @pytest.mark.parametrize(("side", "axis", "velocity"), [("east", 0, (9.0, 2.0)), ("north", 1, (2.0, 9.0))])
 def test_a_wall_takes_the_momentum_towards_it_and_no_other(side, axis, velocity):
-    """One that hits a wall alone keeps what it has along the wall, and stays at it."""
+    """One that hits a wall alone keeps what it has along the wall; its image pushes it back, and no further aside."""
     grid = inclined((30, 30), 5.0, 0.0)
     grid.set_closed_boundaries_at_grid_edges(True, True, True, True)
-    release_slab(grid, (72.5, 72.5), 3.0, 1.0, on_top=True)
+    release_slab(grid, (70.0, 70.0), 3.0, 1.0, on_top=True)
     flow = thrown(grid, velocity, **dry_block(0.0, particle_count=1, rest_energy=0.0))
-    flow._simulation.particles.thrust[:] = 0.0
+    p = flow._simulation.particles
+    p.least_thickness[:], p.smoothing_length[:] = 1.0, 7.0  # alone it would think itself as wide as the basin
+    flow._simulation._find_everything(8)
     before = momentum(flow)
-    flow.run_one_step(9.0)  # there are 68 m to go
+    flow.run_one_step(9.0)  # there are 72.5 m to go
     p, after = flow.particles, momentum(flow)
-    assert after[axis] == 0.0 and after[1 - axis] == pytest.approx(before[1 - axis], rel=1e-14)
-    # the wall is half a node spacing inside the closed nodes, and a step is at most a quarter of one
     position = float((p.x, p.y)[axis][0])
-    assert 145.0 - 2.5 - 1.25 <= position <= 145.0 - 2.5
+    assert after[1 - axis] == pytest.approx(before[1 - axis], rel=1e-14)
+    # its image comes towards it, and the shock viscosity stops them: measured .69 m/s after 9 s, 1.4 m from the wall,
+    # which is half a node spacing inside the closed nodes
+    assert abs(after[axis]) < 0.1 * before[axis]
+    assert 145.0 - 2.5 - 2.5 <= position <= 145.0 - 2.5
 
 
 def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
@@ -153,23 +174,27 @@ def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
     grid.set_closed_boundaries_at_grid_edges(True, True, True, True)
     release_slab(grid, (120.0, 47.5), 18.0, 1.0, on_top=True)
     flow = thrown(grid, (15.0, 0.0), **dry_block(0.0, particle_count=200, rest_energy=0.0))
-    impulse, stop_at_walls, drift = np.zeros(3), step.stop_at_walls, step.drift
+    sums, impulse = Sums(flow, monkeypatch), np.zeros(3)
 
-    def watched(act):
-        def acting(x, y, velocity, *rest):
-            was, volume = velocity.copy(), flow._simulation.particles.volume
-            act(x, y, velocity, *rest)
+    def watch(name, act, place):
+        def acting(*arguments):
+            velocity, volume = arguments[place], flow._simulation.particles.volume
+            was = velocity.copy()
+            act(*arguments)
             impulse[:] += (volume * (velocity - was)).sum(axis=1)
 
-        return acting
+        monkeypatch.setattr(step, name, acting)
 
-    monkeypatch.setattr(step, "stop_at_walls", watched(stop_at_walls))
-    monkeypatch.setattr(step, "drift", watched(drift))
+    watch("stop_at_walls", step.stop_at_walls, 3)
+    watch("drift", step.drift, 3)
     before = momentum(flow)
     flow.run_one_step(5.0)
     after = momentum(flow)
-    assert flow.budget["outflow"] == 0.0 and impulse[0] < -0.5 * before[0]
-    np.testing.assert_allclose(after - before, impulse, rtol=0, atol=1e-12 * before[0])
+    assert flow.budget["outflow"] == 0.0
+    # What remains of all thrust is that of the images behind the wall, and points away from it: measured .69 of the
+    # momentum there was, and 5e-4 are left to the wall itself. Along it 2e-7: images are put where floats allow
+    assert impulse[0] < 0.0 and sums.thrust[0] < -0.5 * before[0] and abs(sums.thrust[1]) < 1e-6 * before[0]
+    np.testing.assert_allclose(after - before, impulse + sums.thrust, rtol=0, atol=1e-12 * before[0])
 
 
 def test_what_leaves_takes_its_momentum_with_it(monkeypatch):
@@ -177,16 +202,18 @@ def test_what_leaves_takes_its_momentum_with_it(monkeypatch):
     flow = thrown(grid, (20.0, 1.0), **keywords)
     out, drift = np.zeros(3), step.drift
 
-    def watched(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_wall):
-        drift(x, y, velocity, dilution, dx, dy, columns, status, dt, left, touched_wall)
+    def watched(x, y, z, velocity, *rest):
+        drift(x, y, z, velocity, *rest)
+        left = rest[-2]
         p, gone = flow._simulation.particles, left >= 0
         out[:] += (p.volume[gone] * velocity[:, gone]).sum(axis=1)
 
     monkeypatch.setattr(step, "drift", watched)
-    before = momentum(flow)
+    before, sums = momentum(flow), Sums(flow, monkeypatch)
     flow.run_one_step(6.0)
     assert 100.0 < flow.budget["outflow"] < 0.9 * flow.budget["released"]
-    np.testing.assert_allclose(momentum(flow) + out, before, rtol=0, atol=1e-12 * np.linalg.norm(before))
+    # measured 2e-10 of the momentum, bound 1e-7
+    np.testing.assert_allclose(momentum(flow) + out, before, rtol=0, atol=sums.rounding)
 
 
 def test_inflow_brings_its_momentum_and_the_thrust_behind_it():

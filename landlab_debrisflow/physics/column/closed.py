@@ -246,10 +246,11 @@ def gained_limits(memory, i):
 
 @inner
 def closed_pressure(memory, i, passed, load, old_load, gain, loading):
-    """Put one step on a column; return its basal pressure, by how much that may be wrong, its limits over eta, and
-    what part of an even load since the last look has gone from the base.
+    """Put one step on a column and look at its base.
 
-    The load has changed from ``old_load`` to ``load`` and every grain gained ``gain`` evenly.
+    Returns the pressure there, by how much that may be wrong, its limits over eta, and what part of an even load
+    since the last look has gone from the base. The load has changed from ``old_load`` to ``load`` and every grain
+    gained ``gain`` evenly.
     """
     passed = min(memory[i, PASSED] + passed, DIFFUSION_CAP)
     lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN] + gain

@@ -1,0 +1,147 @@
+"""Where flow models fail, at full size: python -m benchmarks.flow_stability [words of the cases to run]
+
+Every case of theory section 5 that concerns the flow, on the scenes of tests/stability, without friction unless it
+says so. Printed per case: time steps and CPU time of one thread; the largest speed, and what the fall alone allows that
+particle, (2 g (top - z))^(1/2); how far all stay below the bound with waves, (2 g (top - z))^(1/2) + 2 (g h)^(1/2);
+the highest head of a particle over the top of the body at rest (half a failing cell beyond its nodes included); the
+largest rise of the energy of the whole body, per weight, until something leaves the grid; the root mean square of the
+speed at the end; the residual of the volume.
+
+Writes benchmarks/flow_stability.txt and, if all cases are run, docs/flow_stability.png: the energy gained against the
+length of the step.
+"""
+
+import math
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")  # draws to a file only
+
+import matplotlib.pyplot as plt
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from tests.stability import scenes
+from tests.stability.watch import NoThrust, Scene
+
+HERE = Path(__file__).parent
+LIMIT = 1.22
+"""Longest stable step in smoothing lengths over celerity (docs/decisions.md, Flow 2)."""
+
+HEADINGS = (
+    "case", "particles", "steps", "CPU [s]", "speed [m/s]", "by fall [m/s]", "below bound [m/s]", "head over top [m]",
+    "energy gained [m]", "speed at end [m/s]", "volume residual",
+)  # fmt: skip
+
+
+def cases():
+    """Yield the name of each case and what builds its scene."""
+    bowl, period = scenes.bowl, scenes.period
+    for shift, word in ((0.0, "curved surface"), (30.0, "swinging aside")):
+        yield (
+            f"Thacker, {word}, two periods",
+            lambda s=shift: Scene(bowl(shift=s), 2.0 * period(s), count=32000, looks=40),
+        )
+    for depth in (5.0, 20.0):
+        yield f"gully one cell wide, {depth:g} m", lambda d=depth: Scene(scenes.gully(d), 12.0, count=4000)
+    for height in (50.0, 200.0):
+        yield f"cliff of {height:g} m", lambda h=height: Scene(scenes.cliff(h), 10.0, count=4000)
+    for depth in (5.0, 20.0, 100.0):
+        yield f"pit of one node, {depth:g} m", lambda d=depth: Scene(scenes.pit(d), 20.0, count=1000)
+        yield (
+            f"the same without pressure, {depth:g} m",
+            lambda d=depth: Scene(scenes.pit(d), 20.0, count=300, flow=NoThrust()),
+        )
+    for amplitude in (1.0, 2.0):
+        yield f"noise of {amplitude:g} m on 5 m", lambda a=amplitude: Scene(scenes.noisy_slope(a), 14.0, count=4000)
+        yield (
+            f"the same with 15 deg, {amplitude:g} m",
+            lambda a=amplitude: Scene(scenes.noisy_slope(a), 60.0, 15.0, count=4000),
+        )
+    yield "wall of closed nodes", lambda: Scene(scenes.walls(), 60.0, count=2000)
+    yield "wall with a gap", lambda: Scene(scenes.walls(True), 60.0, count=2000)
+    yield "steep corner of closed nodes", lambda: Scene(scenes.steep_corner(), 5.0, count=1000)
+    for count in (1, 100):
+        yield (
+            f"release of one cell, {count}",
+            lambda n=count: Scene(scenes.plane(0.5, 1.0, half_width=2.0), 10.0, count=n),
+        )
+    yield "release of 1e6 m3, 12 deg", lambda: Scene(scenes.wide_release(1e6), 60.0, 12.0, count=8000)
+    for degrees in (0.0, 80.0):
+        for h in (1e-3, 1.0, 100.0):
+            yield (
+                f"slope of {degrees:g} deg, {h:g} m",
+                lambda d=degrees, h=h: Scene(scenes.plane(math.tan(math.radians(d)), h), 2.0, count=1000),
+            )
+    yield "stretched front, 20 deg", lambda: Scene(scenes.plane(0.5, 1.0, columns=241), 20.0, 20.0, count=2000)
+    for amplitude in (0.0, 0.2, 1.0):
+        yield f"still water, noise of {amplitude:g} m", lambda a=amplitude: Scene(scenes.basin(a), 4000.0, count=500)
+    yield "the same with 1 deg of friction, 1 m", lambda: Scene(scenes.basin(1.0), 4000.0, 1.0, count=500)
+
+
+def measure(name, scene):
+    """Run one case; return its row of the table."""
+    print(name, file=sys.stderr)
+    scene.run()
+    w = scene.watch
+    end = float(np.sqrt(np.mean(scene.speeds**2))) if scene.speeds.size else 0.0
+    return (
+        name, f"{scene.flow._numerics.particle_count}", f"{len(scene.steps.lengths)}", f"{scene.cpu:.1f}",
+        f"{w.speed:.3g}", f"{w.allowed:.3g}", f"{-w.excess:.3g}", f"{w.head:+.2f}", f"{w.gain:.1e}",
+        f"{end:.1e}", f"{scene.imbalance:.0e}",
+    )  # fmt: skip
+
+
+def gains(factors, viscosity, count=2000):
+    """Return the energy gained in the bowl over a period, over the kinetic energy of the exact solution, per step."""
+    found = []
+    for factor in factors:
+        scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
+        object.__setattr__(scene.flow._numerics, "courant_number", factor * LIMIT)  # past the check
+        scene.run()
+        left = scene.flow.budget["outflow"] > 0.0
+        found.append(math.nan if left else max(scene.watch.gain, 1e-9) / 0.0344)
+    return found
+
+
+def chart():
+    """Draw what the length of the step does to the energy."""
+    factors = np.array([0.25, 0.35, 0.49, 0.6, 0.7, 0.82, 0.9, 1.0, 1.15, 1.35, 1.6, 2.0])
+    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
+    for viscosity, marker in ((0.1, "v"), (0.25, "s"), (0.5, "D"), (1.0, "o"), (3.0, "^")):
+        axes.plot(factors, gains(factors, viscosity), marker=marker, ms=5, lw=1.2, label=f"{viscosity:g}")
+    axes.axvline(1.0 / LIMIT, color="0.4", lw=1, ls=":")
+    axes.axvline(0.6 / LIMIT, color="0.4", lw=1, ls="--")
+    top = {"xycoords": ("data", "axes fraction"), "rotation": 90, "va": "top", "ha": "right", "fontsize": 8}
+    axes.annotate("default ", (0.6 / LIMIT, 0.98), **top)
+    axes.annotate("largest allowed ", (1.0 / LIMIT, 0.98), **top)
+    axes.set(
+        yscale="log", ylim=(1e-5, 300.0), xlabel="time step over the limit, 1.22 smoothing lengths / celerity [-]",
+        ylabel="energy gained / kinetic energy [-]",
+        title="Thacker's bowl, curved surface, 2000 particles, one period",
+    )  # fmt: skip
+    axes.title.set_fontsize(10)
+    axes.legend(title="shock viscosity", loc="lower right", fontsize=8, title_fontsize=8)
+    axes.grid(alpha=0.3)
+    figure.savefig(HERE.parent / "docs" / "flow_stability.png", dpi=130)
+
+
+def main(words):
+    table = Table(title="Where flow models fail", title_justify="left")
+    for heading in HEADINGS:
+        table.add_column(heading, justify="left" if heading == "case" else "right")
+    for name, build in cases():
+        if not words or any(word in name for word in words):
+            table.add_row(*measure(name, build()))
+    Console(width=180).print(table)
+    if not words:
+        with (HERE / "flow_stability.txt").open("w", encoding="utf-8") as file:
+            Console(file=file, width=180).print(table)
+        chart()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
