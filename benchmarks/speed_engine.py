@@ -43,8 +43,13 @@ def counting():
     def advance(sim, dt):
         cpu, wall = time.process_time(), time.perf_counter()
         original(sim, dt)
+        p = sim.particles
         done.cpu, done.wall = done.cpu + time.process_time() - cpu, done.wall + time.perf_counter() - wall
-        done.steps, done.awake, done.all = done.steps + 1, done.awake + sim.particles.awake, done.all + sim.particles.count
+        done.steps, done.awake, done.all = (
+            done.steps + 1,
+            done.awake + sim.particles.awake,
+            done.all + sim.particles.count,
+        )
 
     with mock.patch.object(step, "advance", advance):
         yield done
@@ -54,7 +59,9 @@ def _lattice(depth, spacing, corner, surface, count):
     """Place particles of the similarity solution's cap on a jittered lattice: the release's own relaxation is slow."""
     side = int(np.ceil(np.sqrt(4.0 * count / np.pi)))
     rng = np.random.default_rng(0)
-    x, y = (np.stack(np.meshgrid(*2 * [np.arange(side) + 0.5])) + rng.uniform(-0.2, 0.2, (2, side, side))).reshape(2, -1)
+    x, y = (np.stack(np.meshgrid(*2 * [np.arange(side) + 0.5])) + rng.uniform(-0.2, 0.2, (2, side, side))).reshape(
+        2, -1
+    )
     x, y = 2.0 * x / side - 1.0, 2.0 * y / side - 1.0
     part = x**2 + y**2
     used = np.sort(np.argsort(part, kind="stable")[:count])
@@ -62,7 +69,11 @@ def _lattice(depth, spacing, corner, surface, count):
     radius = np.sqrt(1.0 - np.sqrt(1.0 - 0.9999 * part))  # within which this part of a paraboloid's volume lies
     stretch = 80.0 * radius / np.sqrt(part)
     west, south = spacing[0] * 55.0, spacing[1] * 55.0  # the centre of the cap from the lower left node
-    return x * stretch * spacing[0] / spacing[1] + west, y * stretch + south, 4.0 * (1.0 - radius**2) * spacing[1] / spacing[0]
+    return (
+        x * stretch * spacing[0] / spacing[1] + west,
+        y * stretch + south,
+        4.0 * (1.0 - radius**2) * spacing[1] / spacing[0],
+    )
 
 
 def cap(count, threads=1):

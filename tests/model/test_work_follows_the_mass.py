@@ -14,7 +14,7 @@ both runs round alike and must be equal to the last bit."""
 
 @pytest.fixture(scope="module")
 def runs():
-    flows = valley(60, 0, **SCENE), valley(240, SHIFT, **SCENE)
+    flows = valley(nodes=60, offset=0, **SCENE), valley(nodes=240, offset=SHIFT, **SCENE)
     return flows, [touched_by(flow) for flow in flows]
 
 
@@ -42,7 +42,7 @@ def test_nothing_else_changes(runs):
     (_, large), _ = runs
     outside = np.ones(large.grid.shape, bool)
     outside[SHIFT : SHIFT + 60, SHIFT : SHIFT + 60] = False
-    fresh = valley(240, SHIFT, **SCENE).grid
+    fresh = valley(nodes=240, offset=SHIFT, **SCENE).grid
     for name in fresh.at_node:
         now, before = (grid.at_node[name].reshape(grid.shape)[outside] for grid in (large.grid, fresh))
         assert np.array_equal(now, before), name
