@@ -40,7 +40,6 @@ def _wake(sim, places) -> None:
     # those already there stay where they are: places are sorted, so the others are the last ones
     _exchange(sim, np.setdiff1d(ahead, places), places[places >= last])
     catch_up(sim, first, last)
-    p.still_steps[first:last] = 0  # the ground or a neighbour moved; give the smoothing length time to settle
     p.awake = last
     none = np.zeros(places.size)
     sim.granted, sim.granted_ratio = np.concatenate([sim.granted, none]), np.concatenate([sim.granted_ratio, none])
