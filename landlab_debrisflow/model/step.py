@@ -36,7 +36,7 @@ def advance(sim, dt: float) -> None:
     sim.inflow.enter(sim, sim.time + dt)
     find_ground(sim, dt)
     interact(sim)
-    sleep.wake_disturbed(sim)
+    sleep.wake(sim, sleep.disturbed(sim))
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -144,6 +144,7 @@ def interact(sim) -> None:
         state, changed = mirror(state, changed, sim.bed.nodes, sim.status, p.touched_wall)
     sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sim.computed = sim.cells.computed[: p.count]
+    sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p)
