@@ -59,9 +59,10 @@ def place_particles(depth, spacing, corner, surface: Surface, count: int):
 
 
 def _centres(x, y, share, group):
-    """Return the centres of groups of samples, and their volumes."""
-    total = np.bincount(group, share)
-    return np.bincount(group, share * x) / total, np.bincount(group, share * y) / total, total
+    """Return the centres of groups of samples, and their volumes; a group may be empty where samples are uneven."""
+    total, x, y = np.bincount(group, share), np.bincount(group, share * x), np.bincount(group, share * y)
+    filled = total > 0.0
+    return x[filled] / total[filled], y[filled] / total[filled], total[filled]
 
 
 def _depth_at(depth, spacing, x, y):
