@@ -11,15 +11,18 @@ from ..grids import inclined, place, release_slab
 MATERIAL = {"coefficient_of_consolidation": 2e-3, "initial_pressure_ratio": 0.3}
 
 
-def two_bodies(**keywords):
-    """One slides down and runs into another, which lies at the foot."""
+def two_bodies(west=True):
+    """One slides down and runs into another, which lies at the foot; to the west that is the first in order of release."""
     grid = inclined((20, 70), 5.0, 0.5, soil=1.0, foot=150.0)
     release = grid.add_zeros("debris_flow__release_depth", at="node")
-    y = abs(grid.y_of_node - 48.0) < 11.0
-    release[y & (abs(grid.x_of_node - 30.0) < 13.0)] = 1.0
-    release[y & (abs(grid.x_of_node - 170.0) < 13.0)] = 0.5
-    keywords = {"numerics": {"particle_count": 400}, "material": MATERIAL, **keywords}
-    return grid, DebrisFlow(grid, **keywords)
+    x, y = grid.x_of_node, abs(grid.y_of_node - 48.0) < 11.0
+    if west:
+        z = grid.at_node["topographic__elevation"]
+        z[:] = z.reshape(grid.shape)[:, ::-1].ravel()
+        x = x.max() - x
+    release[y & (abs(x - 30.0) < 13.0)] = 1.0
+    release[y & (abs(x - 170.0) < 13.0)] = 0.5
+    return grid, DebrisFlow(grid, numerics={"particle_count": 400}, material=MATERIAL)
 
 
 def asleep(flow):
@@ -90,7 +93,7 @@ def test_who_is_disturbed_wakes_in_the_same_step(monkeypatch):
     lay = asleep(flow)
     # those of the lower body, and none of the other
     x = flow.particles.x.values[lay]
-    assert lay.size > 50 and x.min() > 150.0 and not np.any(sim.particles.velocity[:, sim.particles.awake :])
+    assert lay.size > 50 and x.max() < 345.0 - 150.0 and not np.any(sim.particles.velocity[:, sim.particles.awake :])
     woken.clear()
     flow.run_one_step(6.0)
     assert set(lay) & set(woken)  # the other has run into it
@@ -101,7 +104,6 @@ def test_what_sleeps_changes_its_place_but_not_its_name():
     _, flow = two_bodies()
     flow.run_one_step(4.0)
     p, shown = flow._simulation.particles, flow.particles
-    print(p.identity, asleep(flow).size)
     assert np.any(np.diff(p.identity) < 0)
     order = np.argsort(p.identity)
     for name in ("x", "y", "volume", "thickness", "basal_excess_pore_pressure"):
@@ -109,13 +111,17 @@ def test_what_sleeps_changes_its_place_but_not_its_name():
     np.testing.assert_array_equal(flow.columns.excess_pore_pressure, flow._simulation.columns_now()[order])
 
 
-def test_nobody_can_tell_who_slept(sleepless):
-    """Positions, columns and maps, on the way and at the end, with and without sleep."""
+@pytest.mark.parametrize("west", [False, True])
+def test_nobody_can_tell_who_slept(sleepless, west):
+    """Positions, columns and maps, on the way and at the end, with and without sleep.
+
+    Who sleeps leaves others a place in front; then sums are made in another order, and rounded otherwise.
+    """
     runs = []
     for sleeping in (True, False):
         if not sleeping:
             sleepless()
-        grid, flow = two_bodies(column={"law": "ale", "tolerance": 1e-9})
+        grid, flow = two_bodies(west)
         looks = []
         for duration in (4.0, 4.0, 4.0):
             flow.run_one_step(duration)
@@ -124,13 +130,19 @@ def test_nobody_can_tell_who_slept(sleepless):
         runs.append((looks, {name: grid.at_node[name].copy() for name in grid.at_node}, flow.elapsed_time, flow.budget))
     (slept, fields, time, budget), (awake, other_fields, other_time, other_budget) = runs
     assert max(look[2] for look in slept) > 50 and max(look[2] for look in awake) == 0
+    found = []
     for (particles, columns, _), (others, other_columns, _) in zip(slept, awake, strict=True):
-        for name in ("x", "y", "velocity_x", "volume"):
-            print("SAME", name, float(abs(particles[name] - others[name]).max()))
-        print("SAME basal", float((abs(particles.basal_excess_pore_pressure - others.basal_excess_pore_pressure)/particles.liquefaction_pressure).max()))
+        apart = max(float(abs(particles[name] - others[name]).max()) for name in "xyz")
+        base = abs(particles.basal_excess_pore_pressure - others.basal_excess_pore_pressure)
         pressure, other = columns.excess_pore_pressure.values, other_columns.excess_pore_pressure.values
-        print("SAME col", abs(pressure - other).max() / abs(other).max())
-    print("SAME time", time, other_time)
-    for name, values in fields.items():
-        print("SAME", name, abs(values - other_fields[name]).max(), abs(other_fields[name]).max())
-    print(budget, other_budget)
+        found.append((apart, float(base.max()) / other.max(), abs(pressure - other).max() / other.max()))
+    # in the same order: to the last bit while nobody woke. Afterwards floats decide, and a column that is left alone may
+    # be wrong by its tolerance: measured 3e-6 m and 9e-4 of the load after 8 s, 4 mm and 6e-4 while both stop
+    assert found[0][0] == 0.0 or west
+    assert found[0][2] < (1e-5 if west else 1e-9)
+    for (apart, base, profile), way in zip(found, (1e-5, 1e-4, 2e-2), strict=True):
+        assert apart < way and base < 3e-3 and profile < 3e-3
+    assert time == pytest.approx(other_time, rel=1e-4)
+    assert budget["eroded"] == pytest.approx(other_budget["eroded"], rel=1e-4)
+    lies = fields["debris_flow__deposit_depth"], other_fields["debris_flow__deposit_depth"]
+    assert abs(lies[0] - lies[1]).max() < 1e-2 * lies[1].max()  # measured 4e-3
