@@ -96,7 +96,7 @@ def measure(name, scene):
 
 
 def held(height):
-    """Return the lip of the surface over the edge of a cliff [m] and the part of the debris that stays behind it [-]."""
+    """Return the lip of the surface over the edge of a cliff [m] and the part of the body that stays behind it [-]."""
     scene = Scene(scenes.cliff(height), 30.0, 10.0, count=800).run()
     x = np.linspace(95.0, 100.0, 101)  # from the last node above to the first below
     y = np.full(x.size, 100.0)
