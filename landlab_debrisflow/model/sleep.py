@@ -87,9 +87,8 @@ def _held(sim, which: slice):
     p, physics = sim.particles, sim.physics
     n = which.stop - which.start
     none = np.zeros(n)
-    now = ColumnState(
-        *(values.copy() for values in step.columns(p, which))
-    )  # looking must not change how they are kept
+    # looking must not change how a law keeps its columns
+    now = ColumnState(*(values.copy() for values in step.columns(p, which)))
     physics.column.synchronise(now, step.forcing(sim, which, none, none))
     highest = np.maximum(now.profile.max(axis=1), p.basal_excess_pore_pressure[which])
     return step.held(sim, which, np.maximum(highest, 0.0))

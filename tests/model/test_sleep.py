@@ -6,13 +6,13 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import sleep, step
 
-from ..grids import inclined, place, release_slab
+from ..grids import copy_fields, inclined, place, release_slab
 
 MATERIAL = {"coefficient_of_consolidation": 2e-3, "initial_pressure_ratio": 0.3}
 
 
 def two_bodies(west=True):
-    """One slides down and runs into another, which lies at the foot; to the west that is the first in order of release."""
+    """One slides down and runs into another, which lies at the foot; to the west that one is released first."""
     grid = inclined((20, 70), 5.0, 0.5, soil=1.0, foot=150.0)
     release = grid.add_zeros("debris_flow__release_depth", at="node")
     x, y = grid.x_of_node, abs(grid.y_of_node - 48.0) < 11.0
@@ -127,7 +127,7 @@ def test_nobody_can_tell_who_slept(sleepless, west):
             flow.run_one_step(duration)
             looks.append((flow.particles, flow.columns, asleep(flow).size))
         flow.run_until_rest()
-        runs.append((looks, {name: grid.at_node[name].copy() for name in grid.at_node}, flow.elapsed_time, flow.budget))
+        runs.append((looks, copy_fields(grid), flow.elapsed_time, flow.budget))
     (slept, fields, time, budget), (awake, other_fields, other_time, other_budget) = runs
     assert max(look[2] for look in slept) > 50 and max(look[2] for look in awake) == 0
     found = []
