@@ -10,6 +10,7 @@ Those asleep are kept behind those awake, so the stages of a step work on one st
 
 import numpy as np
 
+from ..physics.contracts import ColumnState
 from . import step
 
 STEPS_BETWEEN_LOOKS = 16
@@ -82,8 +83,10 @@ def _held(sim, which: slice):
     p, physics = sim.particles, sim.physics
     n = which.stop - which.start
     none = np.zeros(n)
-    physics.column.synchronise(step.columns(p, which), step.forcing(sim, which, none, none))
-    highest = np.maximum(p.excess_pore_pressure[which].max(axis=1), p.basal_excess_pore_pressure[which])
+    # looking must not change how a law keeps its columns
+    now = ColumnState(*(values.copy() for values in step.columns(p, which)))
+    physics.column.synchronise(now, step.forcing(sim, which, none, none))
+    highest = np.maximum(now.profile.max(axis=1), p.basal_excess_pore_pressure[which])
     return step.held(sim, which, np.maximum(highest, 0.0))
 
 

@@ -67,7 +67,11 @@ _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 @kernel
 def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
-    """Count the images, and write whose they are and the walls in x and y [m], NaN for none, if there is room."""
+    """Count the images, and write whose they are and the walls in x and y [m], NaN for none, if there is room.
+
+    A wall is taken to be no nearer than a quarter of a spacing, so an image is no nearer than half of one. In a
+    corner a particle and its three images in one place would sum to more than any smoothing length can make up for.
+    """
     found = 0
     wx, wy = np.empty(3), np.empty(3)
     for i in range(x.size):
@@ -75,6 +79,7 @@ def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
         c = min(max(int(np.floor(x[i] / dx + 0.5)), 0), columns - 1)
         wx[0] = wy[0] = np.nan
         nx = ny = 1
+        least = 0.25 * SPACING * support[i]
         for side in (-1, 1):
             k = 1
             while 0 <= c + side * k < columns:
@@ -82,7 +87,7 @@ def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
                 if abs(face - x[i]) >= support[i]:
                     break
                 if status[r * columns + c + side * k] == CLOSED:
-                    wx[nx] = face
+                    wx[nx] = x[i] + side * max(abs(face - x[i]), least)
                     nx += 1
                     break
                 k += 1
@@ -92,7 +97,7 @@ def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
                 if abs(face - y[i]) >= support[i]:
                     break
                 if status[(r + side * k) * columns + c] == CLOSED:
-                    wy[ny] = face
+                    wy[ny] = y[i] + side * max(abs(face - y[i]), least)
                     ny += 1
                     break
                 k += 1

@@ -76,5 +76,3 @@ def test_asking_again_costs_no_copy(arrays):
     for row in range(100 - MARGIN, 103 + MARGIN):
         journal.cover(row, row + 1)
     assert len(journal._kept) == 1
-
-

@@ -24,7 +24,7 @@ def test_the_number_of_particles():
 def test_threads_change_nothing(valley):
     start = copy_fields(valley)
     ends = []
-    for threads in (1, 2):
+    for threads in (1, 2, 1, 2):
         for name, values in start.items():
             valley.at_node[name][:] = values
         for name in set(valley.at_node) - set(start):
@@ -32,9 +32,10 @@ def test_threads_change_nothing(valley):
         flow = DebrisFlow(valley, numerics={"particle_count": 300, "threads": threads})
         flow.run_until_rest()
         ends.append((copy_fields(valley), flow.budget, flow.elapsed_time))
-    assert ends[0][1:] == ends[1][1:]
-    for name, values in ends[0][0].items():
-        np.testing.assert_array_equal(values, ends[1][0][name], name)
+    for other in ends[1:]:
+        assert ends[0][1:] == other[1:]
+        for name, values in ends[0][0].items():
+            np.testing.assert_array_equal(values, other[0][name], name)
 
 
 @pytest.mark.parametrize("depth", [1.0, 0.05])
@@ -43,17 +44,18 @@ def test_no_step_jumps_over_the_terrain(monkeypatch, depth):
     grid = inclined((25, 60), 5.0, math.tan(math.radians(35.0)))
     release_cap(grid, (60.0, 60.0), (30.0, 30.0), depth, on_top=True)
     flow = DebrisFlow(grid, **dry_block(0.2, particle_count=100))
-    steps, record = [], Footprint.record
+    steps, follow = [], Footprint.follow
 
-    def watch(self, particles, time):
+    def watch(self, particles, time, fastest):
         steps.append((particles.x.copy(), particles.y.copy()))
-        record(self, particles, time)
+        follow(self, particles, time, fastest)
 
-    monkeypatch.setattr(Footprint, "record", watch)
+    monkeypatch.setattr(Footprint, "follow", watch)
     flow.run_one_step(5.0)
     longest = max(np.hypot(*np.subtract(b, a)).max() for a, b in itertools.pairwise(steps))
-    # the aim is a quarter of a spacing at the speed when the step begins; it may grow on the way
-    assert 0.1 * 5.0 < longest < 0.5 * 5.0
+    print("LONGEST", longest)
+    # half a spacing, with what gravity and thrust may add on the way
+    assert 0.3 * 5.0 < longest <= 0.5 * 5.0
 
 
 def test_shorter_steps_change_little(valley):

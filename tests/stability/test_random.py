@@ -1,7 +1,6 @@
 """Scenes nobody thought of: rough terrain, walls, any body, any law."""
 
 import numpy as np
-import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from landlab import RasterModelGrid

@@ -23,10 +23,11 @@ def root_mean_square_speed(scene, share):
 @pytest.mark.parametrize("amplitude", [0.0, 0.2])
 def test_still_water_calms_down(amplitude):
     """Without friction; what moves at first is the difference of a raster's surface to the particles'."""
-    scene = Scene(scenes.basin(amplitude), 400.0, count=300).run()
+    scene = Scene(scenes.basin(amplitude), 800.0, count=300).run()
     assert_sound(scene)
     assert len(scene.steps.lengths) > 500
-    early, late = root_mean_square_speed(scene, 0.1), root_mean_square_speed(scene, 1.0)
+    early, late = root_mean_square_speed(scene, 0.05), root_mean_square_speed(scene, 1.0)
+    print("CALM", early, late, CELERITY)
     # measured 3.2e-2 -> 3.3e-3 and 4.5e-2 -> 1.1e-4 m/s after 400 s; 1e-3 of the celerity is 4.4e-3 m/s
     assert late < 0.5 * early and late < 1.5e-3 * CELERITY
 
@@ -43,7 +44,7 @@ def test_water_over_a_rough_bed_has_a_residual():
     residual = G * float(np.mean((slope2 / (1.0 + slope2)) ** 1.5))
     # measured .17 m/s rms and a residual of .52 m/s2 in the mean: less than half a second of it
     assert root_mean_square_speed(scene, 1.0) < 0.5 * residual
-    calm = Scene(scenes.basin(1.0), 300.0, angle=1.0, count=300, numerics={"rest_energy": 1e-4}).run()
+    calm = Scene(scenes.basin(1.0), 300.0, angle=2.0, count=300, numerics={"rest_energy": 1e-4}).run()
     assert calm.flow.at_rest and not calm.speeds.any()
 
 

@@ -9,9 +9,6 @@ from . import scenes
 from .checks import assert_sound
 from .watch import NoThrust, Scene
 
-FALLS_OFF = "the drift leaves the tangent of a bed that bends, and the fall between the two is not paid for"
-WALLS = "a wall takes away one component of the map velocity; on a steep bed what is left can be faster"
-
 
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 @pytest.mark.parametrize("depth", [1.0, 5.0, 20.0])
@@ -31,36 +28,52 @@ def test_a_cliff(height, angle):
     assert scene.flow.budget["outflow"] < scene.flow.budget["released"]
 
 
-@pytest.mark.parametrize("angle", [0.0, 20.0])
+@pytest.mark.xfail(strict=True, reason="the surface overshoots by 2/27 of the height before the edge: a lip of 3.7 m")
+def test_a_cliff_is_no_dam():
+    """On 17 degrees with 10 of friction everything slides to the edge, and over it: 2 m above, 50 m below."""
+    scene = Scene(scenes.cliff(50.0), 30.0, 10.0, count=300).run()
+    p = scene.flow.particles
+    above = float(p.volume.values[p.x.values < 97.0].sum())
+    assert above < 0.2 * scene.flow.budget["released"]  # measured 0.96
+
+
+DEEP = "measured .17 m of 11 m of kinetic energy: what falls 100 m into a node and is stopped there piles up too thick"
+
+
 @pytest.mark.parametrize(
-    "depth", [5.0, 20.0, pytest.param(100.0, marks=pytest.mark.xfail(strict=True, reason=FALLS_OFF))]
-)
+    ("depth", "angle"),
+    [
+        (5.0, 0.0), (5.0, 20.0), (20.0, 0.0), (20.0, 20.0), (100.0, 0.0),
+        pytest.param(100.0, 20.0, marks=pytest.mark.xfail(strict=True, reason=DEEP)),
+    ],
+)  # fmt: skip
 def test_a_pit_ejects_nothing(depth, angle):
     scene = Scene(scenes.pit(depth), 20.0, angle, count=300).run()
     assert_sound(scene)
-    # what comes out is not higher than what was there before, up to what a step does not resolve
-    assert scene.watch.head <= scene.watch.rise
+    # what comes out is not higher than what was there before: measured -2.0, -9.3 and -44 m. The top is twice a
+    # quarter of the depth above the body, for a node that fails reaches half a spacing beyond
+    assert scene.watch.head <= 0.0
 
 
-@pytest.mark.xfail(strict=True, reason=FALLS_OFF)
 @pytest.mark.parametrize("depth", [20.0, 50.0, 200.0])
 def test_particles_without_pressure_keep_their_head_in_a_pit(depth):
+    """What the drift gains off a tangent is paid for: without that +28 m of head out of 20, +4100 m out of 200."""
     scene = Scene(scenes.pit(depth), 20.0, count=300, flow=NoThrust()).run()
-    assert scene.watch.head <= scene.watch.rise
+    assert scene.watch.head <= 0.0  # measured -9.6, -22 and -86 m; twice `rise` is 10, 25 and 100 m
 
 
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])
 def test_particles_without_pressure_keep_their_head_over_noise(amplitude):
     scene = Scene(scenes.noisy_slope(amplitude), 14.0, flow=NoThrust()).run()
-    assert scene.watch.head <= scene.watch.rise
-    assert scene.watch.speed <= 1.01 * scene.watch.allowed  # measured 0.999 and 1.001
+    assert scene.watch.head <= 0.0  # measured -5.1 and -8.5 m
+    assert scene.watch.speed <= scene.watch.allowed  # measured 0.98 and 0.96
 
 
 def test_no_step_jumps_over_the_terrain():
-    """A quarter of a node spacing at most, also where nothing but gravity acts."""
+    """Half a node spacing at most, also where nothing but gravity acts."""
     scene = Scene(scenes.plane(0.5, 1.0), 10.0, looks=10, count=100, flow=NoThrust()).run()
     # the last but one: a call ends with half a step, lest there be a sliver
-    assert scene.steps.lengths[-4] * scene.watch.speed == pytest.approx(0.25 * 5.0, rel=0.05)
+    assert scene.steps.lengths[-4] * scene.watch.speed == pytest.approx(0.5 * 5.0, rel=0.05)
 
 
 @pytest.mark.parametrize("angle", [0.0, 15.0])
@@ -82,9 +95,12 @@ def test_walls_of_closed_nodes(gap, angle):
     assert (behind > 0.0) == gap
 
 
-@pytest.mark.xfail(strict=True, reason=WALLS)
 def test_a_wall_never_makes_faster():
-    assert_sound(Scene(scenes.steep_corner(), 5.0, count=200).run())
+    """Nor does a corner, into which all of it falls at 48 m/s: images must not let the smoothing length collapse."""
+    scene = Scene(scenes.steep_corner(), 5.0, count=200).run()
+    assert_sound(scene)
+    assert scene.watch.head <= scene.watch.rise  # measured +.12 m; the thickness where it piles up makes the bound lax
+    assert scene.watch.speed <= scene.watch.allowed  # measured .93
 
 
 @pytest.mark.parametrize("degrees", [0.0, 80.0])

@@ -57,11 +57,11 @@ def test_a_ridge_spreads_at_the_exact_rate_whatever_its_friction(friction_angle)
 @pytest.mark.parametrize("degrees", [0.0, 45.0])
 def test_a_circular_cap_keeps_its_shape_whatever_the_slope(degrees):
     found = flow_planes.cap(500, degrees)
-    # measured 3e-3 and 2.5e-3 at most, and .018, .017 of h, .025, .024 of hu in the frame of the centre; with 2000
+    # measured 3.0e-3 and 2.6e-3 at most, and .018, .017 of h, .025, .024 of hu in the frame of the centre; with 2000
     # particles .009 and .019: the width of the kernel
     assert abs(found.scalars["radius along, error"]) < 5e-3 and abs(found.scalars["radius across, error"]) < 5e-3
     assert found.h.l1 < 0.025 and found.hu.l1 < 0.035
-    assert abs(found.scalars["energy drift"]) < 1e-3  # measured -3e-4, -4e-5
+    assert abs(found.scalars["energy drift"]) < 5.5e-4  # measured -3.6e-4, -4e-5
 
 
 def test_a_cap_with_friction_follows_the_similarity_solution():

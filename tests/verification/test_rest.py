@@ -67,6 +67,6 @@ def test_a_sliding_slab_stops_in_time_and_stays(sliding):
 
 def test_a_slab_that_finds_itself_on_gentler_ground_stops():
     found = flow_blocks.stopping_slab(300)
-    # measured +.13 and -.018: a stop is resolved to a time step, and steps near rest are long
-    assert abs(found.scalars["time error"]) < 0.2 and abs(found.scalars["travel error"]) < 0.03
+    # measured +.016 and -1.9e-4: steps get shorter as the flow slows down, so a stop is not resolved to a step any more
+    assert abs(found.scalars["time error"]) < 0.023 and abs(found.scalars["travel error"]) < 3e-4
     assert found.scalars["speed left [m/s]"] == 0.0 and found.scalars["moved after [m]"] == 0.0
