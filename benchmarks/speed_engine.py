@@ -45,11 +45,7 @@ def counting():
         original(sim, dt)
         p = sim.particles
         done.cpu, done.wall = done.cpu + time.process_time() - cpu, done.wall + time.perf_counter() - wall
-        done.steps, done.awake, done.all = (
-            done.steps + 1,
-            done.awake + sim.particles.awake,
-            done.all + sim.particles.count,
-        )
+        done.steps, done.awake, done.all = done.steps + 1, done.awake + p.awake, done.all + p.count
 
     with mock.patch.object(step, "advance", advance):
         yield done
@@ -100,8 +96,8 @@ def sums(flow, repeats) -> SumRate:
     sim = flow._simulation
     p, normal = sim.particles, 9.81 * sim.cosine
     moving = Moving(
-        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf), 0.5 * normal / p.gradient_term,
-        np.sqrt(normal * p.thickness), p.thickness, p.thickening,
+        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf),
+        0.5 * normal / p.gradient_term, np.sqrt(normal * p.thickness), p.thickness, p.thickening,
     )  # fmt: skip
     found = Sums(*(np.empty(s) for s in (p.count, p.count, p.count, (3, p.count), p.count)))
     cpus, sorting, walls = [], [], {1: [], 2: []}
@@ -191,8 +187,9 @@ def placed_valley(count, threads=1):
 
 STAGES = {
     "placing of the release": (simulation, "place_particles"), "rest of the set-up": (component.DebrisFlow, "_begin"),
-    "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"), "  of it the bed": (bed.Bed, "erode"),
-    "move": (step, "move"), "find ground": (step, "find_ground"), "interact": (step, "interact"),
+    "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
+    "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
+    "interact": (step, "interact"),
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
     "consolidate": (step, "consolidate"), "check": (step, "check"),
     "wake those disturbed": (sleep, "wake_disturbed"), "fall asleep": (sleep, "fall_asleep"),
