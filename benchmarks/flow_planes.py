@@ -27,7 +27,8 @@ HALF_STRIP = 6  # half width of the measured strip in particle spacings
 TRAVEL = 0.45  # of the reservoir's length, the way of the rarefaction until the end
 
 
-def plane(extent, spacing, angle, thickness, mu, count, walls=False, erosion="none", soil=None, saturated=None):
+def plane(extent, spacing, angle, thickness, mu, count, walls=False, erosion="none", soil=None, saturated=None,
+          threads=1):  # fmt: skip
     """Put a release, ``thickness(s, y)`` slope-normal [m], on a plane that falls towards larger s.
 
     Parameters
@@ -56,7 +57,7 @@ def plane(extent, spacing, angle, thickness, mu, count, walls=False, erosion="no
     if soil is not None:
         grid.add_full("soil__depth", soil, at="node")
     release(grid, thickness(grid.x_of_node / cos, grid.y_of_node) / cos, on_top=True)
-    keywords = dry_block(mu, erosion, particle_count=count)
+    keywords = dry_block(mu, erosion, particle_count=count, threads=threads)
     if saturated is not None:
         keywords = {"erosion": erosion, "numerics": keywords["numerics"]} | saturated
     return place(DebrisFlow(grid, flow=law_of_flow(), **keywords))
@@ -183,15 +184,21 @@ def ridge(along, degrees=30.0, friction_angle=20.0) -> Result:
     return _with(result, {"half width, error": half / width - 1.0})
 
 
-def similarity(particles) -> Result:
-    """AvaFrame's similarity solution: 35 degrees, friction 25, a cap of 80 m by 4 m, 5 s; absolute velocities."""
+def similarity_body(particles, threads=1):
+    """Put the cap of the similarity solution on its plane: 35 degrees, friction 25, 80 m by 4 m."""
     angle, friction = math.radians(35.0), math.tan(math.radians(25.0))
 
     def thickness(s, y):
         return 4.0 * np.maximum(0.0, 1.0 - (s**2 + y**2) / 6400.0)
 
-    flow = plane((-110.0, 180.0, -110.0, 110.0), 2.0, angle, thickness, friction, particles)
-    return _cap("similarity", flow, angle, friction, 5.0, exact.similarity, round(math.sqrt(particles)), still=True)
+    return plane((-110.0, 180.0, -110.0, 110.0), 2.0, angle, thickness, friction, particles, threads=threads)
+
+
+def similarity(particles) -> Result:
+    """AvaFrame's similarity solution: 35 degrees, friction 25, a cap of 80 m by 4 m, 5 s; absolute velocities."""
+    angle, friction = math.radians(35.0), math.tan(math.radians(25.0))
+    flow, along = similarity_body(particles), round(math.sqrt(particles))
+    return _cap("similarity", flow, angle, friction, 5.0, exact.similarity, along, still=True)
 
 
 def _cap(name, flow, angle, friction, duration, solution, along, inside=None, still=False) -> Result:

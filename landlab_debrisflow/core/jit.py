@@ -2,9 +2,9 @@
 
 Kernels are cached on disk, release the interpreter lock (members of an ensemble and ranges of
 cells run in threads) and may reorder sums, but never assume that numbers are finite: a NaN must
-survive until the check after the step. But np.isfinite(v) asks whether v - v is a number, and if v is
-itself a sum reordering makes that 0: in a kernel compare abs(v) with infinity instead. Reordering
-happens at compile time, so results stay bit-equal from run to run.
+survive until the check after the step. But in a kernel np.isfinite() asks whether v - v is a number, and of a v
+that is itself a sum reordering makes that 0: compare abs(v) with infinity instead. Reordering happens at
+compile time, so results stay bit-equal from run to run.
 
 What is compiled once and cached is what Python calls. All that a kernel calls is compiled again as
 a part of it, so a large function is best called from one place, and a stage that is called from

@@ -16,7 +16,7 @@ class Numerics:
     threads: int = parameter("-", "threads for the sums over neighbours", 1, (1, 256), kind=int)
     settle: bool = parameter("-", "lay the mass into the terrain when all is at rest", True, kind=bool)
     courant_number: float = parameter("-", "time step over smoothing length / celerity", 0.6, (1e-6, 1.0))
-    shock_viscosity: float = parameter("-", "strength of the viscosity at shocks", 1.0, (0.0, 10.0))
+    shock_viscosity: float = parameter("-", "strength of the viscosity at shocks", 1.0, (0.5, 10.0))
     rest_energy: float = parameter("-", "kinetic energy over its peak at which all is at rest", 1e-4, (0.0, 1.0))
     arrival_depth: float = parameter("m", "depth that counts as arrival", 0.01, (0.0, None))
 

@@ -44,9 +44,10 @@ def place_particles(depth, spacing, corner, surface: Surface, count: int):
         Thickness that fails in the cell each stands in [m].
     """
     x, y, share = _samples(depth, spacing, SAMPLES_PER_PARTICLE * count)
+    if x.size > 2 * SAMPLES_PER_PARTICLE * count:  # far more cells than particles: they need not see each of them
+        x, y, share = _centres(x, y, share, _split_equally(x, y, share, SAMPLES_PER_PARTICLE * count))
     group = _split_equally(x, y, share, count)
-    total = np.bincount(group, share, count)
-    centre_x, centre_y = np.bincount(group, share * x, count) / total, np.bincount(group, share * y, count) / total
+    centre_x, centre_y, _ = _centres(x, y, share, group)
     # the centre of a group that straddles a notch may lie outside: use one of its samples
     outside = _depth_at(depth, spacing, centre_x, centre_y) <= 0.0
     one = np.zeros(count, np.int64)
@@ -55,6 +56,13 @@ def place_particles(depth, spacing, corner, surface: Surface, count: int):
     x0, y0 = corner[1] * spacing[0], corner[0] * spacing[1]
     x, y = _relax(centre_x, centre_y, x, y, share, depth, spacing, lambda x, y: surface.sample(x + x0, y + y0))
     return x + x0, y + y0, _depth_at(depth, spacing, x, y)
+
+
+def _centres(x, y, share, group):
+    """Return the centres of groups of samples, and their volumes; a group may be empty where samples are uneven."""
+    total, x, y = np.bincount(group, share), np.bincount(group, share * x), np.bincount(group, share * y)
+    filled = total > 0.0
+    return x[filled] / total[filled], y[filled] / total[filled], total[filled]
 
 
 def _depth_at(depth, spacing, x, y):
@@ -139,7 +147,8 @@ def _relax(x, y, sample_x, sample_y, share, depth, spacing, read_ground):
     def length_and_ground(px, py):
         ground = read_ground(px, py)
         cosine = 1.0 / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
-        return SMOOTHING_RATIO * np.sqrt(volume / (_depth_at(depth, spacing, px, py) * cosine)), cosine, ground[0]
+        here = np.maximum(_depth_at(depth, spacing, px, py), THICKNESS_RANGE * depth.max())  # as in a flow
+        return SMOOTHING_RATIO * np.sqrt(volume / (here * cosine)), cosine, ground[0]
 
     sample_length, _, sample_z = length_and_ground(sample_x, sample_y)
     volumes = np.concatenate([np.full(n, volume), -share])

@@ -17,44 +17,40 @@ STEPS_BETWEEN_LOOKS = 16
 """Steps after which those that may fall asleep are looked for: looking is cheap, but not free."""
 
 
-def wake_disturbed(sim) -> None:
-    """Wake particles whose sums over neighbours were done again."""
+def disturbed(sim):
+    """Return the places of those asleep whose sums over neighbours are done again in this step."""
     p = sim.particles
-    if p.awake == p.count:
-        return
-    _wake(sim, p.awake + np.flatnonzero(sim.computed[p.awake :]))
+    return p.awake + np.flatnonzero(sim.computed[p.awake :])
 
 
-def wake_all(sim) -> None:
-    """Wake everybody."""
-    p = sim.particles
-    if p.awake < p.count:
-        _wake(sim, np.arange(p.awake, p.count))
-
-
-def _wake(sim, places) -> None:
+def wake(sim, places) -> None:
+    """Wake particles at sorted places; their columns must have caught up."""
     p = sim.particles
     if places.size == 0:
         return
     first, last = p.awake, p.awake + places.size
-    ahead = np.arange(first, last)
     # those already there stay where they are: places are sorted, so the others are the last ones
-    _exchange(sim, np.setdiff1d(ahead, places), places[places >= last])
-    catch_up(sim, first, last)
-    p.still_steps[first:last] = 0  # the ground or a neighbour moved; give the smoothing length time to settle
+    _exchange(sim, np.setdiff1d(np.arange(first, last), places), places[places >= last])
     p.awake = last
     none = np.zeros(places.size)
     sim.granted, sim.granted_ratio = np.concatenate([sim.granted, none]), np.concatenate([sim.granted_ratio, none])
 
 
-def catch_up(sim, first: int | None = None, last: int | None = None) -> None:
-    """Advance columns of those asleep, all or some, to the beginning of the present step."""
+def wake_all(sim) -> None:
+    """Wake everybody."""
+    p = sim.particles
+    places = np.arange(p.awake, p.count)
+    catch_up(sim, places)
+    wake(sim, places)
+
+
+def catch_up(sim, places=None) -> None:
+    """Advance columns of those asleep, at some places or all, to the present, under the load they slept under."""
     p, law = sim.particles, sim.physics.column
-    first, last = p.awake if first is None else first, p.count if last is None else last
-    order = first + np.argsort(p.asleep_since[first:last], kind="stable")
-    since = p.asleep_since[order]
+    places = np.arange(p.awake, p.count) if places is None else places
+    since = p.asleep_since[places]
     for began in np.unique(since[since < sim.time]):
-        for place in _stretches(order[since == began]):
+        for place in _stretches(places[since == began]):
             none = np.zeros(place.stop - place.start)
             forced = step.forcing(sim, place, none, none)
             law.advance(step.columns(p, place), forced, sim.time - began, p.basal_excess_pore_pressure[place])
@@ -108,6 +104,5 @@ def _exchange(sim, these, those) -> None:
 
 def _stretches(places):
     """Yield slices that cover sorted places."""
-    places = np.sort(places)
     for part in np.split(places, np.flatnonzero(np.diff(places) != 1) + 1):
         yield slice(int(part[0]), int(part[-1]) + 1)

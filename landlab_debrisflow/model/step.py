@@ -36,7 +36,7 @@ def advance(sim, dt: float) -> None:
     sim.inflow.enter(sim, sim.time + dt)
     find_ground(sim, dt)
     interact(sim)
-    sleep.wake_disturbed(sim)
+    sleep.wake(sim, sleep.disturbed(sim))
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -51,9 +51,10 @@ def friction_and_kick(sim, dt: float) -> None:
     sim.physics.friction.basal_resistance(base(sim, slice(m)), yield_stress, drag)
     mass = material.density * p.thickness[:m]
     kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
-    stop_at_walls(
-        m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
-    )
+    if sim.walled:
+        stop_at_walls(
+            m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
+        )
 
 
 def entrain(sim, dt: float):
@@ -94,7 +95,7 @@ def move(sim, dt: float, dilution) -> None:
     p, nodes = sim.particles, sim.bed.nodes
     left, sim.owed = np.empty(p.awake, np.int64), np.empty(p.awake)
     if sim.granted.any():  # the bed below has sunk: that is no fall of the flow
-        sim.bed.surface.read_elevation(p.x[: p.awake], p.y[: p.awake], p.z)
+        p.z[: p.awake] = sim.bed.surface.sample(p.x[: p.awake], p.y[: p.awake])[0]
     drift(
         p.x, p.y, p.z, p.velocity, dilution, nodes.dx, nodes.dy, nodes.columns, sim.status, dt, sim.owed, left,
         p.touched_wall,
@@ -143,6 +144,7 @@ def interact(sim) -> None:
         state, changed = mirror(state, changed, sim.bed.nodes, sim.status, p.touched_wall)
     sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sim.computed = sim.cells.computed[: p.count]
+    sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p)

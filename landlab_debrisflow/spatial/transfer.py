@@ -1,7 +1,7 @@
 """Carry volumes and values between particles and the nodes of a raster.
 
-The rule, used for every field, for erosion and for the deposit: a particle is a tent as wide as its
-own spacing (V/h)^(1/2), never narrower than the node spacing (then it is bilinear), never wider than
+The rule, used for every field, for erosion and for the deposit: a particle is a tent whose half-width is
+twice its own spacing (V/h)^(1/2), never less than the node spacing (then it is bilinear), never more than
 four. Its weights are normalised over the *core* nodes it reaches, so nothing is lost at a boundary
 and nothing is put outside.
 

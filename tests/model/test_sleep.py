@@ -76,19 +76,19 @@ def test_who_falls_asleep(slope, base, above, sleeps):
 def test_who_is_disturbed_wakes_in_the_same_step(monkeypatch):
     _, flow = two_bodies()
     sim, woken, most = flow._simulation, [], [0]
-    wake = sleep.wake_disturbed
+    wake = sleep.wake
 
-    def watched(sim):
+    def watched(sim, places):
         p = sim.particles
         most[0] = max(most[0], p.count - p.awake)
         disturbed = set(p.identity[p.awake :][sim.computed[p.awake :]])
-        wake(sim)
+        wake(sim, places)
         assert not sim.computed[p.awake :].any()
         awake = set(p.identity[: p.awake])
         assert disturbed <= awake
         woken.extend(disturbed)
 
-    monkeypatch.setattr(sleep, "wake_disturbed", watched)
+    monkeypatch.setattr(sleep, "wake", watched)
     flow.run_one_step(4.0)
     lay = asleep(flow)
     # those of the lower body, and none of the other

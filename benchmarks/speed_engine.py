@@ -1,0 +1,237 @@
+"""Rates of the engine: sums over neighbours alone, whole steps, and where the time of a step goes.
+
+This file and speed_grids.py reach inside the engine: they time and count its stages by name.
+"""
+
+import statistics
+import time
+from contextlib import contextmanager
+from typing import NamedTuple
+from unittest import mock
+
+import numba
+import numpy as np
+
+from benchmarks.flow_planes import similarity_body
+from landlab_debrisflow import DebrisFlow, component
+from landlab_debrisflow.demo import MATERIAL
+from landlab_debrisflow.model import footprint, simulation, sleep, step
+from landlab_debrisflow.physics.flow import one_phase
+from landlab_debrisflow.spatial.cells import sort_into_cells
+from landlab_debrisflow.spatial.summation import Moving, Sums, _copy_neighbourhood, _pack, sum_over_neighbours
+from landlab_debrisflow.terrain import bed
+from landlab_debrisflow.terrains import tsing_shan_valley
+
+FLOPS = 63
+"""Floating-point operations for a pair in summation._sum, minima and maxima among them, a reciprocal root as two."""
+
+BY_LATTICE = 50_000  # particles from which they are placed without the relaxation of the release
+
+
+class Steps:
+    """What was done inside `counting`."""
+
+    def __init__(self):
+        self.steps, self.awake, self.all, self.cpu, self.wall = 0, 0, 0, 0.0, 0.0  # numbers summed over the steps
+
+
+@contextmanager
+def counting():
+    """Count steps and the particles they advanced, and time them; yields a `Steps`."""
+    done, original = Steps(), step.advance
+
+    def advance(sim, dt):
+        cpu, wall = time.process_time(), time.perf_counter()
+        original(sim, dt)
+        p = sim.particles
+        done.cpu, done.wall = done.cpu + time.process_time() - cpu, done.wall + time.perf_counter() - wall
+        done.steps, done.awake, done.all = done.steps + 1, done.awake + p.awake, done.all + p.count
+
+    with mock.patch.object(step, "advance", advance):
+        yield done
+
+
+def _lattice(depth, spacing, corner, surface, count):
+    """Place particles of the similarity solution's cap on a jittered lattice: the release's own relaxation is slow."""
+    side = int(np.ceil(np.sqrt(4.0 * count / np.pi)))
+    rng = np.random.default_rng(0)
+    x, y = (np.stack(np.meshgrid(*2 * [np.arange(side) + 0.5])) + rng.uniform(-0.2, 0.2, (2, side, side))).reshape(
+        2, -1
+    )
+    x, y = 2.0 * x / side - 1.0, 2.0 * y / side - 1.0
+    part = x**2 + y**2
+    used = np.sort(np.argsort(part, kind="stable")[:count])
+    x, y, part = x[used], y[used], part[used] / part[used].max()
+    radius = np.sqrt(1.0 - np.sqrt(1.0 - 0.9999 * part))  # within which this part of a paraboloid's volume lies
+    stretch = 80.0 * radius / np.sqrt(part)
+    west, south = spacing[0] * 55.0, spacing[1] * 55.0  # the centre of the cap from the lower left node
+    return (
+        x * stretch * spacing[0] / spacing[1] + west,
+        y * stretch + south,
+        4.0 * (1.0 - radius**2) * spacing[1] / spacing[0],
+    )
+
+
+def cap(count, threads=1):
+    """Return the similarity solution at rest."""
+    if count < BY_LATTICE:
+        return similarity_body(count, threads)
+    with mock.patch.object(simulation, "place_particles", _lattice):
+        return similarity_body(count, threads)
+
+
+class SumRate(NamedTuple):
+    """One row of the table of sums."""
+
+    particles: int
+    cpu: float  # of one pass with one thread [s]
+    sorting: float  # its part in `sort_into_cells` [s]
+    walls: tuple[float, float]  # of one pass with one thread and with two [s]
+    computed: float  # pairs per particle that are computed
+    acting: float  # of these, in reach
+
+
+def sums(flow, repeats) -> SumRate:
+    """Time density and force of a flow as it is now: every particle, with the lengths it has."""
+    sim = flow._simulation
+    p, normal = sim.particles, 9.81 * sim.cosine
+    moving = Moving(
+        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf),
+        0.5 * normal / p.gradient_term, np.sqrt(normal * p.thickness), p.thickness, p.thickening,
+    )  # fmt: skip
+    found = Sums(*(np.empty(s) for s in (p.count, p.count, p.count, (3, p.count), p.count)))
+    cpus, sorting, walls = [], [], {1: [], 2: []}
+    for _ in range(repeats):
+        for threads, times in walls.items():
+            wall, cpu = time.perf_counter(), time.process_time()
+            cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length)
+            between = time.process_time()
+            sum_over_neighbours(cells, moving, 1.0, found, threads)
+            times.append(time.perf_counter() - wall)
+            if threads == 1:
+                cpus.append(time.process_time() - cpu)
+                sorting.append(between - cpu)
+    computed, acting = pairs(cells, moving)
+    return SumRate(p.count, min(cpus), min(sorting), (min(walls[1]), min(walls[2])), computed, acting)
+
+
+def pairs(cells, moving):
+    """Return how many pairs per particle are computed, and how many of them are in reach of one another."""
+    n = moving.x.size
+    places, packed = np.empty((3, n + 16), np.int32), np.empty((10, n + 16), np.float32)
+    quantum = cells.size / 2.0**23
+    _pack(cells.order, *moving[:6], *moving[7:], quantum, places, packed)
+    most = np.empty((3, n + 32), np.int32), np.empty((10, n + 32), np.float32)
+    found = _count(cells.columns, cells.start, cells.reach, cells.box, cells.window, places, packed, *most)
+    return found[0] / n, found[1] / n
+
+
+@numba.njit
+def _count(columns, start, reach, box, window, places, packed, where, what):
+    computed, acting = 0, 0
+    for cell in range(start.size - 1):
+        if start[cell] == start[cell + 1]:
+            continue
+        m = _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
+        computed += m * (start[cell + 1] - start[cell])
+        for k in range(start[cell], start[cell + 1]):
+            for j in range(m):
+                r2 = 0.0
+                for axis in range(3):
+                    r2 += float(np.int32(places[axis, k] - where[axis, j])) ** 2
+                inverse = packed[3, k] if what[9, j] == 0.0 else min(packed[3, k], what[3, j])
+                if what[9, j] != 0.0 and r2 * inverse * inverse < 1.0:
+                    acting += 1
+    return computed, acting
+
+
+class StepRate(NamedTuple):
+    """One row of the table of whole steps."""
+
+    particles: int
+    steps: int
+    cpu: float  # one thread, per step that advances all [s]
+    walls: tuple[float, float]
+
+
+def _timed(make, duration, threads):
+    """Run a flow that is at rest; return particle-steps, steps, CPU and wall time."""
+    flow = make(threads)
+    with counting() as done:
+        wall, cpu = time.perf_counter(), time.process_time()
+        flow.run_one_step(duration)
+        cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
+    return done.awake, done.steps, cpu, wall
+
+
+def whole(count, make, duration, repeats) -> StepRate:
+    """Time whole steps, the record on the nodes and all else of a call included; best of some repeats."""
+    runs = {threads: [_timed(make, duration, threads) for _ in range(repeats)] for threads in (1, 2)}
+    per = [min(wall / done for done, _, _, wall in runs[threads]) for threads in (1, 2)]
+    cpu = min(cpu / done for done, _, cpu, _ in runs[1])
+    return StepRate(count, runs[1][0][1], cpu * count, (per[0] * count, per[1] * count))
+
+
+def valley(count, threads=1, column=None):
+    """Return the demo's valley, its release not yet taken."""
+    numerics = {"particle_count": count, "threads": threads}
+    return DebrisFlow(tsing_shan_valley(), column=column, material=MATERIAL, numerics=numerics)
+
+
+def placed_valley(count, threads=1):
+    """Return the demo's valley at rest, particles placed."""
+    flow = valley(count, threads)
+    flow.run_one_step(1e-9)
+    return flow
+
+
+STAGES = {
+    "placing of the release": (simulation, "place_particles"), "rest of the set-up": (component.DebrisFlow, "_begin"),
+    "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
+    "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
+    "interact": (step, "interact"),
+    "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
+    "consolidate": (step, "consolidate"), "check": (step, "check"),
+    "wake those disturbed": (sleep, "wake_disturbed"), "fall asleep": (sleep, "fall_asleep"),
+    "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (footprint.Footprint, "record"),
+    "cover": (component.DebrisFlow, "_cover"), "settle and finish": (component.DebrisFlow, "_settle"),
+}  # fmt: skip
+"""What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
+
+
+def profile(make, repeats):
+    """Return CPU time by stage [s] of a whole event (medians), and the last `Steps`."""
+    runs = []
+    for _ in range(repeats):
+        flow, spent = make(), dict.fromkeys(STAGES, 0.0)
+        begin_of_step = []  # time spent in stages inside the one that is running
+
+        def timed(name, original, spent=spent, inside=begin_of_step):
+            part = name.startswith("  ")
+
+            def stage(*arguments, **keywords):
+                if not part:
+                    inside.append(0.0)
+                begin = time.process_time()
+                try:
+                    return original(*arguments, **keywords)
+                finally:
+                    taken = time.process_time() - begin
+                    spent[name] += taken if part else taken - inside.pop()
+                    if not part and inside:
+                        inside[-1] += taken
+
+            return stage
+
+        patches = [mock.patch.object(o, a, timed(n, getattr(o, a))) for n, (o, a) in STAGES.items()]
+        with counting() as done:
+            for one in patches:
+                one.start()
+            begin = time.process_time()
+            flow.run_until_rest()
+            spent["all"] = time.process_time() - begin
+            for one in patches:
+                one.stop()
+        spent["the rest"] = spent["all"] - sum(spent[name] for name in STAGES if not name.startswith("  "))
+        runs.append(spent)
+    return {name: statistics.median(run[name] for run in runs) for name in runs[0]}, done

@@ -1,0 +1,48 @@
+"""The work of a step is that of the flow, whatever the raster around it."""
+
+import numpy as np
+import pytest
+
+from benchmarks.speed_grids import touched_by, valley
+from landlab_debrisflow.core.variables import OUTPUT_PREFIX
+
+SHIFT = 6
+SCENE = {"spacing": 4.0, "foot": 38, "axis": 38, "top": 35, "radius": 6.0, "particles": 150}
+"""All of it lies between 128 and 256 m from the lower left node, shifted or not: floats are as dense there, so that
+both runs round alike and must be equal to the last bit."""
+
+
+@pytest.fixture(scope="module")
+def runs():
+    flows = valley(nodes=60, offset=0, **SCENE), valley(nodes=240, offset=SHIFT, **SCENE)
+    return flows, [touched_by(flow) for flow in flows]
+
+
+def test_the_same_nodes_are_touched_in_every_step(runs):
+    _, (small, large) = runs
+    assert len(small.eroded) > 50 and max(small.eroded) > 0 and max(small.shown) > 0
+    assert small.eroded == large.eroded
+    assert small.shown == large.shown
+
+
+def test_what_is_touched_is_a_small_part(runs):
+    _, (_, large) = runs
+    assert max(large.eroded) < 200 and max(large.shown) < 400  # of 57 600
+
+
+def test_results_are_equal_to_the_last_bit(runs):
+    (small, large), _ = runs
+    for name in small.grid.at_node:
+        if name.startswith(OUTPUT_PREFIX) or name in ("topographic__elevation", "soil__depth"):
+            part = large.grid.at_node[name].reshape(large.grid.shape)[SHIFT : SHIFT + 60, SHIFT : SHIFT + 60]
+            assert np.array_equal(small.grid.at_node[name].reshape(60, 60), part), name
+
+
+def test_nothing_else_changes(runs):
+    (_, large), _ = runs
+    outside = np.ones(large.grid.shape, bool)
+    outside[SHIFT : SHIFT + 60, SHIFT : SHIFT + 60] = False
+    fresh = valley(nodes=240, offset=SHIFT, **SCENE).grid
+    for name in fresh.at_node:
+        now, before = (grid.at_node[name].reshape(grid.shape)[outside] for grid in (large.grid, fresh))
+        assert np.array_equal(now, before), name
