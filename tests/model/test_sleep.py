@@ -136,7 +136,7 @@ def test_nobody_can_tell_who_slept(sleepless, west):
         base = abs(particles.basal_excess_pore_pressure - others.basal_excess_pore_pressure)
         pressure, other = columns.excess_pore_pressure.values, other_columns.excess_pore_pressure.values
         found.append((apart, float(base.max()) / other.max(), abs(pressure - other).max() / other.max()))
-    # in the same order: to the last bit while nobody woke. Afterwards floats decide, and a column that is left alone may
+    # In the same order: to the last bit while nobody woke. Afterwards floats decide, and a column left alone may
     # be wrong by its tolerance: measured 3e-6 m and 9e-4 of the load after 8 s, 4 mm and 6e-4 while both stop
     assert found[0][0] == 0.0 or west
     assert found[0][2] < (1e-5 if west else 1e-9)

@@ -66,7 +66,7 @@ def test_nothing_that_moves_needs_no_pace():
 
 
 def test_viscosity_shortens_steps_as_damped_leapfrog_does():
-    """The share is that of the longest steps at which both roots of a step's amplification are within the unit circle."""
+    """As for the longest steps at which both roots of the amplification of a step are within the unit circle."""
     for viscosity in (1.0, 2.0, 3.0, 6.0, 10.0):
         limit = viscous_share(viscosity) * bound(1.0)
         assert limit == pytest.approx(bound(viscosity), rel=1e-6)
