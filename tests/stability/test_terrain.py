@@ -33,22 +33,15 @@ def test_a_cliff_is_no_dam():
     scene = Scene(scenes.cliff(50.0), 30.0, 10.0, count=300).run()
     p = scene.flow.particles
     above = float(p.volume.values[p.x.values < 97.0].sum())
-    assert above < 0.2 * scene.flow.budget["released"]  # measured 0.96
+    assert above < 0.02 * scene.flow.budget["released"]  # measured 0; .96 where the surface has a lip of 3.7 m
 
 
-DEEP = "measured .17 m of 11 m of kinetic energy: what falls 100 m into a node and is stopped there piles up too thick"
-
-
-@pytest.mark.parametrize(
-    ("depth", "angle"),
-    [
-        (5.0, 0.0), (5.0, 20.0), (20.0, 0.0), (20.0, 20.0), (100.0, 0.0),
-        pytest.param(100.0, 20.0, marks=pytest.mark.xfail(strict=True, reason=DEEP)),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize("angle", [0.0, 20.0])
+@pytest.mark.parametrize("depth", [5.0, 20.0, 100.0])
 def test_a_pit_ejects_nothing(depth, angle):
     scene = Scene(scenes.pit(depth), 20.0, angle, count=300).run()
-    assert_sound(scene)
+    # measured 0, .7 and .2 % of the kinetic energy, with friction up to 1.5 %: a step crosses half of the pit's wall
+    assert_sound(scene, energy=0.02)
     # what comes out is not higher than what was there before: measured -2.0, -9.3 and -44 m. The top is twice a
     # quarter of the depth above the body, for a node that fails reaches half a spacing beyond
     assert scene.watch.head <= 0.0
