@@ -24,6 +24,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from landlab_debrisflow.core.errors import SimulationError
 from landlab_debrisflow.model import timestep
 from tests.stability import scenes
 from tests.stability.watch import NoThrust, Scene
@@ -117,8 +118,13 @@ def gains(factors, viscosity, count=2000):
         timestep.TERRAIN_FRACTION = 1e3
         scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
         object.__setattr__(scene.flow._numerics, "courant_number", factor * LIMIT)  # past the check
-        scene.run()
-        timestep.TERRAIN_FRACTION = fraction
+        try:
+            scene.run()
+        except SimulationError:  # the end of what has blown up
+            found.append(math.nan)
+            continue
+        finally:
+            timestep.TERRAIN_FRACTION = fraction
         left = scene.flow.budget["outflow"] > 0.0
         found.append(math.nan if left else max(scene.watch.gain, 1e-9) / 0.0344)
     return found

@@ -147,6 +147,11 @@ class Inflow:
         distance = source.strip / (2.0 * SMOOTHING_RATIO)
         return time + distance / max(source.at(time, source.velocity), 1e-300)
 
+    def latest(self, time: float) -> float:
+        """Return until when a step that begins at `time` may go [s]: `latest_step`, but past no bend of a series."""
+        soon = time + 1e-9 * (1.0 + abs(time))
+        return min([self.latest_step, *(float(t) for source in self.sources for t in source.times if t > soon)])
+
     @property
     def volume(self) -> float:
         """Volume of the rows that have entered so far [m3]."""

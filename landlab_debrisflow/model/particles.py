@@ -20,6 +20,7 @@ class Particles:
     --------
     >>> particles = Particles(levels=11)
     >>> particles.append(3, volume=2.0)
+    slice(0, 3, None)
     >>> particles.count, float(particles.volume.sum()), particles.velocity.shape
     (3, 6.0, (3, 3))
     """

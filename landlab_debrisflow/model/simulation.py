@@ -1,6 +1,7 @@
 """The event: clock, loop, release, rest and settling."""
 
 import logging
+from copy import copy
 
 import numpy as np
 
@@ -76,7 +77,7 @@ class Simulation:
         ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]
         return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
 
-    def release(self, nodes, depth) -> float:
+    def release(self, nodes, depth) -> None:
         """Turn failing ground into particles at rest on the bed below.
 
         Parameters
@@ -85,11 +86,6 @@ class Simulation:
             Where it fails.
         depth : ndarray
             Vertical thickness that fails there [m].
-
-        Returns
-        -------
-        float
-            The volume released, summed over the particles [m3].
         """
         p, raster, material = self.particles, self.bed.nodes, self.physics.material
         volume = depth.sum() * raster.area
@@ -117,7 +113,6 @@ class Simulation:
         step.consolidate(self, 0.0)
         self._peak_energy, self._arrested = 0.0, False
         self._pace.restart()
-        return float(p.volume[new].sum())
 
     def _find_everything(self, sweeps: int = 1) -> None:
         """Find ground, thickness and forces anew where particles or terrain changed by other hands."""
@@ -203,7 +198,7 @@ class Simulation:
 
     def _next_step(self, left: float) -> float:
         longest = self._pace.longest(self.survey.longest_step, self.survey.energy)
-        longest = min(longest, self.inflow.latest_step - self.time)
+        longest = min(longest, self.inflow.latest(self.time) - self.time)
         if left <= longest:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
@@ -289,11 +284,11 @@ class Simulation:
 
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
-        rows = self.inflow.rows_entered
-        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested, rows
+        kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps")}
+        return self.particles.copy(), dict(self.outflow), copy(self._pace), self.inflow.rows_entered, kept
 
     def restore(self, snapshot) -> None:
         """Go back to a snapshot."""
-        self.particles, self.time, self.outflow, self._peak_energy, self._arrested, rows = snapshot
-        self.inflow.rows_entered = rows
+        self.particles, self.outflow, self._pace, self.inflow.rows_entered, kept = snapshot
+        vars(self).update(kept)
         self._changed = True
