@@ -51,7 +51,7 @@ def test_closed_walls_hold_and_say_so(slope, caplog):
     assert flow.budget["outflow"] == 0.0 and not any(flow.outflow_by_edge.values())
     warnings = [record.getMessage() for record in caplog.records]
     assert len(warnings) == 1 and "m3 ran against closed or NODATA nodes" in warnings[0]
-    assert 0.0 < float(warnings[0].split()[0]) <= flow.budget["deposited"]
+    assert 0.0 < float(warnings[0].split()[0]) <= 1.01 * flow.budget["deposited"]  # said in three digits
     closed = slope.status_at_node == slope.BC_NODE_IS_CLOSED
     for name in (Z, SOIL):
         np.testing.assert_array_equal(slope.at_node[name][closed], before[name][closed])

@@ -99,11 +99,11 @@ def test_many_calls_are_one_call(hill):
     one, *others = flows
     for flow in others:
         # Rows do not depend on steps, but a particle flows by itself from the end of the step in which it leaves
-        # the strip. Measured 1.1 m for the few at the front, 34 m further, and 0.05 m in the mean; erosion 6e-3
+        # the strip. Measured .8 m for the few at the front, 34 m further, and .15 m in the middle; erosion of 4 m3, 4e-2
         assert flow.budget["inflow"] == one.budget["inflow"]
-        assert flow.budget["eroded"] == pytest.approx(one.budget["eroded"], rel=0.02)
+        assert flow.budget["eroded"] == pytest.approx(one.budget["eroded"], rel=0.055)
         apart = np.hypot(flow.particles.x - one.particles.x, flow.particles.y - one.particles.y)
-        assert float(apart.max()) < 2.0 and float(apart.median()) < 0.1
+        assert float(apart.max()) < 1.2 and float(apart.median()) < 0.22
         assert float(flow.particles.x.mean()) == pytest.approx(float(one.particles.x.mean()), abs=0.15)
 
 

@@ -59,13 +59,11 @@ class Journal:
 
     def fall(self, which: int, counted=None) -> float:
         """Return by how much the sum of one array has fallen, over nodes where `counted` (all by default) is True."""
-        array = self._arrays[which]
-        return float(
-            sum(
-                np.sum(copies[which] - array[part], where=True if counted is None else counted[part])
-                for part, copies in self._kept
-            )
-        )
+        fallen = 0.0
+        for part, copies in self._kept:
+            here = slice(None) if counted is None else counted[part]
+            fallen += float(np.sum(copies[which][here] - self._arrays[which][part][here]))
+        return fallen
 
     def restore(self) -> None:
         """Put everything back."""

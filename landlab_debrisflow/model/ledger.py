@@ -13,7 +13,7 @@ class Ledger:
     """
 
     def __init__(self, area: float):
-        self._area = area
+        self._area = float(area)
         self.released = self.deposited = 0.0
         self._eroded = 0.0  # in earlier calls
         self._core = self._soil = None

@@ -19,7 +19,7 @@ class Particles:
     Examples
     --------
     >>> particles = Particles(levels=11)
-    >>> particles.append(3, volume=2.0)
+    >>> places = particles.append(3, volume=2.0)
     >>> particles.count, float(particles.volume.sum()), particles.velocity.shape
     (3, 6.0, (3, 3))
     """

@@ -289,11 +289,11 @@ class Simulation:
 
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
-        rows = self.inflow.rows_entered
-        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested, rows
+        pace = self._steps, self._pace.copy(), self.rest_speed, self.inflow.rows_entered
+        return self.particles.copy(), self.time, dict(self.outflow), self._peak_energy, self._arrested, pace
 
     def restore(self, snapshot) -> None:
         """Go back to a snapshot."""
-        self.particles, self.time, self.outflow, self._peak_energy, self._arrested, rows = snapshot
-        self.inflow.rows_entered = rows
+        self.particles, self.time, self.outflow, self._peak_energy, self._arrested, pace = snapshot
+        self._steps, self._pace, self.rest_speed, self.inflow.rows_entered = pace
         self._changed = True

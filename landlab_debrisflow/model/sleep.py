@@ -20,7 +20,8 @@ STEPS_BETWEEN_LOOKS = 16
 def disturbed(sim):
     """Return the places of those asleep whose sums over neighbours are done again in this step."""
     p = sim.particles
-    return p.awake + np.flatnonzero(sim.computed[p.awake :])
+    # without particles nothing was computed, and what was noted last is of those that have left
+    return p.awake + np.flatnonzero(sim.computed[p.awake : p.count])
 
 
 def wake(sim, places) -> None:

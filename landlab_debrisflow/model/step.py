@@ -31,6 +31,7 @@ NO_SOURCE = np.zeros(1)
 def advance(sim, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     friction_and_kick(sim, 0.5 * dt)
+    sim.inflow.hold(sim, sim.time + 0.5 * dt)
     dilution = entrain(sim, dt)
     move(sim, dt, dilution)
     sim.inflow.enter(sim, sim.time + dt)

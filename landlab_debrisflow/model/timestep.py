@@ -1,5 +1,6 @@
 """How long a step may be, and what else is asked of all particles at the end of one."""
 
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +32,10 @@ class Pace:
 
     def __init__(self):
         self._step = self._speed = np.inf
+
+    def copy(self) -> "Pace":
+        """Return an independent copy."""
+        return copy(self)
 
     def restart(self) -> None:
         """Something new is released."""
