@@ -99,7 +99,7 @@ def test_many_calls_are_one_call(hill):
     one, *others = flows
     for flow in others:
         # Rows do not depend on steps, but a particle flows by itself from the end of the step in which it leaves
-        # the strip. Measured .8 m for the few at the front, 34 m further, and .15 m in the middle; erosion of 4 m3, 4e-2
+        # the strip. Measured .8 m for the few at the front, 34 m on, and .15 m in the middle; erosion of 4 m3, 4e-2
         assert flow.budget["inflow"] == one.budget["inflow"]
         assert flow.budget["eroded"] == pytest.approx(one.budget["eroded"], rel=0.055)
         apart = np.hypot(flow.particles.x - one.particles.x, flow.particles.y - one.particles.y)
