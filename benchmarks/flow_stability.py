@@ -24,6 +24,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from landlab_debrisflow.model import timestep
 from tests.stability import scenes
 from tests.stability.watch import NoThrust, Scene
 
@@ -107,12 +108,17 @@ def held(height):
 
 
 def gains(factors, viscosity, count=2000):
-    """Return the energy gained in the bowl over a period, over the kinetic energy of the exact solution, per step."""
-    found = []
+    """Return the energy gained in the bowl over a period, over the kinetic energy of the exact solution, per step.
+
+    The limit by node spacing, which would hold the longer steps back, is lifted.
+    """
+    found, fraction = [], timestep.TERRAIN_FRACTION
     for factor in factors:
+        timestep.TERRAIN_FRACTION = 1e3
         scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
         object.__setattr__(scene.flow._numerics, "courant_number", factor * LIMIT)  # past the check
         scene.run()
+        timestep.TERRAIN_FRACTION = fraction
         left = scene.flow.budget["outflow"] > 0.0
         found.append(math.nan if left else max(scene.watch.gain, 1e-9) / 0.0344)
     return found
@@ -123,7 +129,8 @@ def chart():
     factors = np.array([0.25, 0.35, 0.49, 0.6, 0.7, 0.82, 0.9, 1.0, 1.15, 1.35, 1.6, 2.0])
     figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
     for viscosity, marker in ((0.5, "D"), (1.0, "o"), (3.0, "^")):
-        axes.plot(factors, gains(factors, viscosity), marker=marker, ms=5, lw=1.2, label=f"{viscosity:g}")
+        words = f"{viscosity:g}" + (", steps shortened" if viscosity > 1.0 else "")
+        axes.plot(factors, gains(factors, viscosity), marker=marker, ms=5, lw=1.2, label=words)
     axes.axvline(1.0 / LIMIT, color="0.4", lw=1, ls=":")
     axes.axvline(0.6 / LIMIT, color="0.4", lw=1, ls="--")
     top = {"xycoords": ("data", "axes fraction"), "rotation": 90, "va": "top", "ha": "right", "fontsize": 8}

@@ -192,7 +192,7 @@ STAGES = {
     "interact": (step, "interact"),
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
     "consolidate": (step, "consolidate"), "check": (step, "check"),
-    "wake those disturbed": (sleep, "wake_disturbed"), "fall asleep": (sleep, "fall_asleep"),
+    "wake those disturbed": (sleep, "wake"), "fall asleep": (sleep, "fall_asleep"),
     "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (footprint.Footprint, "record"),
     "cover": (component.DebrisFlow, "_cover"), "settle and finish": (component.DebrisFlow, "_settle"),
 }  # fmt: skip

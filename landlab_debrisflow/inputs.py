@@ -97,7 +97,7 @@ def read_release(grid, soil):
 
 
 def _nonzero(grid, field):
-    """Return the nodes where a field is not 0 (NaN is not), and its values there; of closed ones those that are > 0."""
+    """Return the nodes where a field is not 0 (NaN is not), on closed ones > 0, and its values there."""
     nodes = np.flatnonzero(field)
     nodes = nodes[(grid.status_at_node[nodes] != CLOSED) | (field[nodes] > 0.0)]
     return nodes, field[nodes]

@@ -59,11 +59,11 @@ class Journal:
 
     def fall(self, which: int, counted=None) -> float:
         """Return by how much the sum of one array has fallen, over nodes where `counted` (all by default) is True."""
-        fallen = 0.0
+        array, total = self._arrays[which], 0.0
         for part, copies in self._kept:
-            here = slice(None) if counted is None else counted[part]
-            fallen += float(np.sum(copies[which][here] - self._arrays[which][part][here]))
-        return fallen
+            here = slice(None) if counted is None else counted[part]  # what is not counted may be no number
+            total += float(np.sum(copies[which][here] - array[part][here]))
+        return total
 
     def restore(self) -> None:
         """Put everything back."""

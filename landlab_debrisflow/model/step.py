@@ -134,6 +134,7 @@ def interact(sim) -> None:
     """Sum over neighbours: slope-normal thickness, which the smoothing length follows, and thrust."""
     p, material, numerics = sim.particles, sim.physics.material, sim.numerics
     if p.count == 0:
+        sim.computed = np.zeros(0, bool)
         return
     longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
     state = FlowState(

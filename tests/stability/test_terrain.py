@@ -33,29 +33,25 @@ def test_a_cliff_is_no_dam():
     scene = Scene(scenes.cliff(50.0), 30.0, 10.0, count=300).run()
     p = scene.flow.particles
     above = float(p.volume.values[p.x.values < 97.0].sum())
-    assert (
-        above < 0.2 * scene.flow.budget["released"]
-    )  # measured 0; .96 behind the lip of a surface whose slopes are not limited
+    assert above < 0.02 * scene.flow.budget["released"]  # measured 0; .96 where the surface has a lip of 3.7 m
 
 
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 @pytest.mark.parametrize("depth", [5.0, 20.0, 100.0])
 def test_a_pit_ejects_nothing(depth, angle):
     scene = Scene(scenes.pit(depth), 20.0, angle, count=300).run()
-    watch = scene.watch
-    assert watch.finite and scene.imbalance <= 1e-12 and watch.excess <= 0.0
-    # slopes that are limited have kinks: measured up to 6.7e-3 of the kinetic energy without and 1.5e-2 with friction
-    assert watch.gain <= 0.02 * max(watch.kinetic)
-    # what comes out is not higher than what was there before: measured -2.0, -9.6 and -49 m. The top is twice a
+    # measured 0, .7 and .2 % of the kinetic energy, with friction up to 1.5 %: a step crosses half of the pit's wall
+    assert_sound(scene, energy=0.02)
+    # what comes out is not higher than what was there before: measured -2.0, -9.3 and -44 m. The top is twice a
     # quarter of the depth above the body, for a node that fails reaches half a spacing beyond
-    assert watch.head <= 0.0
+    assert scene.watch.head <= 0.0
 
 
 @pytest.mark.parametrize("depth", [20.0, 50.0, 200.0])
 def test_particles_without_pressure_keep_their_head_in_a_pit(depth):
     """What the drift gains off a tangent is paid for: without that +28 m of head out of 20, +4100 m out of 200."""
     scene = Scene(scenes.pit(depth), 20.0, count=300, flow=NoThrust()).run()
-    assert scene.watch.head <= 0.0  # measured -11, -26 and -101 m; twice `rise` is 10, 25 and 100 m
+    assert scene.watch.head <= 0.0  # measured -9.6, -22 and -86 m; twice `rise` is 10, 25 and 100 m
 
 
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])

@@ -8,7 +8,7 @@ from benchmarks.flow_basins import thacker_curved, thacker_planar
 
 def test_a_flat_surface_swings_to_and_fro():
     found = thacker_planar(500)
-    # measured .020 of h, .021 of hu: the release starts .8 % narrower than the cap and breathes from there on, while the
+    # measured .020 of h, .021 of hu: the release starts .8 % narrower than the cap and breathes from there on; the
     # centre is right to 3e-4 of its way
     assert found.h.l1 < 0.027 and found.hu.l1 < 0.028
     assert found.h.max < 0.03  # no jets at the edge; measured .019
