@@ -54,19 +54,18 @@ def test_beyond_the_limit_it_does_blow_up():
     assert scene.watch.gain > 0.3 * max(scene.watch.kinetic) and scene.flow.budget["outflow"] > 0.0
 
 
-@pytest.mark.parametrize(
-    "viscosity",
-    [
-        pytest.param(0.0, marks=pytest.mark.xfail(strict=True, reason="without shock viscosity energy grows")),
-        0.5,
-        1.0,
-        3.0,
-        6.0,
-        10.0,
-    ],
-)
+def test_without_shock_viscosity_energy_grows():
+    """What its lower bound protects from: measured 1.1 of the kinetic energy, .23 with a strength of .25."""
+    with pytest.raises(ParameterError, match="shock_viscosity"):
+        swing(shock_viscosity=0.49)
+    scene = build()
+    object.__setattr__(scene.flow._numerics, "shock_viscosity", 0.0)
+    assert scene.run().watch.gain > 0.5 * max(scene.watch.kinetic)
+
+
+@pytest.mark.parametrize("viscosity", [0.5, 1.0, 3.0, 6.0, 10.0])
 def test_the_shock_viscosity_is_stable_over_its_range(viscosity):
-    """Gains over the kinetic energy: 1.1 at 0, 8e-3, 2e-3, 3e-6 and, as steps get shorter, 0 from 6 on."""
+    """Gains over the kinetic energy: 8e-3, 2e-3, 3e-6 and, as steps get shorter, 0 from 6 on."""
     scene = swing(shock_viscosity=viscosity)
     assert_sound(scene)
     assert scene.flow.budget["outflow"] == 0.0  # nothing is thrown out of the bowl

@@ -9,12 +9,13 @@ def test_a_damped_lake_becomes_level():
     # noise of the thickness of a disordered lattice, .6 %. The waves themselves would show with 25 mm rms.
     assert found.scalars["surface rms [m]"] < 8e-3
     assert abs(found.scalars["surface mean [m]"]) < 2.2e-3
-    assert found.scalars["largest speed [m/s]"] < 0.04  # measured .011 to .022, of celerity 3.1 m/s
+    # measured .022, .011 before slopes were limited; celerity is 3.1 m/s
+    assert found.scalars["largest speed [m/s]"] < 0.03
 
 
 def test_a_lake_over_a_rough_floor_stays_quiet():
     found = lake_rough(1000)
-    # waves of .5 m by 20 m below 2 m, without friction, after 30 s: measured .033 m/s of celerity 4.4 m/s. A quarter
+    # waves of .5 m by 20 m below 2 m, without friction, after 30 s: measured .030 m/s of celerity 4.4 m/s. A quarter
     # wave of g sin^3(theta), .017 m/s2 rms, on its own drives some .02 m/s.
     assert found.scalars["rms speed at the end [m/s]"] < 0.046
     assert found.h.l1 < 0.033  # measured .024
