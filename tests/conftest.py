@@ -44,7 +44,7 @@ def valley():
 @pytest.fixture(autouse=True)
 def every_call_balances(monkeypatch):
     """In every test and example: volume, and the elevation the call left, against the budget, to round-off."""
-    run = DebrisFlow._run
+    run, known = DebrisFlow._run, {}
 
     def checked(flow, duration, stop_at_rest):
         z, core = flow.grid.at_node["topographic__elevation"], flow.grid.core_nodes
@@ -52,11 +52,13 @@ def every_call_balances(monkeypatch):
         run(flow, duration, stop_at_rest)
         after, area = flow.budget, flow.grid.dx * flow.grid.dy
         tolerance = 1e-12 * (after["released"] + after["inflow"] + after["eroded"])
-        assert abs(after["residual"]) <= tolerance
         gain = {name: after[name] - before[name] for name in after}
         rise = np.sum(z[core] - ground) * area
         # an elevation is rounded to eps |z| where it changes: in the release, by erosion and in the deposit
         rounding = 3.0 * np.finfo(float).eps * np.linalg.norm(ground[z[core] != ground]) * area
+        # what has been laid down, in this call or before, is measured in the elevation, too
+        known[flow] = known.get(flow, 0.0) + rounding
+        assert abs(after["residual"]) <= tolerance + known[flow]
         assert abs(rise - (gain["deposited"] - gain["released"] - gain["eroded"])) <= tolerance + rounding
 
     monkeypatch.setattr(DebrisFlow, "_run", checked)

@@ -10,21 +10,22 @@ class InputError(ValueError):
 
 
 class SimulationError(RuntimeError):
-    """The state stopped being finite.
+    """The state stopped being finite, or steps became too short to get on.
 
     Attributes
     ----------
     time : float
         Elapsed time of the event at which it was noticed [s].
-    particle : int
-        Index of the first particle concerned.
+    particle : int or None
+        Number of a particle concerned, in order of release; None: it is of all.
     variable : str
         Name of the variable that is not finite.
     """
 
-    def __init__(self, variable: str, particle: int, time: float, value: float):
+    def __init__(self, variable: str, particle: int | None, time: float, value: float):
         self.variable, self.particle, self.time = variable, particle, time
+        whose = "" if particle is None else f" of particle {particle}"
         super().__init__(
-            f"{variable} of particle {particle} became {value} at {time:.6g} s; the grid is as it "
+            f"{variable}{whose} became {value} at {time:.6g} s; the grid is as it "
             "was before the call. Look at the terrain and the parameters there, or use more particles."
         )

@@ -48,7 +48,7 @@ class Simulation:
         self.bed = self.status = None
         self.walled = False  # whether there are closed nodes
         # what the stages of a step hand on to each other, per particle (model/step.py)
-        self.ground = self.cosine = self.cells = self.survey = None
+        self.ground = self.cosine = self.survey = None
         self.computed = np.zeros(0, bool)  # whose sums over neighbours were done in this step
         self.granted = self.granted_ratio = np.zeros(0)
         self.owed = np.zeros(0)
@@ -159,7 +159,7 @@ class Simulation:
             left = end - self.time
             dt = self._next_step(left)
             if self.time + dt == self.time:
-                raise SimulationError("time step", -1, self.time, dt)
+                raise SimulationError("time step", None, self.time, dt)
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
             self._steps += 1

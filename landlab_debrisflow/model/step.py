@@ -86,6 +86,7 @@ def _take_up(
         volume[i] = before + granted[i]
         dilution[i] = before / volume[i]
         if granted[i] > 0.0:
+            # as `column.peclet.basal_peclet_number`, without its arrays: this is done in every step
             basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient_of_consolidation
             if np.isnan(first_erosion_time[i]):
                 first_erosion_time[i] = time
@@ -144,11 +145,11 @@ def interact(sim) -> None:
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
         state, changed = mirror(state, changed, sim.bed.nodes, sim.status, p.touched_wall)
-    sim.cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
-    sim.computed = sim.cells.computed[: p.count]
+    cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
+    sim.computed = cells.computed[: p.count]
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
-    sim.physics.flow.interact(state, sim.cells, numerics.shock_viscosity, numerics.threads, sums)
+    sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
