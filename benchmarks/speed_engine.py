@@ -98,6 +98,7 @@ def sums(flow, repeats) -> SumRate:
     moving = Moving(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf),
         0.5 * normal / p.gradient_term, np.sqrt(normal * p.thickness), p.thickness, p.thickening,
+        np.ones(p.count),
     )  # fmt: skip
     found = Sums(*(np.empty(s) for s in (p.count, p.count, p.count, (3, p.count), p.count)))
     cpus, sorting, walls = [], [], {1: [], 2: []}

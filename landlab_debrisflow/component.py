@@ -92,7 +92,7 @@ class DebrisFlow(Component):
         self._simulation = Simulation(self._physics, self._numerics, entering)
         self._settled = np.zeros(grid.number_of_nodes)
         self._ledger = Ledger(grid.dx * grid.dy)
-        self._ground = Ground(grid, self._physics.material.bed_pressure_ratio)
+        self._ground = Ground(grid, self._physics)
         self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
         self._said_nothing_to_do = False
 
@@ -237,7 +237,7 @@ class DebrisFlow(Component):
         bed = ground.make_bed()
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
-        sim.on(bed, ground.status, changed or failing.size > 0)
+        sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
         shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
         self._footprint = Footprint(bed.nodes, shown, self._numerics.arrival_depth, sim.time)
         soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)

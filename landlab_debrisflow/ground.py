@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import inputs
+from .core.parameters import on_nodes
 from .core.variables import OUTPUT_PREFIX
 from .spatial.transfer import Nodes
 from .terrain.bed import Bed
@@ -15,12 +16,16 @@ class Ground:
     Parameters
     ----------
     grid : RasterModelGrid
-    pressure_ratio : float
-        Excess pore pressure of the bed over its liquefaction value where no field says so [-].
+    physics : Physics
+        Whose laws may have parameters that vary in space, and whose material says what pressure the bed has
+        where no field does.
     """
 
-    def __init__(self, grid, pressure_ratio: float):
-        self._grid, self._ratio = grid, np.array([pressure_ratio])
+    def __init__(self, grid, physics):
+        self._grid, self._ratio = grid, np.array([physics.material.bed_pressure_ratio])
+        self._laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
+        inputs.check_parameters(grid, self._laws)
+        self.parameters = None  # by kind, as `Simulation.on` wants them
         self._seen = None  # elevation and status as the last call left them
         self._surface = None  # of that elevation
         self.elevation = self.soil = self.status = self.bed = None
@@ -44,6 +49,8 @@ class Ground:
             inputs.check_elevation(grid, self.elevation)
             self._seen, self._surface = (self.elevation.copy(), self.status), None
         inputs.check_bed(grid, self.soil, self._ratios, self._drained)
+        inputs.check_parameters(grid, self._laws)
+        self.parameters = {kind: on_nodes(law, at) for kind, law in self._laws.items()}
         return changed
 
     def make_bed(self) -> Bed:

@@ -1,10 +1,12 @@
 """What is read from the grid, and refused: every refusal says where, got, allowed and what to do."""
 
+import dataclasses
 from numbers import Real
 
 import numpy as np
 
 from .core.errors import InputError
+from .core.parameters import NodeValues, check_values
 
 NODATA = -9999.0
 FIXED_GRADIENT, LOOPED, CLOSED = 2, 3, 4  # node statuses of Landlab
@@ -68,6 +70,26 @@ def check_bed(grid, soil, ratio, drained) -> None:
                 f"bed__drained must be 0 or 1, got {drained[bad[0]]:g} at {_where(grid, bad[0])}; "
                 "set 1 where a drain holds the excess pore pressure at 0"
             )
+
+
+def check_parameters(grid, laws) -> None:
+    """Refuse parameters of laws, by kind, that vary in space but not over the nodes of this grid."""
+    for kind, law in laws.items():
+        for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
+            value, name = getattr(law, field.name), f"{kind}: {field.name}"
+            if isinstance(value, NodeValues) and value.values.size != grid.number_of_nodes:
+                raise InputError(
+                    f"{name} has {value.values.size} values, the grid {grid.number_of_nodes} nodes; give one per node"
+                )
+            if not isinstance(value, str) or not field.metadata.get("varies"):
+                continue
+            if value not in grid.at_node:
+                raise InputError(
+                    f"{name} is to be read from the field {value!r}, which the grid does not have at its nodes; "
+                    f"it has {', '.join(sorted(grid.at_node)) or 'none'}"
+                )
+            values = np.where(grid.status_at_node == CLOSED, field.metadata["bounds"][0], grid.at_node[value])
+            check_values(f"{name}, from field {value!r},", values, field.metadata, lambda k: f"at {_where(grid, k)}")
 
 
 def check_observers(observers) -> tuple:

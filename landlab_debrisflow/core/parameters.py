@@ -24,10 +24,39 @@ from collections.abc import Mapping
 from numbers import Integral, Real
 from typing import Any, dataclass_transform
 
+import numpy as np
+
 from .errors import ParameterError
 
 
-def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float):
+class NodeValues:
+    """A parameter given at every node: an array that compares, hashes and prints like a value.
+
+    Parameters
+    ----------
+    values : ndarray, shape (nodes,)
+
+    Examples
+    --------
+    >>> NodeValues(np.array([1.0, 2.5])), NodeValues(np.array([1.0, 2.5])) == NodeValues(np.array([1.0, 2.5]))
+    (<2 node values from 1 to 2.5>, True)
+    """
+
+    def __init__(self, values):
+        self.values = values.copy()
+        self.values.flags.writeable = False
+
+    def __eq__(self, other):
+        return isinstance(other, NodeValues) and np.array_equal(self.values, other.values)
+
+    def __hash__(self):
+        return hash(self.values.tobytes())
+
+    def __repr__(self):
+        return f"<{self.values.size} node values from {self.values.min():g} to {self.values.max():g}>"
+
+
+def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False):
     """Declare one parameter of a class decorated with `declared`.
 
     Parameters
@@ -44,12 +73,15 @@ def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choice
         Allowed words, for a parameter that is a choice and not a number.
     kind : type
         float, int, bool or str; tuple for one number or a list of them.
+    varies : bool
+        Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for
+        a number, and the law reads it, in SI units, where the flow is (`on_nodes`), not from ``si``.
     """
     if choices is not None:
         kind = str
     low, high = bounds
     bounds = (-math.inf if low is None else low, math.inf if high is None else high)
-    metadata = {"unit": unit, "meaning": meaning, "bounds": bounds, "choices": choices, "kind": kind}
+    metadata = {"unit": unit, "meaning": meaning, "bounds": bounds, "choices": choices, "kind": kind, "varies": varies}
     return dataclasses.field(default=default, metadata=metadata)
 
 
@@ -89,7 +121,61 @@ def _checked(owner: str, field: dataclasses.Field, value: Any):
         if not isinstance(value, bool):
             raise ParameterError(f"{name} must be true or false, got {value!r}")
         return value
+    if meta["varies"] and not isinstance(value, Real):
+        return _checked_on_nodes(name, value, meta)
     return _checked_number(name, value, meta)
+
+
+def _checked_on_nodes(name: str, value: Any, meta):
+    """Return the name of a field or an array of values as `NodeValues`."""
+    if isinstance(value, str | NodeValues):
+        return value
+    try:
+        values = np.asarray(value, float)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.ndim != 1 or values.size == 0:
+        raise ParameterError(
+            f"{name} must be a number [{meta['unit']}], the name of a field at nodes, or an array over them, "
+            f"got {value!r}"
+        )
+    check_values(name, values, meta)
+    return NodeValues(values)
+
+
+def check_values(name: str, values, meta, where=None) -> None:
+    """Refuse an array of which one value is out of bounds; `where` turns its place into words."""
+    low, high = meta["bounds"]
+    bad = np.flatnonzero(~((values >= low) & (values <= high)) | np.isinf(values))
+    if bad.size:
+        unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
+        place = f"at index {bad[0]}" if where is None else where(bad[0])
+        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {values[bad[0]]} {place}")
+
+
+def on_nodes(obj, fields: Mapping[str, Any]):
+    """Return what may vary in space of a declared object as arrays over nodes, or of length 1, in SI units.
+
+    Parameters
+    ----------
+    obj : object
+        Of a class made by `declared`; anything else has nothing that varies.
+    fields : mapping of str to ndarray
+        Arrays over nodes, by the names that parameters may be given as.
+
+    Returns
+    -------
+    NamedTuple
+    """
+    values = {}
+    for field in dataclasses.fields(obj) if dataclasses.is_dataclass(obj) else ():
+        if not field.metadata.get("varies") or (value := getattr(obj, field.name)) is None:
+            continue
+        if isinstance(value, str):
+            value = fields[value]
+        array = value.values if isinstance(value, NodeValues) else np.atleast_1d(np.asarray(value, float))
+        values[field.name] = np.radians(array) if field.metadata["unit"] == "deg" else array
+    return namedtuple(type(obj).__name__ + "Here", values)(**values)
 
 
 def _checked_list(name: str, value: Any, meta):

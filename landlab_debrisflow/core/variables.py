@@ -28,6 +28,8 @@ PARTICLE_VARIABLES = (
     Variable("velocity", "m s-1", "depth-averaged velocity, tangent to the bed", vector=True),
     Variable("thrust", "m s-2", "acceleration by the pressure of the flow", vector=True, written=False),
     Variable("volume", "m3", "volume of debris carried"),
+    Variable("porosity", "-", "volume fraction of the pores"),
+    Variable("density", "kg m-3", "density of the mixture"),
     Variable("released_volume", "m3", "volume it was released with", written=False),
     Variable("first_erosion_time", "s", "time when it first eroded", initial=float("nan"), written=False),
     Variable("depth", "m", "vertical flow depth"),

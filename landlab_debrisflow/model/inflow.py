@@ -237,13 +237,13 @@ class Inflow:
             count, x=x, y=y, z=ground[0], volume=volume, released_volume=volume, depth=thickness * slant,
             thickness=thickness, least_thickness=least, smoothing_length=length, next_smoothing_length=length,
             liquefaction_pressure=load, excess_pore_pressure=profile, basal_excess_pore_pressure=profile[:, 0],
-            inflow_row=row,
+            inflow_row=row, porosity=material.porosity, density=material.density,
         )  # fmt: skip
         nothing = np.zeros(count)
         c_v = np.array([material.coefficient_of_consolidation])
         forcing = ColumnForcing(
             p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),
-            np.zeros(1), c_v, material.water_density / material.buoyant_density, True,
+            np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,
         )  # fmt: skip
         state = ColumnState(p.excess_pore_pressure[new], p.column_memory[new], p.column_clipped[new])
         sim.physics.column.advance(state, forcing, 0.0, p.basal_excess_pore_pressure[new])

@@ -177,8 +177,14 @@ def follow_ground(ground, velocity, cosine, z, owed, gravity, dt):
 
 
 @kernel
-def basal_state(first, velocity, ground, cosine, gravity, tightest, speed, normal_gravity):
-    """Write speed [m s-1] and normal gravity with curvature [m s-2], of particles from the place `first` on.
+def basal_state(
+    first, velocity, ground, cosine, gravity, tightest, thickness, density, bearing_density, pressure,
+    speed, normal_gravity, effective_normal_stress,
+):  # fmt: skip
+    """Write speed [m s-1], normal gravity with curvature [m s-2] and effective normal stress [Pa].
+
+    They are those of particles from the place `first` on, of whom thickness [m], density [kg m-3] and excess
+    pore pressure [Pa] are given; the pore water's own weight bears `bearing_density` of the latter [kg m-3].
 
     The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
     own spacing, and noise must not press the flow to the ground.
@@ -191,6 +197,8 @@ def basal_state(first, velocity, ground, cosine, gravity, tightest, speed, norma
         bend = min(max(bend, -most), most)
         speed[k] = np.sqrt(u * u + v * v + w * w)
         normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
+        stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
+        effective_normal_stress[k] = max(0.0, stress)
 
 
 @kernel

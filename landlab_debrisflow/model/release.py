@@ -161,7 +161,7 @@ def _relax(x, y, sample_x, sample_y, share, depth, spacing, read_ground):
         px, py = np.concatenate([x, sample_x]), np.concatenate([y, sample_y])
         pz = np.concatenate([z, sample_z])
         cells = sort_into_cells(px, py, 2.0 * lengths)
-        moving = Moving(px, py, pz, rest, volumes, lengths, lengths, 0.5 * ones, ones, ones, rest[0])
+        moving = Moving(px, py, pz, rest, volumes, lengths, lengths, 0.5 * ones, ones, ones, rest[0], ones)
         sum_over_neighbours(cells, moving, 0.0, sums)
         step = STEP * length**2 / (_depth_at(depth, spacing, x, y) * cosine)
         step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0], push[1]), 1e-300))

@@ -45,17 +45,17 @@ class Simulation:
         self._peak_energy, self._arrested = 0.0, False
         self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
-        self.bed = self.status = None
+        self.bed = self.status = self.parameters = None
         self.walled = False  # whether there are closed nodes
         # what the stages of a step hand on to each other, per particle (model/step.py)
         self.ground = self.cosine = self.survey = None
         self.computed = np.zeros(0, bool)  # whose sums over neighbours were done in this step
         self.granted = self.granted_ratio = np.zeros(0)
         self.owed = np.zeros(0)
-        self.drained = None  # where the base is, if anywhere
+        self.node = np.zeros(0, int)  # the nearest one
         self._steps, self._pace = 0, Pace()
 
-    def on(self, bed: Bed, status, changed: bool) -> None:
+    def on(self, bed: Bed, status, parameters, changed: bool) -> None:
         """Put the simulation on a bed for the call that follows.
 
         Parameters
@@ -63,10 +63,12 @@ class Simulation:
         bed : Bed
         status : ndarray, shape (nodes,)
             Node statuses as Landlab numbers them.
+        parameters : mapping of str to NamedTuple
+            For every kind of law those of its parameters that may vary in space (`core.parameters.on_nodes`).
         changed : bool
             Whether the terrain differs from what the last call left.
         """
-        self.bed, self.status = bed, status
+        self.bed, self.status, self.parameters = bed, status, parameters
         self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
 
@@ -101,6 +103,7 @@ class Simulation:
         least = THICKNESS_RANGE * normal.max()
         new = p.append(
             count, x=x, y=y, z=ground[0], volume=each, released_volume=each, depth=here, thickness=normal,
+            porosity=material.porosity, density=material.density,
             least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
         )  # fmt: skip
         self._find_everything(FIRST_SWEEPS)

@@ -96,9 +96,8 @@ def _exchange(sim, these, those) -> None:
         return
     sim.particles.exchange(these, those)
     to, of = np.concatenate([these, those]), np.concatenate([those, these])
-    for values in (sim.ground, sim.cosine, sim.computed, sim.drained):
-        if values is not None:
-            values[..., to] = values[..., of]
+    for values in (sim.ground, sim.cosine, sim.computed, sim.node):
+        values[..., to] = values[..., of]
     # an order of sorted places is not kept: it is made anew in every step
 
 

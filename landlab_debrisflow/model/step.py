@@ -49,8 +49,8 @@ def friction_and_kick(sim, dt: float) -> None:
     p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
     m = p.awake
     yield_stress, drag = np.empty(m), np.empty(m)
-    sim.physics.friction.basal_resistance(base(sim, slice(m)), yield_stress, drag)
-    mass = material.density * p.thickness[:m]
+    sim.physics.friction.basal_resistance(base(sim, slice(m), "friction"), yield_stress, drag)
+    mass = p.density[:m] * p.thickness[:m]
     kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
     if sim.walled:
         stop_at_walls(
@@ -59,33 +59,46 @@ def friction_and_kick(sim, dt: float) -> None:
 
 
 def entrain(sim, dt: float):
-    """Ask soil of the bed, take what it grants; return volume before over volume after."""
-    p, c_v = sim.particles, sim.physics.material.coefficient_of_consolidation
+    """Ask soil of the bed, take what it grants; return velocity after over velocity before."""
+    p, material = sim.particles, sim.physics.material
     m = p.awake
     rate, wanted, dilution = np.zeros(m), np.empty(m), np.empty(m)
-    sim.physics.erosion.entrainment_rate(base(sim, slice(m)), rate)
+    sim.physics.erosion.entrainment_rate(base(sim, slice(m), "erosion"), rate)
     rate[sim.inflow.held(p)] = 0.0
     np.divide(rate * p.volume[:m], p.depth[:m], out=wanted)
     wanted *= dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x[:m], p.y[:m], p.spread[:m], wanted)
     _take_up(
-        sim.granted, dt, sim.time, c_v, p.depth, p.thickness, sim.cosine,
-        p.volume, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number, dilution,
+        sim.granted, dt, sim.time, material.coefficient_of_consolidation, material.basal_slip_ratio,
+        material.soil_porosity, material.solid_density, material.bearing_density, p.depth, p.thickness, sim.cosine,
+        p.volume, p.porosity, p.density, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number, dilution,
     )  # fmt: skip
     return dilution
 
 
 @kernel
 def _take_up(
-    granted, dt, time, coefficient_of_consolidation, depth, thickness, cosine,
-    volume, entrainment_rate, first_erosion_time, basal_peclet_number, dilution,
+    granted, dt, time, coefficient_of_consolidation, slip_ratio, soil_porosity, solid_density, bearing_density,
+    depth, thickness, cosine, volume, porosity, density, entrainment_rate, first_erosion_time, basal_peclet_number,
+    dilution,
 ):  # fmt: skip
+    """Mix in the soil; what is not at the base already at the speed of the base is sped up by the flow.
+
+    d(v)/dt = - (v - v_b) dm/dt / m with v_b = `slip_ratio` v, so v goes like m^(slip_ratio - 1), m being the mass.
+    """
     for i in range(granted.size):
         rate, before = granted[i] * depth[i] / (volume[i] * dt), volume[i]
         entrainment_rate[i] = rate
         volume[i] = before + granted[i]
-        dilution[i] = before / volume[i]
+        dilution[i] = 1.0
         if granted[i] > 0.0:
+            mass = density[i] * before
+            if porosity[i] != soil_porosity:
+                porosity[i] = (porosity[i] * before + soil_porosity * granted[i]) / volume[i]
+                density[i] = (1.0 - porosity[i]) * solid_density + porosity[i] * bearing_density
+            dilution[i] = mass / (density[i] * volume[i])
+            if slip_ratio > 0.0:
+                dilution[i] **= 1.0 - slip_ratio
             # as `column.peclet.basal_peclet_number`, without its arrays: this is done in every step
             basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient_of_consolidation
             if np.isnan(first_erosion_time[i]):
@@ -127,7 +140,7 @@ def find_ground(sim, dt: float = 0.0) -> None:
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
     owed = sim.owed if dt > 0.0 else np.empty(0)
     follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
-    sim.drained = sim.bed.is_drained(p.x, p.y)
+    sim.node = sim.bed.nodes.nearest(p.x, p.y)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
 
@@ -140,7 +153,7 @@ def interact(sim) -> None:
     longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
-        p.thickness, p.thickening, p.gradient_term, sim.cosine, material.gravity,
+        p.thickness, p.thickening, p.gradient_term, sim.cosine, p.density, material.gravity,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
@@ -154,7 +167,7 @@ def interact(sim) -> None:
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
-    p.liquefaction_pressure *= material.buoyant_density * material.gravity
+    p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
 
 
 def consolidate(sim, dt: float) -> None:
@@ -189,13 +202,14 @@ def forcing(sim, which: slice, granted, granted_ratio) -> ColumnForcing:
     p, material = sim.particles, sim.physics.material
     load = p.liquefaction_pressure[which]
     bed_pressure, bases = granted_ratio * load, BY_EROSION
-    if sim.drained is not None:
-        bed_pressure[sim.drained[which]] = 0.0
-        bases = np.where(sim.drained[which], BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
+    if sim.bed.drained is not None:
+        drained = sim.bed.drained[sim.node[which]]
+        bed_pressure[drained] = 0.0
+        bases = np.where(drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
     return ColumnForcing(
         p.volume[which], p.thickness[which], load, granted, bed_pressure, bases,
         NO_SOURCE, np.array([material.coefficient_of_consolidation]),
-        material.water_density / material.buoyant_density, True,
+        material.bearing_density / material.buoyant_density, True,
     )  # fmt: skip
 
 
@@ -204,23 +218,26 @@ def held(sim, which: slice, pressure):
     p, physics = sim.particles, sim.physics
     n = pressure.size
     yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
-    physics.friction.basal_resistance(base(sim, which)._replace(excess_pore_pressure=pressure), yield_stress, drag)
+    physics.friction.basal_resistance(base(sim, which, "friction", pressure), yield_stress, drag)
     thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
-    mass = physics.material.density * p.thickness[which]
+    mass = p.density[which] * p.thickness[which]
     kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)
     return ~np.any(velocity, axis=0)
 
 
-def base(sim, which: slice) -> BasalState:
-    """Return the base under some particles as friction and erosion laws know it."""
+def base(sim, which: slice, kind: str, pressure=None) -> BasalState:
+    """Return the base under some particles as a law of some kind knows it, by default under the `pressure` there is."""
     p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
-    depth, thickness = p.depth[which], p.thickness[which]
-    speed, normal_gravity, liquefaction = np.empty(depth.size), np.empty(depth.size), p.liquefaction_pressure[which]
+    depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
+    pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
+    speed, normal_gravity, stress = np.empty((3, depth.size))
     basal_state(
         which.start or 0, p.velocity, sim.ground, sim.cosine, material.gravity, min(nodes.dx, nodes.dy),
-        speed, normal_gravity,
+        thickness, density, material.bearing_density, pressure, speed, normal_gravity, stress,
     )  # fmt: skip
+    parameters = sim.parameters[kind]
+    here = (values if values.size == 1 else values[sim.node[which]] for values in parameters)
     return BasalState(
-        depth, thickness, speed, normal_gravity, liquefaction, p.basal_excess_pore_pressure[which],
-        material.density, material.buoyant_density, material.gravity,
+        depth, thickness, speed, normal_gravity, stress, p.liquefaction_pressure[which], pressure, density,
+        material.gravity, material.basal_slip_ratio, type(parameters)(*here),
     )  # fmt: skip

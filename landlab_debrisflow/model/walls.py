@@ -59,7 +59,17 @@ def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
 SPACING = 0.5 / SMOOTHING_RATIO
 """Spacing of particles over their support."""
 
-ALIKE = ("z", "volume", "smoothing_length", "longest", "thickness", "thickening", "gradient_term", "cos_slope")
+ALIKE = (
+    "z",
+    "volume",
+    "smoothing_length",
+    "longest",
+    "thickness",
+    "thickening",
+    "gradient_term",
+    "cos_slope",
+    "density",
+)
 """What an image has in common with its particle."""
 
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))

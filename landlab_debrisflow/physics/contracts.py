@@ -5,7 +5,7 @@ arrays it is given, writes only those named ``out`` (or named in the docstring),
 others in Python: no law knows another.
 """
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from numpy import ndarray as Array
 
@@ -13,15 +13,17 @@ from numpy import ndarray as Array
 class BasalState(NamedTuple):
     """The base of the flow under each of n particles: what friction and erosion laws read."""
 
-    depth: Array  # vertical [m]
-    thickness: Array  # slope-normal [m]
-    speed: Array  # along the slope [m s-1]
-    normal_gravity: Array  # with curvature, >= 0 [m s-2]
-    liquefaction_pressure: Array  # rho' g thickness cos(theta), static gravity [Pa]
-    excess_pore_pressure: Array  # at the base [Pa]
-    density: float  # mixture [kg m-3]
-    buoyant_density: float  # [kg m-3]
+    depth: Array  # (n,) vertical [m]
+    thickness: Array  # (n,) slope-normal [m]
+    speed: Array  # (n,) along the slope [m s-1]
+    normal_gravity: Array  # (n,) with curvature, >= 0 [m s-2]
+    effective_normal_stress: Array  # (n,) max(0, rho' g_n h_n - p_b): all that friction must know of pore pressure [Pa]
+    liquefaction_pressure: Array  # (n,) rho' g thickness cos(theta), static gravity [Pa]
+    excess_pore_pressure: Array  # (n,) at the base [Pa]
+    density: Array  # (n,) mixture [kg m-3]
     gravity: float  # [m s-2]
+    slip_ratio: float  # velocity at the base over the mean [-]
+    parameters: Any  # NamedTuple of those of the law's parameters that may vary in space, here: (n,) or (1,), SI
 
 
 class ColumnState(NamedTuple):
@@ -102,6 +104,7 @@ class FlowState(NamedTuple):
     thickening: Array  # -h div v, of the step before [m s-1]
     gradient_term: Array  # Omega of the grad-h formulation, of the step before [-]
     cos_slope: Array  # [-]
+    density: Array  # [kg m-3]
     gravity: float  # [m s-2]
 
 

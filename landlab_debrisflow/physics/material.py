@@ -16,13 +16,20 @@ class Material:
     --------
     >>> Material().density, Material().buoyant_density
     (1990.0, 990.0)
-    >>> Material(water_density=0.0).buoyant_density
-    1590.0
+    >>> Material(water_density=0.0).buoyant_density, Material(water_table_ratio=0.0).buoyant_density
+    (1590.0, 1590.0)
     """
 
     solid_density: float = parameter("kg m-3", "density of the grains", 2650.0, (1.0, 1e5))
     water_density: float = parameter("kg m-3", "density of the pore water; 0 = dry", 1000.0, (0.0, 1e5))
     porosity: float = parameter("-", "volume fraction of the pores", 0.4, (0.0, 0.99))
+    bed_porosity: float = parameter("-", "of the soil of the bed; by default that of the debris", None, (0.0, 0.99))
+    water_table_ratio: float = parameter(
+        "-", "height of the water table over thickness: 1 = saturated, 0 = dry; pores above hold air", 1.0, (0.0, 1.0)
+    )
+    basal_slip_ratio: float = parameter(
+        "-", "velocity at the base over the mean; soil that comes in is sped up to the rest of it", 0.0, (0.0, 1.0)
+    )
     coefficient_of_consolidation: float = parameter("m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6))
     bed_pressure_ratio: float = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
@@ -48,9 +55,23 @@ class Material:
     @property
     def density(self) -> float:
         """Density of the mixture [kg m-3]."""
-        return (1.0 - self.porosity) * self.solid_density + self.porosity * self.water_density
+        return self.density_of(self.porosity)
 
     @property
     def buoyant_density(self) -> float:
-        """Density of the mixture less that of the water [kg m-3]."""
-        return self.density - self.water_density
+        """Density of the mixture less what the pore water bears of it [kg m-3]."""
+        return self.density - self.bearing_density
+
+    @property
+    def bearing_density(self) -> float:
+        """Hydrostatic pressure at the base over normal gravity and thickness [kg m-3]."""
+        return self.water_table_ratio * self.water_density
+
+    @property
+    def soil_porosity(self) -> float:
+        """Porosity of the soil of the bed [-]."""
+        return self.porosity if self.bed_porosity is None else self.bed_porosity
+
+    def density_of(self, porosity):
+        """Return the density of a mixture of some porosity, a number or an array [kg m-3]."""
+        return (1.0 - porosity) * self.solid_density + porosity * self.bearing_density

@@ -56,10 +56,11 @@ class Moving(NamedTuple):
     volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release.py
     smoothing_length: np.ndarray  # (n,) [m]
     longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
-    strength: np.ndarray  # (n,) g_n / (2 Omega) [m s-2]
+    strength: np.ndarray  # (n,) thrust over thickness^2, Omega and reference density: inertia g_n / (2 Omega) [m s-2]
     celerity: np.ndarray  # (n,) of waves [m s-1]
     thickness: np.ndarray  # (n,) slope-normal, of the last time [m]
     thickening: np.ndarray  # (n,) -h div v, of the last time [m s-1]
+    inertia: np.ndarray  # (n,) density over a reference density [-]
 
 
 class Sums(NamedTuple):
@@ -88,7 +89,7 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
 
     Notes
     -----
-    a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
+    inertia_i a_i = - sum_j V_j [(s_i + P) grad W(l_i) + (s_j + P) grad W(l_j)],
     P = (viscosity / 4) (c_i + c_j - 3 w) (-w) / max(h_i, h_j), w = min(0, v_ij . r_ij / r + k r): pairs that approach
     faster than in the uniform convergence k = min(-div v/2 of i, of j), k >= 0, which is no shock and must not be
     damped. Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
@@ -101,10 +102,11 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
     n = moving.x.size
     places, packed = np.empty((3, n + _LANES), np.int32), np.empty((10, n + _LANES), np.float32)
     quantum = cells.size / _PLACES_PER_CELL
-    _pack(cells.order, *moving[:6], *moving[7:], quantum, places, packed)
+    _pack(cells.order, *moving[:6], *moving[7:11], quantum, places, packed)
     over_cells(
         _sum, cells, threads, cells.columns, cells.order, cells.start, cells.reach, cells.box, cells.window,
-        cells.awake, places, packed, quantum, viscosity, moving.volume, moving.smoothing_length, moving.longest, *sums,
+        cells.awake, places, packed, quantum, viscosity, moving.volume, moving.smoothing_length, moving.longest,
+        moving.inertia, *sums,
     )  # fmt: skip
 
 
@@ -165,7 +167,7 @@ def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed
 @approximate_kernel
 def _sum(
     first, last, columns, order, start, reach, box, window, awake, places, packed, quantum, viscosity,
-    volumes, lengths, longest, thickness, gradient_term, next_length, acceleration, thickening,
+    volumes, lengths, longest, inertia, thickness, gradient_term, next_length, acceleration, thickening,
 ):  # fmt: skip
     where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((10, order.size + 2 * _LANES), np.float32)
     quarter = _F(0.25 * viscosity)
@@ -209,7 +211,8 @@ def _sum(
                 ay += push * dy
                 az += push * dz
                 inflow += pull * closing
-            acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax * quantum, ay * quantum, az * quantum
+            scale = quantum / inertia[i]
+            acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax * scale, ay * scale, az * scale
             thickening[i] = inflow * quantum
             # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3; with h = ratio^2 V / l^2
             # the slope l/(2h) dS/dl of the sum has no l left

@@ -37,6 +37,10 @@ class Nodes(NamedTuple):
         """Map area of one node [m2]."""
         return self.dx * self.dy
 
+    def nearest(self, x, y):
+        """Return the node nearest to each particle, shape (n,)."""
+        return np.floor(y / self.dy + 0.5).astype(int) * self.columns + np.floor(x / self.dx + 0.5).astype(int)
+
 
 def scatter(nodes: Nodes, x, y, spread, values, sums, touched):
     """Add particles' values to nodes.

@@ -73,14 +73,6 @@ class Bed:
         self.surface.move_to(at, self.elevation[at])
         return granted, ratio
 
-    def is_drained(self, x, y):
-        """Return whether the node nearest to each particle is drained, or None if there is no drain anywhere."""
-        if self.drained is None:
-            return None
-        nodes = self.nodes
-        row, column = np.floor(y / nodes.dy + 0.5).astype(int), np.floor(x / nodes.dx + 0.5).astype(int)
-        return self.drained[row * nodes.columns + column]
-
     def depth_of(self, x, y, spread, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""
         at = scatter(self.nodes, x, y, spread, volume[None, :], self._demand, self._touched).copy()

@@ -8,6 +8,7 @@ import pytest
 
 from landlab_debrisflow import Material, Numerics
 from landlab_debrisflow.core.errors import ParameterError
+from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.physics import LAWS, METHOD, build_law, build_physics
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.erosion import Growth
@@ -28,24 +29,26 @@ def basal_state(count=50, seed=1, **given):
     slope = rng.uniform(0.0, 1.3, count)
     thickness = given.pop("thickness", 10.0 ** rng.uniform(-4.0, 1.3, count))
     liquefaction = 990.0 * 9.81 * thickness * np.cos(slope)
+    pressure = given.pop("excess_pore_pressure", rng.uniform(0.0, 1.0, count) * liquefaction)
+    normal_gravity = given.pop("normal_gravity", 9.81 * np.cos(slope))
     values = {
         "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
-        "normal_gravity": 9.81 * np.cos(slope), "liquefaction_pressure": liquefaction,
-        "excess_pore_pressure": rng.uniform(0.0, 1.0, count) * liquefaction,
-        "density": 1990.0, "buoyant_density": 990.0, "gravity": 9.81,
+        "normal_gravity": normal_gravity, "liquefaction_pressure": liquefaction, "excess_pore_pressure": pressure,
+        "effective_normal_stress": np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure),
+        "density": np.full(count, 1990.0), "gravity": 9.81, "slip_ratio": 0.0, "parameters": None,
     }  # fmt: skip
     return BasalState(**(values | given))
 
 
 def resistance(law, state):
     out = np.full((2, state.depth.size), np.nan)  # everything must be written
-    law.basal_resistance(state, *out)
+    law.basal_resistance(state._replace(parameters=on_nodes(law, {})), *out)
     return out
 
 
 def entrainment(law, state):
     out = np.full(state.depth.size, np.nan)
-    law.entrainment_rate(state, out)
+    law.entrainment_rate(state._replace(parameters=on_nodes(law, {})), out)
     return out
 
 
@@ -69,9 +72,9 @@ def test_erosion_leaves_its_inputs_alone(law):
 
 def unchanged(ask, law):
     state = basal_state()
-    before = [np.copy(values) for values in state]
+    before = [np.copy(values) for values in state[:-1]]
     first = ask(law, state)
-    for values, copy in zip(state, before, strict=True):
+    for values, copy in zip(state[:-1], before, strict=False):
         np.testing.assert_array_equal(values, copy)
     np.testing.assert_array_equal(first, ask(law, state))  # and keeps nothing to itself
 
@@ -85,9 +88,9 @@ def test_pore_pressure_lowers_what_holds_a_body(law):
 @of("friction")
 @pytest.mark.parametrize("excess", [1.0, 1.5, 1e6])
 def test_what_is_liquefied_yields_at_once(law, excess):
-    state = basal_state()
+    load = basal_state().liquefaction_pressure
     # the small excess over 1 keeps round-off of rho' g_n h_n - p out of it
-    state = state._replace(excess_pore_pressure=state.liquefaction_pressure * excess * (1.0 + 1e-12))
+    state = basal_state(excess_pore_pressure=load * excess * (1.0 + 1e-12))
     assert not resistance(law, state)[0].any()
 
 
@@ -176,7 +179,11 @@ def test_a_class_is_not_taken_for_a_law(kind, name):
 
 def refused_values(meta):
     """Yield values a parameter must refuse."""
-    yield from (math.nan, math.inf, -math.inf, "text", [1.0])
+    yield from (math.nan, math.inf, -math.inf)
+    if meta["varies"]:
+        yield from ([], [[1.0]], {}, ["text"])
+    else:
+        yield from ("text", [1.0])
     if meta["kind"] is bool:
         return
     yield True
@@ -207,7 +214,10 @@ def test_a_parameter_out_of_bounds_is_refused_by_name_unit_bounds_and_value(law,
 def hand_state():
     """Two metres on a flat at 10 m/s, 9000 Pa of excess pore pressure."""
     one = np.ones(1)
-    return BasalState(2.5 * one, 2.0 * one, 10.0 * one, 9.81 * one, 19423.8 * one, 9000.0 * one, 1990.0, 990.0, 9.81)
+    return BasalState(
+        2.5 * one, 2.0 * one, 10.0 * one, 9.81 * one, 10423.8 * one, 19423.8 * one, 9000.0 * one, 1990.0 * one,
+        9.81, 0.0, None,
+    )  # fmt: skip
 
 
 def test_coulomb_by_hand():

@@ -28,7 +28,7 @@ def response(x, y, middle, axis):
         cells = sort_into_cells(*moved, np.full(n, 2.0 * SMOOTHING_RATIO))
         one, zero, sums = np.ones(n), np.zeros(n), Sums(*np.empty((3, n)), np.empty((3, n)), np.empty(n))
         length = SMOOTHING_RATIO * one
-        moving = Moving(*moved, zero, np.zeros((3, n)), one, length, length, 0.5 * one, one, one, zero)
+        moving = Moving(*moved, zero, np.zeros((3, n)), one, length, length, 0.5 * one, one, one, zero, one)
         sum_over_neighbours(cells, moving, 0.0, sums)
         found.append(sums.acceleration[:2])
     return (found[0] - found[1]) / (2.0 * SHIFT)

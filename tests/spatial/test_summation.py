@@ -23,7 +23,7 @@ def cloud(count, seed):
         "x": x, "y": y, "z": rng.uniform(0.0, 2.0, count), "volume": rng.uniform(1.0, 3.0, count),
         "length": length, "velocity": rng.normal(0.0, 1.0, (3, count)), "strength": rng.uniform(4.0, 9.0, count),
         "celerity": rng.uniform(1.0, 3.0, count), "thickness": rng.uniform(0.5, 2.0, count),
-        "thickening": rng.normal(0.0, 1.0, count),
+        "thickening": rng.normal(0.0, 1.0, count), "inertia": rng.uniform(0.5, 2.0, count),
     }  # fmt: skip
 
 
@@ -34,7 +34,7 @@ def sums(c, longest, threads=1, changed=None, out=None):
     cells = sort_into_cells(c["x"], c["y"], 2.0 * c["length"], changed)
     moving = Moving(
         c["x"], c["y"], c["z"], c["velocity"], c["volume"], c["length"], longest, c["strength"], c["celerity"],
-        c["thickness"], c["thickening"],
+        c["thickness"], c["thickening"], c.get("inertia", np.ones(n)),
     )  # fmt: skip
     sum_over_neighbours(cells, moving, VISCOSITY, Sums(*out), threads)
     return out
@@ -76,7 +76,7 @@ def reference_gradient(c):
     pair = (c["strength"][:, None] + shock) * slope_i + (c["strength"] + shock) * slope_j
     np.fill_diagonal(pair, 0.0)
     np.fill_diagonal(slope_i, 0.0)
-    acceleration = -np.einsum("j,ij,kij->ki", c["volume"], pair, unit)
+    acceleration = -np.einsum("j,ij,kij->ki", c["volume"], pair, unit) / c["inertia"]
     thickening = np.einsum("j,ij,kij,kij->i", c["volume"], slope_i, unit, apart_v)
     return acceleration, thickening
 
@@ -118,7 +118,7 @@ def test_the_gradient_is_the_sum_over_all_pairs(count, seed):
 def test_pairs_push_each_other_equally():
     c = cloud(500, 6)
     *_, acceleration, _ = sums(c, longest=c["length"])
-    force = c["volume"] * acceleration
+    force = c["inertia"] * c["volume"] * acceleration
     # positions differ by whole numbers, the same from either side: what is left is the rounding of each sum
     assert np.all(abs(force.sum(axis=1)) < 6e-8 * abs(force).sum(axis=1))
 

@@ -16,10 +16,10 @@ class OnePhase:
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
         """Write thickness, smoothing length, acceleration by pressure and thickening rate."""
-        normal_gravity = state.gravity * state.cos_slope
+        normal_gravity, inertia = state.gravity * state.cos_slope, state.density / state.density.max()
         moving = Moving(
             state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
-            0.5 * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness), state.thickness,
-            state.thickening,
+            0.5 * inertia * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness),
+            state.thickness, state.thickening, inertia,
         )  # fmt: skip
         sum_over_neighbours(cells, moving, shock_viscosity, sums, threads)
