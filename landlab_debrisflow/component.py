@@ -173,7 +173,7 @@ class DebrisFlow(Component):
     @property
     def outflow_by_edge(self):
         """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
-        return self._simulation.outflow_by_edge(*self.grid.shape)
+        return self._simulation.outflow.by_edge(*self.grid.shape)
 
     @property
     def particles(self):

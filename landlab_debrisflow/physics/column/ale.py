@@ -1,5 +1,7 @@
 """Columns that move with the base they erode: the arbitrary Lagrangian-Eulerian model."""
 
+from typing import ClassVar
+
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
 from .scheme import BED_CONTACT, LOADING
@@ -40,6 +42,8 @@ class ALE:
     source_includes_erosion: bool = parameter(
         "-", "load grains by soil that comes in below them, to replicate eqs. 19 and 38", False, kind=bool
     )
+
+    stores_pressure: ClassVar[bool] = True
 
     def _agree(self):
         check_scheme(self)

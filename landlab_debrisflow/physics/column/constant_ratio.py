@@ -1,5 +1,7 @@
 """Columns whose basal pressure follows the load."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...core.parameters import declared, parameter
@@ -19,6 +21,8 @@ class ConstantRatio:
     """
 
     ratio: float = parameter("-", "excess pore pressure over its liquefaction value", 0.65, (0.0, 1.0))
+
+    stores_pressure: ClassVar[bool] = False  # sources come to nothing
 
     @property
     def levels(self) -> int:

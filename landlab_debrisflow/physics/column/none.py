@@ -1,5 +1,7 @@
 """Columns without excess pore pressure."""
 
+from typing import ClassVar
+
 from ...core.parameters import declared
 from ..contracts import ColumnForcing, ColumnState
 
@@ -13,6 +15,8 @@ class NoExcessPressure:
     >>> NoExcessPressure()
     NoExcessPressure()
     """
+
+    stores_pressure: ClassVar[bool] = False  # sources come to nothing
 
     @property
     def levels(self) -> int:
