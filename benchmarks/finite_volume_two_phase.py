@@ -1,36 +1,38 @@
 """A plain finite-volume scheme for two phases in one dimension: reference where nothing is exact.
 
 Solid and water on a plane, each with its volume per area and velocity (Pitman & Le, 2005; Pastor et al., 2022,
-eqs. 9-11 without excess pore pressure). With h = h_s + h_w, n = h_w/h, g_n across and g_x along the plane,
-r = rho_w/rho_s and the mass forces per area and density
+eqs. 9-11 without excess pore pressure). With h = h_s + h_w, n = h_w/h, g_n across and g_x along the plane and
+r = rho_w/rho_s, per density of each phase,
 
-    h_s,t + (h_s v_s)_x = 0                        h_w,t + (h_w v_w)_x = 0
-    (h_s v_s),t + (h_s v_s^2 + (1 - r) g_n h_s h/2)_x + r g_n h_s h_x = h_s g_x - (1 - r) g_n h_s tan(phi) sgn(v_s) + D/rho_s
-    (h_w v_w),t + (h_w v_w^2)_x                       + g_n h_w h_x   = h_w g_x                                     - D/rho_w
+    h_s,t + (h_s v_s)_x = 0                          h_w,t + (h_w v_w)_x = 0
+    (h_s v_s),t + (h_s v_s^2 + (1 - r) g_n h_s h/2)_x + r g_n h_s h_x = h_s g_x + D/rho_s - F sgn v_s
+    (h_w v_w),t + (h_w v_w^2)_x                       +   g_n h_w h_x = h_w g_x - D/rho_w
 
-    D = h C_d (v_w - v_s),  C_d = n^2 rho_w g/K  (Darcy),  n (1 - n) (rho_s - rho_w) g/(V_T n^m)  (Anderson & Jackson, 1967).
+with friction F = (1 - r) g_n h_s tan(phi) and drag D = h C_d (v_w - v_s): C_d = n^2 rho_w g/K (Darcy), or
+n (1 - n) (rho_s - rho_w) g/(V_T n^m) (Anderson & Jackson, 1967). What it can be checked by:
 
-Facts to check it by. Whatever the drag, one porosity and one velocity stay so without friction: depth then obeys the
-shallow-water equations, and every solution of theirs is one of these (`benchmarks.exact`). Very tight, friction on the
-solid is the apparent one of the mixture, ``(rho'/rho) tan(phi)``. Where v_s = v_w the celerities are ``(g_n h)^(1/2)``
-and ``((1 - r) g_n h_w/2)^(1/2)``; all wave speeds lie in ``[min v - (g_n h)^(1/2), max v + (g_n h)^(1/2)]``, and are
-real while ``|v_w - v_s|`` is less than twice the slower one (Pelanti, Bouchut & Mangeney, 2008; `is_hyperbolic`).
+- Whatever the drag, one porosity and one velocity stay so without friction, and depth obeys the shallow-water
+  equations: all their solutions are solutions here. With friction, very tight mixtures follow those of one phase with
+  the apparent friction (rho'/rho) tan(phi).
+- Where v_s = v_w the celerities are (g_n h)^(1/2) and ((1 - r) g_n h_w/2)^(1/2). All real speeds lie between
+  min v - (g_n h)^(1/2) and max v + (g_n h)^(1/2); all are real while |v_w - v_s| is less than twice the slower
+  celerity (Pelanti, Bouchut & Mangeney, 2008).
 
 Limited slopes of h_s, h_w, v_s, v_w (monotonised central: van Leer, 1977); HLL with straight paths for the products
-that are no divergence (Pares, 2006; Castro & Fernandez-Nieto, 2012), whose sum over the phases is one: total momentum
-is kept. Heun's two stages that keep h_s, h_w >= 0; drag exact in each for steady forces (exponential: Cox & Matthews,
-2002), with friction, which never reverses. Written for these benchmarks only; nothing is shared with the package.
-``python -m benchmarks.finite_volume_two_phase`` prints convergence and cost on `CASES`.
+that are no divergence (Pares, 2006; Castro & Fernandez-Nieto, 2012), which over both phases add up to one, so that
+total momentum is kept. Heun's two stages that keep h_s, h_w >= 0; in each, drag exact for steady forces (Cox &
+Matthews, 2002) together with friction, which never reverses. Written from the papers, for these benchmarks only;
+nothing is shared with the package. ``python -m benchmarks.finite_volume_two_phase`` prints convergence and cost on
+`two_phase_cases.CASES`.
 """
 
 import math
 import time as clock
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numba
 import numpy as np
 
-from benchmarks import exact
 from benchmarks.exact import GRAVITY
 
 _compiled = numba.njit(cache=True, error_model="numpy")
@@ -233,6 +235,9 @@ class Mixture:
         return buoyant / (solid + porosity * self.water_density) * math.tan(self.friction_angle)
 
 
+NO_DRAG = Mixture()
+
+
 @dataclass(frozen=True)
 class TwoPhaseResult:
     """State at each time: arrays of (times, cells) [m, m, m/s, m/s]; centres [m], steps, CPU time of the loop [s]."""
@@ -246,7 +251,7 @@ class TwoPhaseResult:
     cpu: float
 
 
-def solve(x, h_s, h_w, v_s, v_w, times, mixture: Mixture = Mixture(), slope: float = 0.0,
+def solve(x, h_s, h_w, v_s, v_w, times, mixture: Mixture = NO_DRAG, slope: float = 0.0,
           courant: float = 0.45) -> TwoPhaseResult:  # fmt: skip
     """Two phases down a plane from time 0, through open ends.
 
@@ -282,3 +287,9 @@ def solve(x, h_s, h_w, v_s, v_w, times, mixture: Mixture = Mixture(), slope: flo
     h, q = found[:, :2], found[:, 2:]
     v = np.divide(q, h, out=np.zeros_like(q), where=h > dry)
     return TwoPhaseResult(x, h[:, 0], h[:, 1], v[:, 0], v[:, 1], steps, cpu)
+
+
+if __name__ == "__main__":
+    from benchmarks.two_phase_cases import main
+
+    main()
