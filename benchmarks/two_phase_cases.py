@@ -42,7 +42,10 @@ def dam_break(count: int, times, depth: float = 1.0, ahead: float = 0.0, porosit
     if porosity_ahead is None:
         porosity_ahead = porosity
     last, wide = np.max(times), 0.0 if half_width is None else half_width
-    celerity, drift = math.sqrt(GRAVITY * math.cos(slope) * depth), 0.5 * GRAVITY * math.sin(slope) * last**2
+    celerity, drift = (
+        math.sqrt(exact.GRAVITY * math.cos(slope) * depth),
+        0.5 * exact.GRAVITY * math.sin(slope) * last**2,
+    )
     fastest, slowest = max(v_s, v_w, 0.0), min(v_s, v_w, 0.0)
     front = wide + (2.0 * celerity + fastest) * last + drift
     back = wide + ((2.0 if wide else 1.0) * celerity - slowest) * last
