@@ -37,19 +37,17 @@ def dam_break(count: int, times, depth: float = 1.0, ahead: float = 0.0, porosit
     half_width : float, optional
         Of a cap ``depth (1 - (x/half_width)^2)`` instead of a dam [m].
     slope : float
-        Of the plane, down x [rad].
+        Of the plane, down x; not negative [rad].
     """
     if porosity_ahead is None:
         porosity_ahead = porosity
     last, wide = np.max(times), 0.0 if half_width is None else half_width
-    celerity, drift = (
-        math.sqrt(exact.GRAVITY * math.cos(slope) * depth),
-        0.5 * exact.GRAVITY * math.sin(slope) * last**2,
-    )
+    celerity = math.sqrt(exact.GRAVITY * math.cos(slope) * depth)
+    drift = 0.5 * exact.GRAVITY * math.sin(slope) * last**2
     fastest, slowest = max(v_s, v_w, 0.0), min(v_s, v_w, 0.0)
     front = wide + (2.0 * celerity + fastest) * last + drift
     back = wide + ((2.0 if wide else 1.0) * celerity - slowest) * last
-    share = math.ceil(10.0 * back / (back + front)) / 10.0
+    share = min(9, math.ceil(10.0 * back / (back + front))) / 10.0
     length = 1.05 * max(back / share, front / (1.0 - share))
     faces = length * (np.arange(count + 1) / count - share)
     x = 0.5 * (faces[1:] + faces[:-1])

@@ -168,12 +168,13 @@ def test_a_faint_hump_of_porosity_follows_the_linear_equations(mixture):
         state[:, k] = expm(time * flow) @ state[:, k]
     linear = np.fft.irfft(state, n=count)
     got = np.stack([found.h_s[0] - h_s, found.h_w[0] - h_w, found.v_s[0], found.v_w[0]])
+    # measured 1.1e-3 at most, in velocities; 4.5e-3 on 250 cells and 2.5e-4 on 1000
     for one, other in zip(got, linear, strict=True):
-        assert abs(one - other).sum() < 6e-3 * abs(other).sum()
+        assert abs(one - other).sum() < 1.5e-3 * abs(other).sum()
 
 
-# order of L1 of h_s, h_w, h_s v_s, h_w v_w from 250 to 500 cells against 2000: LEAST
-ORDERS = {"hump": 1.8, "cap": 1.2, "collapse": 1.2, "porosity_dam": 0.8}
+# least order of h_s, h_w, h_s v_s, h_w v_w from 250 to 500 cells against 2000; measured 2.0, 1.6, 1.5, 1.3
+ORDERS = {"hump": 1.8, "cap": 1.4, "collapse": 1.3, "porosity_dam": 1.1}
 
 
 @pytest.mark.parametrize("name", ORDERS)
