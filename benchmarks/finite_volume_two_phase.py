@@ -15,8 +15,8 @@ n (1 - n) (rho_s - rho_w) g/(V_T n^m) (Anderson & Jackson, 1967). What it can be
   equations: all their solutions are solutions here. With friction, very tight mixtures follow those of one phase with
   the apparent friction (rho'/rho) tan(phi).
 - Where v_s = v_w the celerities are (g_n h)^(1/2) and ((1 - r) g_n h_w/2)^(1/2). All real speeds lie between
-  min v - (g_n h)^(1/2) and max v + (g_n h)^(1/2); all are real while |v_w - v_s| is less than twice the slower
-  celerity (Pelanti, Bouchut & Mangeney, 2008).
+  min v - (g_n h)^(1/2) and max v + (g_n h)^(1/2); all are real if |v_w - v_s| is at most twice the slower celerity,
+  or at least twice the faster one (`two_phase_cases.is_hyperbolic`; Pelanti, Bouchut & Mangeney, 2008).
 
 Limited slopes of h_s, h_w, v_s, v_w (monotonised central: van Leer, 1977); HLL with straight paths for the products
 that are no divergence (Pares, 2006; Castro & Fernandez-Nieto, 2012), which over both phases add up to one, so that

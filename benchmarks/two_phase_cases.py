@@ -128,7 +128,13 @@ CASES = _cases()
 
 
 def is_hyperbolic(h_s, h_w, v_s, v_w, ratio: float, gravity: float) -> np.ndarray:
-    """Whether all four speeds of the equations are real, where both phases are; ``ratio`` is rho_w/rho_s."""
+    """Whether all four speeds c of the equations are real, where both phases are; ``ratio`` is rho_w/rho_s.
+
+    They are the roots of ``((c - v_s)^2 - A)((c - v_w)^2 - B) - C`` with A = g (h_s + (1 - ratio) h_w/2), B = g h_w
+    and C = g^2 h_s h_w (1 + ratio)/2. It is negative at v_s +- A^(1/2) and v_w +- B^(1/2), and midway between the
+    velocities it is (d^2 - a^2)(d^2 - b^2) of half their difference d and the celerities a < b: not negative unless
+    a < d < b, so that all are real there.
+    """
     h_s, h_w, v_s, v_w = np.broadcast_arrays(h_s, h_w, v_s, v_w)
     h, matrix = h_s + h_w, np.zeros((*h_s.shape, 4, 4))  # of h_s, h_w, v_s, v_w
     for k, (depth, velocity) in enumerate(((h_s, v_s), (h_w, v_w))):
