@@ -173,6 +173,7 @@ class Poison:
         self.poisoned, self.sound = poisoned, Coulomb()
 
     def basal_resistance(self, state, yield_stress, drag):
+        state = state._replace(parameters=on_nodes(self.sound, {}))
         self.sound.basal_resistance(state, yield_stress, drag)
         {"yield_stress": yield_stress, "drag": drag}[self.poisoned][state.speed > 5.0] = np.nan
 
