@@ -68,7 +68,7 @@ def test_the_volume_of_each_phase_balances(foot):
 
 
 def test_what_grains_lose_water_gains():
-    """Drag leaves the momentum of both to round-off; the pressure, summed in floats, to 6e-8 of its parts or better."""
+    """Drag leaves the momentum of both to round-off; pressure, summed in floats, to a third of their 6e-8."""
     grid = inclined((30, 30), 1.0, 0.0)
     release_cap(grid, (14.5, 14.5), (8.0, 6.0), 1.0, on_top=True)
     flow = place(DebrisFlow(
@@ -79,7 +79,7 @@ def test_what_grains_lose_water_gains():
     flow.run_one_step(0.2)
     p, sim = flow._simulation.particles, flow._simulation
     pushes = masses(p) * p.thrust
-    assert np.all(abs(pushes.sum(axis=1)) <= 1e-8 * abs(pushes).sum(axis=1))  # measured 2e-9
+    assert np.all(abs(pushes.sum(axis=1)) <= 2e-8 * abs(pushes).sum(axis=1))  # measured 2e-9
     before, none = masses(p) * p.velocity, np.zeros(p.count)
     p.thrust[:] = 0.0
     sim.mixture.kick(sim, p.velocity, none, none, 0.0, 0.05)
@@ -270,7 +270,8 @@ class Sealed:
 def test_porosity_swings_with_the_stiffness_of_the_skeleton():
     """Water against grains in a sealed box: c^2 = K n (1/rho_w + n/((1 - n) rho_s)), (11.2 m/s)^2.
 
-    With the paper's sign of the source it does not swing, but grows (tried: 1e3 in a period, then no more numbers).
+    With the paper's sign of the source the slip doubles in every half of a quarter, until the bounds of the pressure
+    hold it (tried).
     """
     length, spacing, conductivity, slip = 4.0, 0.5, 10.0, 0.05
     flow = basin(
