@@ -175,10 +175,11 @@ def interact(sim) -> None:
         sim.computed = np.zeros(0, bool)
         return
     longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
+    mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
         p.own_thickness, p.thickening, p.gradient_term, sim.cosine, p.density, p.phase, p.share, p.cross_term,
-        p.mean_excess_pore_pressure, material.gravity, material,
+        p.mean_excess_pore_pressure, material.gravity, material, mixture,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
@@ -187,8 +188,7 @@ def interact(sim) -> None:
     sim.computed = cells.computed[: p.count]
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
-    mixed = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
-    partners = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums, mixed)
+    partners = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p, sim.phases)
     np.divide(p.own_thickness, p.share, out=p.thickness)
     if sim.mixture is not None:

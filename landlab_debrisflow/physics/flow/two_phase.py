@@ -5,7 +5,7 @@ import numpy as np
 from ...core.parameters import declared, parameter
 from ...spatial.across import Across, Crossing, Partners, cells_of, find_partners, sum_across
 from ...spatial.summation import Moving, sum_over_neighbours
-from ..contracts import WATER, FlowState, MixtureState
+from ..contracts import WATER, FlowState
 
 LEAST_PART = 1e-6
 """Least part of the thickness that a phase is taken to have where it is divided by."""
@@ -53,9 +53,7 @@ class TwoPhase:
         """Return K n^2/C_d (eq. 19), shape (n,) [m2 s-1]: the drag between the phases is that within a column."""
         return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
 
-    def interact(
-        self, state: FlowState, cells, shock_viscosity: float, threads: int, sums, mixture: MixtureState
-    ) -> Partners:
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> Partners:
         """Write the sums of each phase and what the mixture is; return the partners of the grains."""
         water = state.phase == WATER
         parts = cells_of(cells, ~water), cells_of(cells, water)
@@ -68,7 +66,7 @@ class TwoPhase:
         crossing = Crossing(
             state.x, state.y, state.z, state.volume, state.smoothing_length, shared, state.mean_pressure
         )
-        n = sums.thickness.size
+        n, mixture = sums.thickness.size, state.mixture
         computed = cells.computed[:n]
         across = Across(np.empty(n), mixture.cross_term, np.empty(n), np.zeros((3, n)))
         for targets, sources in (parts, parts[::-1]):
