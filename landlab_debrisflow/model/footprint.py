@@ -1,6 +1,6 @@
 """What the flow shows on the nodes: now, and at its peak. The maps are made of this.
 
-Two of the peaks are what obstacles are designed for.
+Two of the peaks are what obstacles are designed for. They count where the flow is deeper than what counts as arrival.
 
 **Impact pressure** is the dynamic pressure density x speed^2, in the mean over the volume at a node: the flux of
 momentum through a square metre across the flow. The empirical factor on it (1.5 for Hungr et al., 1984; 3 to 5 for
@@ -83,7 +83,8 @@ class Footprint:
         )  # fmt: skip
         self._under = scatter(self._nodes, p.x, p.y, p.spread, values, self._sums, self._scratch).copy()
         if self._walled:
-            _strike(self._under, self._sums, self._nodes.columns, self._status, *self._peaks[-2:])
+            least = self._arrival_depth * self._nodes.area
+            _strike(self._under, self._sums, least, self._nodes.columns, self._status, *self._peaks[-2:])
         _record(self._under, self._sums, self._nodes.area, time, self._arrival_depth, *self._now, *self._peaks)
 
     def clear(self) -> None:
@@ -108,11 +109,13 @@ def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z,
 
 
 @kernel
-def _strike(at, sums, columns, status, max_impact, max_run_up):
-    """Keep the peaks of closed nodes beside those the flow is at."""
+def _strike(at, sums, least, columns, status, max_impact, max_run_up):
+    """Keep the peaks of closed nodes beside those with more than the `least` volume [m3]."""
     rows = status.size // columns
     for k in range(at.size):
         n = at[k]
+        if not sums[0, n] > least:
+            continue
         r, c = n // columns, n % columns
         for side in range(4):
             beside_r, beside_c = r, c
@@ -139,11 +142,12 @@ def _record(
         peclet[n] = sums[4, n] / volume
         max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
         max_peclet[n] = max(max_peclet[n], peclet[n])
-        max_impact[n] = max(max_impact[n], sums[5, n] / volume)
-        max_run_up[n] = max(max_run_up[n], sums[6, n] / volume)
         if sums[3, n] > 0.0:
             max_ratio[n] = max(max_ratio[n], min(1.0, sums[2, n] / sums[3, n]))
-        if arrival[n] < 0.0 and depth[n] > arrival_depth:
-            arrival[n] = time
+        if depth[n] > arrival_depth:
+            max_impact[n] = max(max_impact[n], sums[5, n] / volume)
+            max_run_up[n] = max(max_run_up[n], sums[6, n] / volume)
+            if arrival[n] < 0.0:
+                arrival[n] = time
         for v in range(sums.shape[0]):
             sums[v, n] = 0.0
