@@ -76,7 +76,7 @@ def test_a_film_is_no_impact():
     """What is less than counts as arrival, as the last per mille of a tent, shows as speed and depth only."""
     for volume, counts in ((0.99 * ARRIVAL_DEPTH * D * D, False), (1.01 * ARRIVAL_DEPTH * D * D, True)):
         seen, field = footprint([EAST])
-        seen.record(over_the_middle((3.0, 0.0, 0.0), volume=volume, depth=0.04), 2000.0, 1.0)
+        seen.record(over_the_middle((3.0, 0.0, 0.0), volume=volume), 2000.0, 1.0)
         assert field["max_speed"][2, 2] == pytest.approx(3.0)
         for name in ("max_impact_pressure", "max_run_up"):
             assert (field[name][2, 2] > 0.0) == (field[name][EAST] > 0.0) == counts
