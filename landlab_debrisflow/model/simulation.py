@@ -234,7 +234,9 @@ class Simulation:
         p = self.particles
         if volume := float(p.volume[p.touched_wall > 0].sum()):
             log.warning(
-                "%.3g m3 ran against closed or NODATA nodes at %.4g s: the DEM is probably too small", volume, self.time
+                "%.3g m3 ran against closed or NODATA nodes at %.4g s: obstacles, or the DEM is too small",
+                volume,
+                self.time,
             )
             p.touched_wall[:] = 0
 
