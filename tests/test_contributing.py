@@ -99,5 +99,9 @@ def test_an_object_with_the_method_will_do(slope):
     assert flow.budget["eroded"] > 0.0 and np.isfinite(flow.budget["eroded"])
 
 
+def test_the_command_for_the_page_is_the_one_there_is():
+    assert f"`{laws_page.COMMAND}`" in CONTRIBUTING
+
+
 def test_the_shown_files_are_in_the_style_of_the_project():
     assert max(len(line) for block in BLOCKS for line in block.splitlines()) <= 120
