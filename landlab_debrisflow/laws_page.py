@@ -91,8 +91,7 @@ def _split_off_references(paragraphs):
 def _section(entry: Entry) -> str:
     paragraphs = [
         f"### {entry.title}",
-        f"`{entry.formula}`" if entry.formula else "",
-        entry.summary[:1].upper() + entry.summary[1:],
+        ": ".join(filter(None, (f"`{entry.formula}`" if entry.formula else "", entry.summary))),
         entry.details,
         f"Source: {entry.source}" if entry.source else "",
         f"Class `{entry.cls.__module__}.{entry.cls.__qualname__}`" + (":" if entry.rows else "; no parameters."),
