@@ -13,14 +13,17 @@ LEAST_PART = 1e-6
 
 @declared
 class TwoPhase:
-    """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ..., k being grains and water.
+    """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ...: k is grains or water.
 
     With the thrust of the effective stress, E = rho' g_n h^2/2 - h p, and of the pore pressure,
     P = rho_w g_n h^2/2 + h p, p being the depth mean of the excess pore pressure, grains feel
-    - grad E - (1 - n) grad P and water - n grad P. Expanded, these are the terms of Pastor et al. (2022), eqs. 10 and
-    11, those in grad n and grad(n h p) included; without excess pore pressure they are those of Pitman & Le (2005).
-    Drag: Darcy C_d = n^2/k_w (eq. 21), or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m) (Anderson & Jackson, 1967; eq.
-    23).
+    - grad E - (1 - n) grad P and water - n grad P, the terms in grad n and grad(n h p) included.
+    Drag: Darcy C_d = n^2/k_w, or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m).
+
+    References
+    ----------
+    Pastor et al. (2022), eqs. 10, 11, 21 and 23; without excess pore pressure Pitman & Le (2005); drag of Anderson &
+    Jackson (1967).
     """
 
     drag: str = parameter("-", "what grains and water do to each other", "darcy", choices=("darcy", "anderson_jackson"))
