@@ -16,8 +16,8 @@ def on_bed(velocity, gradient=(0.0, 0.0), hessian=(0.0, 0.0, 0.0)):
     u, v = velocity
     along = np.array([[u, v, u * gradient[0] + v * gradient[1]]]).T
     cosine = 1.0 / np.sqrt(1.0 + np.sum(np.square([gradient]), axis=1))
-    speed, normal = np.empty(1), np.empty(1)
-    basal_state(0, along, ground, cosine, G, SPACING, speed, normal)
+    speed, normal, stress, one = np.empty(1), np.empty(1), np.empty(1), np.ones(1)
+    basal_state(0, along, ground, cosine, G, SPACING, one, one, 0.0, 0.0 * one, speed, normal, stress)
     return float(speed[0]), float(normal[0])
 
 
