@@ -4,7 +4,7 @@ import numpy as np
 
 from ...core.parameters import declared, parameter
 from ...spatial.across import Across, Crossing, cells_of, sum_across
-from ...spatial.summation import Moving, sum_over_neighbours
+from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 
 LEAST_PART = 1e-6
@@ -76,7 +76,8 @@ class TwoPhase:
             sum_over_neighbours(targets, moving, shock_viscosity, sums, threads)
             sum_across(targets, sources, crossing, across, threads)
         np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
-        np.divide(sums.thickness, sums.thickness + across.thickness, out=mixture.share, where=computed)
+        own = plain_thickness(state.volume[:n], state.smoothing_length[:n], sums)
+        np.divide(own, own + across.thickness, out=mixture.share, where=computed)
         np.copyto(mixture.mean_pressure, across.mean, where=computed & water[:n])
         return parts
 
