@@ -1,0 +1,109 @@
+"""Herschel-Bulkley fluid in plane flow, its yield stress with a frictional part."""
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...core.parameters import declared, parameter
+from ..contracts import BasalState
+from .shear import shearing, strength
+
+STEPS = 3
+"""Of Halley's method; after them nothing is left but rounding, for every index from 0.1 to 2."""
+
+NO_STRESS = 1e-300
+"""What has a logarithm and changes nothing [Pa]."""
+
+
+@declared
+class HerschelBulkley:
+    """tau = tau_y + K (du/dz)^n where it is sheared, in plane flow (Coussot 1994; Huang & Garcia 1998).
+
+    tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi being 0, not at all.
+    With w = tau_b - tau_y and q = w/tau_b, the sheared part of the thickness, the mean of plug and sheared layer is
+    v - v_b = h_n (w/K)^(1/n) n q (2 n + 1 - n q)/((n + 1)(2 n + 1)); it is solved for w. n = 1 is Bingham; without
+    yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
+    """
+
+    yield_stress: float = parameter("Pa", "tau_0, whatever the normal stress", 500.0, (0.0, None), varies=True)
+    consistency: float = parameter(
+        "Pa s^n", "stress beyond yield at a shear rate of 1 per second", 150.0, (1e-6, None), varies=True
+    )
+    flow_index: float = parameter(
+        "-", "n: < 1 thins under shear, 1 is Bingham; about 1/3 for muds (Coussot)", 1.0 / 3.0, (0.1, 2.0), varies=True
+    )
+    basal_friction_angle: float = parameter(
+        "deg", "what effective normal stress adds to the yield stress", 0.0, (0.0, 89.0), varies=True
+    )
+
+    def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
+        """Write the yield stress [Pa], and what of tau_b exceeds it over speed [Pa s m-1]."""
+        here = state.parameters
+        strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
+        velocity, rate = shearing(state)
+        n = here.flow_index
+        rate *= (n + 1.0) * (2.0 * n + 1.0) / n
+        np.log(rate, out=rate)
+        rate *= n
+        rate += np.log(here.consistency)
+        stress_beyond_yield(yield_stress, rate, n, drag)
+        drag /= velocity
+        drag *= 1.0 - state.slip_ratio
+
+
+def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
+    """Write w > 0 with w (q (2 n + 1 - n q))^n = A, q = w/(tau_y + w) [Pa].
+
+    The logarithm of the left side is concave in log(w), its slope falls from 1 + n to 1. The start is the root of the
+    sum of the squares of the roots for small and large w, the first (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)), the
+    second A/(n + 1)^n. Logarithms and exponentials are numpy's, which takes several at once.
+
+    Parameters
+    ----------
+    yield_stress, log_stress : ndarray, shape (n,)
+        tau_y [Pa] and log(A), A in Pa.
+    index : ndarray, shape (n,) or (1,)
+        n [-]
+    out : ndarray, shape (n,)
+    """
+    small = np.log(np.maximum(yield_stress, NO_STRESS))
+    small -= np.log(2.0 * index + 1.0)
+    small *= index
+    small += log_stress
+    small /= 1.0 + index
+    np.exp(small, out=small)
+    large = np.exp(log_stress - index * np.log(index + 1.0))
+    np.hypot(small, large, out=out)
+    log_out, log_rate = np.log(out), large
+    for _ in range(STEPS):
+        _rate(yield_stress, index, out, log_rate)
+        np.log(log_rate, out=log_rate)
+        _improve(yield_stress, log_stress, index, out, log_rate, log_out)
+        np.exp(log_out, out=out)
+
+
+@kernel
+def _rate(yield_stress, index, w, out):
+    """Write q (2 n + 1 - n q) [-]."""
+    n = index[0]
+    for i in range(out.size):
+        if index.size > 1:
+            n = index[i]
+        q = w[i] / (yield_stress[i] + w[i])
+        out[i] = q * (2.0 * n + 1.0 - n * q)
+
+
+@kernel
+def _improve(yield_stress, log_stress, index, w, log_rate, log_w):
+    """Halley's step for log(w) + n log(rate) = log(A), in place: derivatives with respect to log(w)."""
+    n = index[0]
+    for i in range(log_w.size):
+        if index.size > 1:
+            n = index[i]
+        whole = yield_stress[i] + w[i]
+        q, plug = w[i] / whole, yield_stress[i] / whole
+        below = 2.0 * n + 1.0 - n * q
+        above = plug * (below - n * q)
+        value = log_w[i] + n * log_rate[i] - log_stress[i]
+        slope = 1.0 + n * above / below
+        bend = n * (n * above - (4.0 * n * plug + 1.0) * below) / (below * below) * q * plug
+        log_w[i] -= 2.0 * value * slope / (2.0 * slope * slope - value * bend)

@@ -1,0 +1,54 @@
+"""Friction that grows with the inertial number of a granular flow."""
+
+import numpy as np
+
+from ...core.errors import ParameterError
+from ...core.parameters import declared, parameter
+from ..contracts import BasalState
+from .shear import THINNEST
+
+TINY = 1e-300
+"""So that 0/0 is 0, where there is neither effective stress nor speed [Pa m2 s-1...]."""
+
+
+@declared
+class MuI:
+    """tau_b = sigma' mu(I), mu = mu_s + (mu_2 - mu_s)/(1 + I_0/I) (Jop, Forterre & Pouliquen 2006).
+
+    At the base of a flow with Bagnold's profile, u(z) - v_b ~ h^(3/2) - (h - z)^(3/2), whose mean shears it,
+    I = (5/2) (v - v_b) d/(h_n (sigma'/rho_s)^(1/2)): Gray & Edwards (2014), where sigma' = phi_c rho_s g h cos(theta).
+    Pore pressure enters through sigma', in the friction and in I: what is near to liquefied is inertial.
+    """
+
+    static_friction_angle: float = parameter("deg", "of mu_s, for I = 0", 20.9, (0.0, 89.0), varies=True)
+    limiting_friction_angle: float = parameter(
+        "deg", "of mu_2, for large I; where it is below the static one, that holds", 32.76, (0.0, 89.0), varies=True
+    )
+    inertial_number: float = parameter("-", "I_0, at which half of the way is gone", 0.279, (1e-6, None), varies=True)
+    grain_diameter: float = parameter("m", "d; the angles and I_0 are those of glass beads", 0.01, (1e-6, 10.0),
+                                      varies=True)  # fmt: skip
+    grain_density: float = parameter("kg m-3", "rho_s, for the inertial number", 2650.0, (1.0, 1e5))
+
+    def _agree(self):
+        low, high = self.static_friction_angle, self.limiting_friction_angle
+        if isinstance(low, float) and isinstance(high, float) and high < low:
+            raise ParameterError(
+                f"MuI: limiting_friction_angle must be at least static_friction_angle, {low:g} deg, got {high:g}: "
+                "friction does not fall with speed in this law; exchange the two or raise it"
+            )
+
+    def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
+        """Write static friction [Pa], and what the inertial number adds over speed [Pa s m-1]."""
+        here, stress = state.parameters, state.effective_normal_stress
+        static = np.tan(here.static_friction_angle)
+        np.multiply(static, stress, out=yield_stress)
+        more = np.maximum(np.tan(here.limiting_friction_angle) - static, 0.0)
+        # I = c v/(h sigma'^(1/2)); sigma' (mu - mu_s)/v multiplied by h sigma'^(1/2), which may be 0
+        c = 2.5 * (1.0 - state.slip_ratio) * np.sqrt(self.grain_density) * here.grain_diameter
+        denominator = np.sqrt(stress)
+        denominator *= np.maximum(state.thickness, THINNEST)
+        denominator *= here.inertial_number
+        denominator += c * state.speed
+        denominator += TINY
+        np.multiply(more * c, stress, out=drag)
+        drag /= denominator
