@@ -37,7 +37,7 @@ class Bingham:
 
 @kernel
 def stress_beyond_yield(yield_stress, twice_newtonian, out):
-    """Write w = tau_b - tau_y [Pa], from f = 6 mu v/h, twice what a fluid without yield stress would have [Pa].
+    """Write w = tau_b - tau_y [Pa], from f = 6 mu v/h > 0, twice what a fluid without yield stress would have [Pa].
 
     The cubic in w, w^2 (3 tau_y + 2 w) = f (tau_y + w)^2, has one root > 0 and no cancellation near it: w is
     (f tau_y/3)^(1/2) for small f and (f + tau_y)/2 for large. The start is within 12 % of it for every f;

@@ -7,8 +7,8 @@ from ...core.parameters import declared, parameter
 from ..contracts import BasalState
 from .shear import shearing, strength
 
-STEPS = 3
-"""Of Halley's method; after them nothing is left but rounding, for every index from 0.1 to 2."""
+STEPS = 2
+"""Of Halley's method; they leave 2e-5 and only rounding, for every index from 0.1 to 2."""
 
 NO_STRESS = 1e-300
 """What has a logarithm and changes nothing [Pa]."""
@@ -53,9 +53,9 @@ class HerschelBulkley:
 def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
     """Write w > 0 with w (q (2 n + 1 - n q))^n = A, q = w/(tau_y + w) [Pa].
 
-    The logarithm of the left side is concave in log(w), its slope falls from 1 + n to 1. The start is the root of the
-    sum of the squares of the roots for small and large w, the first (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)), the
-    second A/(n + 1)^n. Logarithms and exponentials are numpy's, which takes several at once.
+    The logarithm of the left side is concave in log(w), its slope falls from 1 + n to 1. The start joins the roots for
+    small and large w, (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)) and A/(n + 1)^n, as the sum of their powers
+    of 1/2 + 1/n, fitted: it is within 10 % of w. Logarithms and exponentials are numpy's, which takes several at once.
 
     Parameters
     ----------
@@ -65,29 +65,42 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
         n [-]
     out : ndarray, shape (n,)
     """
-    small = np.log(np.maximum(yield_stress, NO_STRESS))
-    small -= np.log(2.0 * index + 1.0)
-    small *= index
-    small += log_stress
-    small /= 1.0 + index
-    np.exp(small, out=small)
-    large = np.exp(log_stress - index * np.log(index + 1.0))
-    np.hypot(small, large, out=out)
-    log_out, log_rate = np.log(out), large
+    n, log_one, log_two, log_large = np.empty((4, out.size))  # a number as an array, too: rounding is then the same
+    n[:], log_one[:], log_two[:] = index, np.log(index + 1.0), np.log(2.0 * index + 1.0)
+    log_w = np.log(np.maximum(yield_stress, NO_STRESS))
+    _gap(log_stress, n, log_one, log_two, log_large, log_w)
+    np.exp(log_w, out=log_w)
+    log_w += 1.0
+    np.log(log_w, out=log_w)
+    log_w /= 0.5 + 1.0 / n
+    log_w += log_large
+    np.exp(log_w, out=out)
+    log_rate = log_large
     for _ in range(STEPS):
-        _rate(yield_stress, index, out, log_rate)
+        _rate(yield_stress, n, out, log_rate)
         np.log(log_rate, out=log_rate)
-        _improve(yield_stress, log_stress, index, out, log_rate, log_out)
-        np.exp(log_out, out=out)
+        _improve(yield_stress, log_stress, n, out, log_rate, log_w)
+        np.exp(log_w, out=out)
+
+
+@kernel
+def _gap(log_stress, index, log_one, log_two, log_large, log_yield):
+    """Write the logarithm of the large root; turn log(tau_y) into (1/2 + 1/n) log(small root / large root), in place.
+
+    `log_one` is log(n + 1), `log_two` log(2 n + 1).
+    """
+    for i in range(index.size):
+        n = index[i]
+        log_large[i] = log_stress[i] - n * log_one[i]
+        small = (log_stress[i] + n * (log_yield[i] - log_two[i])) / (1.0 + n)
+        log_yield[i] = (0.5 + 1.0 / n) * (small - log_large[i])
 
 
 @kernel
 def _rate(yield_stress, index, w, out):
     """Write q (2 n + 1 - n q) [-]."""
-    n = index[0]
     for i in range(out.size):
-        if index.size > 1:
-            n = index[i]
+        n = index[i]
         q = w[i] / (yield_stress[i] + w[i])
         out[i] = q * (2.0 * n + 1.0 - n * q)
 
@@ -95,10 +108,8 @@ def _rate(yield_stress, index, w, out):
 @kernel
 def _improve(yield_stress, log_stress, index, w, log_rate, log_w):
     """Halley's step for log(w) + n log(rate) = log(A), in place: derivatives with respect to log(w)."""
-    n = index[0]
     for i in range(log_w.size):
-        if index.size > 1:
-            n = index[i]
+        n = index[i]
         whole = yield_stress[i] + w[i]
         q, plug = w[i] / whole, yield_stress[i] / whole
         below = 2.0 * n + 1.0 - n * q

@@ -8,7 +8,7 @@ from ..contracts import BasalState
 from .shear import THINNEST
 
 TINY = 1e-300
-"""So that 0/0 is 0, where there is neither effective stress nor speed [Pa m2 s-1...]."""
+"""Makes 0/0, where there is neither effective stress nor speed, 0."""
 
 
 @declared
@@ -30,11 +30,15 @@ class MuI:
     grain_density: float = parameter("kg m-3", "rho_s, for the inertial number", 2650.0, (1.0, 1e5))
 
     def _agree(self):
-        low, high = self.static_friction_angle, self.limiting_friction_angle
-        if isinstance(low, float) and isinstance(high, float) and high < low:
+        given = self.static_friction_angle, self.limiting_friction_angle
+        if any(isinstance(angle, str) for angle in given):  # a field, known on a grid only
+            return
+        low, high = np.broadcast_arrays(*(getattr(angle, "values", angle) for angle in given))
+        if np.any(bad := np.atleast_1d(high < low)):
+            k = np.flatnonzero(bad)[0]
             raise ParameterError(
-                f"MuI: limiting_friction_angle must be at least static_friction_angle, {low:g} deg, got {high:g}: "
-                "friction does not fall with speed in this law; exchange the two or raise it"
+                f"MuI: limiting_friction_angle must be at least static_friction_angle, {low.flat[k]:g} deg, got "
+                f"{high.flat[k]:g}: friction does not fall with speed in this law; exchange the two, or raise it"
             )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
