@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import inner, kernel
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
 from .shear import shearing, strength
@@ -10,8 +10,8 @@ from .shear import shearing, strength
 STEPS = 2
 """Of Halley's method; they leave 2e-5 and only rounding, for every index from 0.1 to 2."""
 
-NO_STRESS = 1e-300
-"""What has a logarithm and changes nothing [Pa]."""
+NO_STRESS = 1e-37
+"""What has a logarithm in single precision and changes nothing [Pa]."""
 
 
 @declared
@@ -54,8 +54,9 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
     """Write w > 0 with w (q (2 n + 1 - n q))^n = A, q = w/(tau_y + w) [Pa].
 
     The logarithm of the left side is concave in log(w), its slope falls from 1 + n to 1. The start joins the roots for
-    small and large w, (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)) and A/(n + 1)^n, as the sum of their powers
-    of 1/2 + 1/n, fitted: it is within 10 % of w. Logarithms and exponentials are numpy's, which takes several at once.
+    small and large w, (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)) and A/(n + 1)^n, as the sum of their powers of
+    1/2 + 1/n, fitted: it is within 10 % of w, for which single precision will do. Logarithms and exponentials are
+    numpy's, which takes several at once.
 
     Parameters
     ----------
@@ -65,26 +66,23 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
         n [-]
     out : ndarray, shape (n,)
     """
-    n, log_one, log_two, log_large = np.empty((4, out.size))  # a number as an array, too: rounding is then the same
+    n, log_one, log_two, log_w, log_rate = np.empty((5, out.size))
+    # a number is made an array, too: rounding is then the same
     n[:], log_one[:], log_two[:] = index, np.log(index + 1.0), np.log(2.0 * index + 1.0)
-    log_w = np.log(np.maximum(yield_stress, NO_STRESS))
-    _gap(log_stress, n, log_one, log_two, log_large, log_w)
-    np.exp(log_w, out=log_w)
-    log_w += 1.0
-    np.log(log_w, out=log_w)
-    log_w /= 0.5 + 1.0 / n
-    log_w += log_large
+    gap = np.log(np.maximum(yield_stress, NO_STRESS).astype(np.float32))
+    _gap(log_stress, n, log_one, log_two, log_w, gap)
+    tail = np.exp(-abs(gap))
+    tail += np.float32(1.0)
+    np.log(tail, out=tail)
+    _join(n, gap, tail, log_w)
     np.exp(log_w, out=out)
-    log_rate = log_large
-    for _ in range(STEPS):
-        _rate(yield_stress, n, out, log_rate)
-        np.log(log_rate, out=log_rate)
-        _improve(yield_stress, log_stress, n, out, log_rate, log_w)
-        np.exp(log_w, out=out)
+    _rate(yield_stress, n, out, log_rate)
+    np.log(log_rate, out=log_rate)
+    _improve(yield_stress, log_stress, n, log_w, log_rate, out)
 
 
 @kernel
-def _gap(log_stress, index, log_one, log_two, log_large, log_yield):
+def _gap(log_stress, index, log_one, log_two, log_large, gap):
     """Write the logarithm of the large root; turn log(tau_y) into (1/2 + 1/n) log(small root / large root), in place.
 
     `log_one` is log(n + 1), `log_two` log(2 n + 1).
@@ -92,29 +90,55 @@ def _gap(log_stress, index, log_one, log_two, log_large, log_yield):
     for i in range(index.size):
         n = index[i]
         log_large[i] = log_stress[i] - n * log_one[i]
-        small = (log_stress[i] + n * (log_yield[i] - log_two[i])) / (1.0 + n)
-        log_yield[i] = (0.5 + 1.0 / n) * (small - log_large[i])
+        small = (log_stress[i] + n * (gap[i] - log_two[i])) / (1.0 + n)
+        gap[i] = (0.5 + 1.0 / n) * (small - log_large[i])
+
+
+@kernel
+def _join(index, gap, tail, log_root):
+    """Turn the logarithm of the large root into that of the start, in place; `tail` is log(1 + exp(-|gap|))."""
+    for i in range(index.size):
+        log_root[i] += (max(gap[i], 0.0) + tail[i]) / (0.5 + 1.0 / index[i])
 
 
 @kernel
 def _rate(yield_stress, index, w, out):
     """Write q (2 n + 1 - n q) [-]."""
     for i in range(out.size):
-        n = index[i]
         q = w[i] / (yield_stress[i] + w[i])
-        out[i] = q * (2.0 * n + 1.0 - n * q)
+        out[i] = q * (2.0 * index[i] + 1.0 - index[i] * q)
 
 
 @kernel
-def _improve(yield_stress, log_stress, index, w, log_rate, log_w):
-    """Halley's step for log(w) + n log(rate) = log(A), in place: derivatives with respect to log(w)."""
-    for i in range(log_w.size):
-        n = index[i]
-        whole = yield_stress[i] + w[i]
-        q, plug = w[i] / whole, yield_stress[i] / whole
+def _improve(yield_stress, log_stress, index, log_start, log_rate, w):
+    """Solve log(w) + n log(rate) = log(A) by Halley's method, in place; derivatives are with respect to log(w).
+
+    A step of 2 z is taken as w (1 + z)/(1 - z), and the logarithms follow by that of the ratio.
+    """
+    for i in range(w.size):
+        n, beyond, log_w, log_r = index[i], w[i], log_start[i], log_rate[i]
+        part = 1.0 / (yield_stress[i] + beyond)
+        q, plug = beyond * part, yield_stress[i] * part
         below = 2.0 * n + 1.0 - n * q
-        above = plug * (below - n * q)
-        value = log_w[i] + n * log_rate[i] - log_stress[i]
-        slope = 1.0 + n * above / below
-        bend = n * (n * above - (4.0 * n * plug + 1.0) * below) / (below * below) * q * plug
-        log_w[i] -= 2.0 * value * slope / (2.0 * slope * slope - value * bend)
+        for _ in range(STEPS):
+            inverse = 1.0 / below
+            above = plug * (below - n * q)
+            value = log_w + n * log_r - log_stress[i]
+            slope = 1.0 + n * above * inverse
+            bend = n * (n * above * inverse - (4.0 * n * plug + 1.0)) * inverse * q * plug
+            z = -value * slope / (2.0 * slope * slope - value * bend)
+            beyond *= (1.0 + z) / (1.0 - z)
+            log_w += _twice_artanh(z)
+            rate = q * below
+            part = 1.0 / (yield_stress[i] + beyond)
+            q, plug = beyond * part, yield_stress[i] * part
+            below = 2.0 * n + 1.0 - n * q
+            log_r += _twice_artanh((q * below - rate) / (q * below + rate))
+        w[i] = beyond
+
+
+@inner
+def _twice_artanh(z):
+    """Return log((1 + z)/(1 - z)), to rounding for |z| <= 0.06."""
+    s = z * z
+    return 2.0 * z * (1.0 + s * (1 / 3 + s * (1 / 5 + s * (1 / 7 + s * (1 / 9 + s / 11)))))
