@@ -139,6 +139,6 @@ def _improve(yield_stress, log_stress, index, log_start, log_rate, w):
 
 @inner
 def _twice_artanh(z):
-    """Return log((1 + z)/(1 - z)), to rounding for |z| <= 0.06."""
+    """Return log((1 + z)/(1 - z)), to rounding for |z| <= 0.05."""
     s = z * z
-    return 2.0 * z * (1.0 + s * (1 / 3 + s * (1 / 5 + s * (1 / 7 + s * (1 / 9 + s / 11)))))
+    return 2.0 * z * (1.0 + s * (1 / 3 + s * (1 / 5 + s * (1 / 7 + s / 9))))
