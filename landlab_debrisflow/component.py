@@ -173,7 +173,7 @@ class DebrisFlow(Component):
     @property
     def outflow_by_edge(self):
         """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
-        return self._simulation.outflow_by_edge(*self.grid.shape)
+        return self._simulation.outflow.by_edge(*self.grid.shape)
 
     @property
     def particles(self):
@@ -239,14 +239,14 @@ class DebrisFlow(Component):
         check_strips(grid, sim.inflow)
         sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
         shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
-        self._footprint = Footprint(bed.nodes, shown, self._numerics.arrival_depth, sim.time)
+        self._footprint = Footprint(bed.nodes, ground.status, shown, self._numerics.arrival_depth, sim.time)
         soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
         self._ledger.watch_soil(bed.nodes.core, soil)
         self._journals = [self._undo] if soil is None else [self._undo, soil]
         if failing.size:
             sim.release(failing, depth)
         self._cover()
-        self._footprint.record(sim.particles, sim.time)
+        self._footprint.record(sim.particles, self._physics.material.density, sim.time)
 
     def _cover(self):
         """Keep the rows of the grid that the next step may change."""
@@ -263,7 +263,7 @@ class DebrisFlow(Component):
             looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
             self._cover()
             sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
-            self._footprint.record(sim.particles, sim.time)
+            self._footprint.record(sim.particles, self._physics.material.density, sim.time)
             for observer, look in zip(watching, looks, strict=True):
                 if sim.time >= look or sim.idle:
                     self._show()
@@ -272,7 +272,7 @@ class DebrisFlow(Component):
     def _follow(self):
         sim = self._simulation
         self._cover()
-        self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
+        self._footprint.follow(sim.particles, self._physics.material.density, sim.time, sim.survey.fastest)
 
     def _settle(self):
         elevation, bed = self._ground.elevation, self._simulation.bed

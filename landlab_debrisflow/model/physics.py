@@ -8,12 +8,12 @@ from ..core.parameters import from_mapping
 from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.erosion import Growth, NoErosion
-from ..physics.flow import OnePhase
+from ..physics.flow import OnePhase, TwoPhase
 from ..physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 from ..physics.material import Material
 
 LAWS = {
-    "flow": {"one_phase": OnePhase},
+    "flow": {"one_phase": OnePhase, "two_phase": TwoPhase},
     "friction": {
         "coulomb": Coulomb,
         "voellmy": Voellmy,

@@ -10,11 +10,15 @@ from .shear import shearing, strength
 
 @declared
 class Bingham:
-    """v - v_b = (tau_y h_n/(6 mu)) (1 - xi)^2 (2 + xi)/xi, xi = tau_y/tau_b: the mean of a plug on a sheared layer.
+    """v - v_b = (tau_y h_n/(6 mu)) (1 - xi)^2 (2 + xi)/xi, xi = tau_y/tau_b: a plug on a sheared layer.
 
     tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi being 0, not at all.
-    Solved for tau_b: a cubic, xi^3 - (3 + a) xi + 2 = 0 with a = 6 mu (v - v_b)/(tau_y h_n); without yield stress
-    it is 3 mu (v - v_b)/h_n. Jiang & LeBlond (1993); Pastor et al. (2004) approximate the cubic, here it is solved.
+    Solved for tau_b: a cubic, xi^3 - (3 + a) xi + 2 = 0 with a = 6 mu (v - v_b)/(tau_y h_n). Without yield stress
+    tau_b = 3 mu (v - v_b)/h_n.
+
+    References
+    ----------
+    Bingham (1922); in plane flow, averaged over the depth, Jiang & LeBlond (1993), Pastor et al. (2004).
     """
 
     yield_stress: float = parameter("Pa", "tau_0, whatever the normal stress", 500.0, (0.0, None), varies=True)

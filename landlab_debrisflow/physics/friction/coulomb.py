@@ -14,12 +14,15 @@ SHEAR_AT_BASE = {"linear": 2.0, "parabolic": 3.0}
 
 @declared
 class Coulomb:
-    """tau_b = c + sigma' tan(phi) + k mu (v - v_b)/h_n, sigma' = max(0, rho' g_n h_n - p_b), g_n with curvature.
+    """tau_b = c + sigma' tan(phi) + k mu (v - v_b)/h_n: friction on the effective normal stress, with a viscous part.
 
-    The excess pore pressure p_b lowers the effective normal stress; at full liquefaction cohesion c and
-    the viscous part are left. k is 2 for a velocity that grows linearly from v_b at the base to the surface, 3 for a
-    parabola without shear at the surface: 2 mu v/h_n without slip, (4/3) mu v/h_n at v_b = v/3, 3 mu v/h_n.
-    v_b/v is the material's ``basal_slip_ratio``.
+    sigma' = max(0, rho' g_n h_n - p_b), with g_n including the curvature of the bed. The excess pore pressure p_b
+    lowers it; at full liquefaction cohesion c and the viscous part are left. k is 2 for a velocity that grows linearly
+    from v_b at the base to the surface, 3 for a parabola without shear at the surface: 2 mu v/h_n without slip,
+    (4/3) mu v/h_n at v_b = v/3, 3 mu v/h_n. v_b/v is the material's `basal_slip_ratio`.
+
+    References
+    ----------
     Pastor et al. (2022), section 4.2; Terzaghi's effective stress.
     """
 

@@ -16,12 +16,15 @@ NO_STRESS = 1e-37
 
 @declared
 class HerschelBulkley:
-    """tau = tau_y + K (du/dz)^n where it is sheared, in plane flow (Coussot 1994; Huang & Garcia 1998).
+    """v - v_b = h_n (w/K)^(1/n) n q (2 n + 1 - n q)/((n + 1)(2 n + 1)): a plug on a sheared layer.
 
-    tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi being 0, not at all.
-    With w = tau_b - tau_y and q = w/tau_b, the sheared part of the thickness, the mean of plug and sheared layer is
-    v - v_b = h_n (w/K)^(1/n) n q (2 n + 1 - n q)/((n + 1)(2 n + 1)); it is solved for w. n = 1 is Bingham; without
-    yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
+    The layer has tau = tau_y + K (du/dz)^n. w = tau_b - tau_y, for which it is solved; q = w/tau_b is the sheared part
+    of the thickness. tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi
+    being 0, not at all. n = 1 is Bingham; without yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
+
+    References
+    ----------
+    Herschel & Bulkley (1926); in plane flow Coussot (1994), Huang & Garcia (1998).
     """
 
     yield_stress: float = parameter("Pa", "tau_0, whatever the normal stress", 500.0, (0.0, None), varies=True)

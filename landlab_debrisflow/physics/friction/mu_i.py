@@ -13,11 +13,15 @@ TINY = 1e-300
 
 @declared
 class MuI:
-    """tau_b = sigma' mu(I), mu = mu_s + (mu_2 - mu_s)/(1 + I_0/I) (Jop, Forterre & Pouliquen 2006).
+    """tau_b = sigma' (mu_s + (mu_2 - mu_s)/(1 + I_0/I)): granular friction that grows with the inertial number I.
 
     At the base of a flow with Bagnold's profile, u(z) - v_b ~ h^(3/2) - (h - z)^(3/2), whose mean shears it,
-    I = (5/2) (v - v_b) d/(h_n (sigma'/rho_s)^(1/2)): Gray & Edwards (2014), where sigma' = phi_c rho_s g h cos(theta).
-    Pore pressure enters through sigma', in the friction and in I: what is near to liquefied is inertial.
+    I = (5/2) (v - v_b) d/(h_n (sigma'/rho_s)^(1/2)). Pore pressure enters through sigma', in the friction and in I:
+    what is nearly liquefied is inertial. The angles and I_0 are those of glass beads.
+
+    References
+    ----------
+    Jop, Forterre & Pouliquen (2006); at the base Gray & Edwards (2014), where sigma' = phi_c rho_s g h cos(theta).
     """
 
     static_friction_angle: float = parameter("deg", "of mu_s, for I = 0", 20.9, (0.0, 89.0), varies=True)
@@ -25,7 +29,7 @@ class MuI:
         "deg", "of mu_2, for large I; where it is below the static one, that holds", 32.76, (0.0, 89.0), varies=True
     )
     inertial_number: float = parameter("-", "I_0, at which half of the way is gone", 0.279, (1e-6, None), varies=True)
-    grain_diameter: float = parameter("m", "d; the angles and I_0 are those of glass beads", 0.01, (1e-6, 10.0),
+    grain_diameter: float = parameter("m", "d", 0.01, (1e-6, 10.0),
                                       varies=True)  # fmt: skip
     grain_density: float = parameter("kg m-3", "rho_s, for the inertial number", 2650.0, (1.0, 1e5))
 

@@ -11,10 +11,14 @@ from .shear import strength
 
 @declared
 class Voellmy:
-    """tau_b = c + sigma' tan(phi) + rho g v^2 / xi, sigma' = max(0, rho' g_n h_n - p_b).
+    """tau_b = c + sigma' tan(phi) + rho g v^2/xi: friction and a drag that grows with the square of the speed.
 
-    Voellmy (1955); Hungr (1995). The terminal speed on a plane follows from
+    sigma' = max(0, rho' g_n h_n - p_b). The terminal speed on a plane follows from
     v^2 = xi (h_n (sin(theta) - mu_a cos(theta)) - c/(rho g)).
+
+    References
+    ----------
+    Voellmy (1955); Hungr (1995).
     """
 
     basal_friction_angle: float = parameter(
