@@ -29,20 +29,22 @@ class MuI:
         "deg", "of mu_2, for large I; where it is below the static one, that holds", 32.76, (0.0, 89.0), varies=True
     )
     inertial_number: float = parameter("-", "I_0, at which half of the way is gone", 0.279, (1e-6, None), varies=True)
-    grain_diameter: float = parameter("m", "d", 0.01, (1e-6, 10.0),
-                                      varies=True)  # fmt: skip
+    grain_diameter: float = parameter("m", "d, for the inertial number", 0.01, (1e-6, 10.0), varies=True)
     grain_density: float = parameter("kg m-3", "rho_s, for the inertial number", 2650.0, (1.0, 1e5))
 
     def _agree(self):
         given = self.static_friction_angle, self.limiting_friction_angle
         if any(isinstance(angle, str) for angle in given):  # a field, known on a grid only
             return
-        low, high = np.broadcast_arrays(*(getattr(angle, "values", angle) for angle in given))
-        if np.any(bad := np.atleast_1d(high < low)):
-            k = np.flatnonzero(bad)[0]
+        low, high = (np.atleast_1d(getattr(angle, "values", angle)) for angle in given)
+        if low.size != high.size and 1 not in (low.size, high.size):  # refused on any grid
+            return
+        low, high = np.broadcast_arrays(low, high)
+        bad = np.flatnonzero(high < low)
+        if bad.size:
             raise ParameterError(
-                f"MuI: limiting_friction_angle must be at least static_friction_angle, {low.flat[k]:g} deg, got "
-                f"{high.flat[k]:g}: friction does not fall with speed in this law; exchange the two, or raise it"
+                f"MuI: limiting_friction_angle must be at least static_friction_angle, {low[bad[0]]:g} deg, got "
+                f"{high[bad[0]]:g}: friction does not fall with speed in this law; exchange the two, or raise it"
             )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:

@@ -122,6 +122,10 @@ def test_a_limiting_friction_below_the_static_is_refused(low, high):
         MuI(static_friction_angle=low, limiting_friction_angle=high)
 
 
+def test_arrays_of_two_sizes_are_left_to_the_grid_to_refuse():
+    assert MuI(static_friction_angle=[20.0, 20.0], limiting_friction_angle=[30.0, 30.0, 30.0])
+
+
 def test_a_field_of_limiting_friction_below_the_static_changes_nothing():
     """Known on a grid only: the law's description says that the static one holds there."""
     law = MuI(static_friction_angle=30.0, limiting_friction_angle="angle")
