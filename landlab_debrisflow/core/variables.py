@@ -102,6 +102,9 @@ NODE_FIELDS = (
     ),
     NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
     NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),
+    NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
+    NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
+    NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
     NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
     NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
     NodeField(

@@ -18,6 +18,7 @@ the bore it sends back. A depth-integrated flow has no jet: one could splash to 
 import numpy as np
 
 from ..core.jit import kernel
+from ..physics.contracts import WATER
 from ..spatial.transfer import Nodes, scatter
 from .motion import CLOSED
 from .particles import Particles
@@ -31,7 +32,10 @@ PEAKS = (
     "max_impact_pressure", "max_run_up",
 )  # fmt: skip
 
-AMOUNTS, TOWARDS = 7, 4
+PHASES = ("solid_depth", "solid_speed", "water_speed")
+"""Shown besides, of grains and water, if they move by themselves."""
+
+AMOUNTS, TOWARDS = 9, 4
 """What is summed at every node, and towards which faces of closed nodes if there are any: east, west, north, south."""
 
 
@@ -45,7 +49,8 @@ class Footprint:
     status : ndarray, shape (nodes,)
         Node statuses as Landlab numbers them.
     fields : mapping of str to ndarray, shape (nodes,)
-        Arrays named as in `NOW` and `PEAKS`, written in place; arrival_time is -1 where nothing came.
+        Arrays named as in `NOW` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1 where
+        nothing came.
     arrival_depth : float
         Depth that counts as arrival [m].
     time : float
@@ -56,6 +61,7 @@ class Footprint:
         self._nodes, self._status, self._arrival_depth = nodes, status, arrival_depth
         self._walled = bool(np.any(status == CLOSED))
         self._now, self._peaks = [fields[name] for name in NOW], [fields[name] for name in PEAKS]
+        self._phases = [fields[name] for name in PHASES if name in fields]
         self._sums = np.zeros((AMOUNTS + TOWARDS * self._walled, nodes.core.size))
         self._scratch = np.empty(nodes.core.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
@@ -71,7 +77,7 @@ class Footprint:
     def record(self, particles: Particles, density, time: float) -> None:
         """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
-        for field in self._now:
+        for field in self._now + self._phases:
             field[self._under] = 0.0
         if p.count == 0:
             self._under = self._under[:0]
@@ -79,33 +85,45 @@ class Footprint:
         values = np.empty((self._sums.shape[0], p.count))
         _weigh(
             self._walled, p.volume, p.velocity, p.basal_excess_pore_pressure, p.liquefaction_pressure,
-            p.basal_peclet_number, np.broadcast_to(density, p.count), p.z, p.lowest_z, p.depth, values,
+            p.basal_peclet_number, np.broadcast_to(density, p.count), p.z, p.lowest_z, p.depth, p.phase, values,
         )  # fmt: skip
         self._under = scatter(self._nodes, p.x, p.y, p.spread, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._nodes.area
             _strike(self._under, self._sums, least, self._nodes.columns, self._status, *self._peaks[-2:])
+        self._show_phases(self._under)
         _record(self._under, self._sums, self._nodes.area, time, self._arrival_depth, *self._now, *self._peaks)
+
+    def _show_phases(self, at):
+        for field in self._phases[:1]:
+            whole, way, grains, grain_way = self._sums[[0, 1, 7, 8]][:, at]
+            field[at] = grains / self._nodes.area
+            self._phases[1][at] = np.divide(grain_way, grains, out=np.zeros(at.size), where=grains > 0.0)
+            water = whole - grains
+            left = np.maximum(way - grain_way, 0.0)
+            self._phases[2][at] = np.divide(left, water, out=np.zeros(at.size), where=water > 1e-12 * whole)
 
     def clear(self) -> None:
         """Take depth and speed off the nodes; pressure and Péclet number stay as they were last."""
-        for field in self._now[:2]:
+        for field in self._now[:2] + self._phases:
             field[self._under] = 0.0
         self._under = self._under[:0]
 
 
 @kernel
-def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, values):
+def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values):
     """Write what is to be averaged over the volume at the nodes, times volume."""
     for i in range(volume.size):
         m, u, v = volume[i], velocity[0, i], velocity[1, i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
         values[0, i], values[1, i] = m, m * np.sqrt(speed2)
-        values[2, i], values[3, i], values[4, i] = m * pressure[i], m * liquefaction[i], m * peclet[i]
+        grains = m if phase[i] != WATER else 0.0  # it is they that have pore pressure
+        values[2, i], values[3, i], values[4, i] = grains * pressure[i], grains * liquefaction[i], grains * peclet[i]
+        values[7, i], values[8, i] = grains, grains * np.sqrt(speed2)
         values[5, i], values[6, i] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
         if walled:
-            values[7, i], values[8, i] = m * density[i] * max(u, 0.0) ** 2, m * density[i] * min(u, 0.0) ** 2
-            values[9, i], values[10, i] = m * density[i] * max(v, 0.0) ** 2, m * density[i] * min(v, 0.0) ** 2
+            values[9, i], values[10, i] = m * density[i] * max(u, 0.0) ** 2, m * density[i] * min(u, 0.0) ** 2
+            values[11, i], values[12, i] = m * density[i] * max(v, 0.0) ** 2, m * density[i] * min(v, 0.0) ** 2
 
 
 @kernel
@@ -126,7 +144,7 @@ def _strike(at, sums, least, columns, status, max_impact, max_run_up):
             if 0 <= beside_r < rows and 0 <= beside_c < columns:
                 wall = beside_r * columns + beside_c
                 if status[wall] == CLOSED:
-                    max_impact[wall] = max(max_impact[wall], sums[7 + side, n] / sums[0, n])
+                    max_impact[wall] = max(max_impact[wall], sums[AMOUNTS + side, n] / sums[0, n])
                     max_run_up[wall] = max(max_run_up[wall], sums[6, n] / sums[0, n])
 
 
@@ -138,8 +156,9 @@ def _record(
     for k in range(at.size):
         n = at[k]
         volume = sums[0, n]
-        depth[n], speed[n], pressure[n] = volume / area, sums[1, n] / volume, sums[2, n] / volume
-        peclet[n] = sums[4, n] / volume
+        depth[n], speed[n] = volume / area, sums[1, n] / volume
+        if sums[7, n] > 0.0:
+            pressure[n], peclet[n] = sums[2, n] / sums[7, n], sums[4, n] / sums[7, n]
         max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
         max_peclet[n] = max(max_peclet[n], peclet[n])
         if sums[3, n] > 0.0:

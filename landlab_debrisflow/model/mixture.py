@@ -9,11 +9,15 @@ import numpy as np
 
 from ..core.jit import inner, kernel
 from ..physics.contracts import WATER
+from ..spatial.across import find_partners
 
 STEPS_BETWEEN_LOOKS = 8
 """Steps after which the depth mean of the pore pressure is read off the columns; between, only what changes of porosity
 make of it is followed, which can be fast."""
 
+
+STEPS_WITH_PARTNERS = 4
+"""Steps for which grains keep their partners among the water: in so few nothing gets far."""
 
 LEAST = 1e-6
 """Least part of the volume that water and grains are taken to have."""
@@ -30,7 +34,7 @@ class Mixture:
 
     def __init__(self, physics):
         self.law, self.material, self.column = physics.flow, physics.material, physics.column
-        self.partners = None  # of the grains, set with the sums over neighbours
+        self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
         self.steps = 0
 
     def porosity(self, p):
@@ -80,11 +84,14 @@ class Mixture:
         takes[self.partners.of[self.partners.count > 0]] = True
         return takes
 
-    def found(self, p, partners) -> None:
-        """Note what the sums over neighbours found of the mixture."""
-        self.partners = partners
+    def found(self, p, cells) -> None:
+        """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
         np.copyto(p.porosity, np.where(p.phase == WATER, p.share, 1.0 - p.share))
         np.copyto(p.density, self.material.density_of(p.porosity))
+        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
+            self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
+            self._found_for, self._found = p.roll, 0
+        self._found += 1
 
     def force(self, sim, forced, dt: float):
         """Return the forcing of the columns with what two phases make of it."""
@@ -164,79 +171,85 @@ def _kick(
     friction stops grains just where f G takes all their speed.
     """
     n = phase.size
-    water_push, received = np.empty((3, n)), np.zeros((3, n))
+    moves, received = np.empty((n, 6)), np.zeros((n, 3))  # velocity and acceleration without friction; what drag gives
     for i in range(n):
-        water_push[0, i], water_push[1, i], water_push[2, i] = _along(i, push, ground, cosine, gravity)
-    v, a = np.empty(3), np.empty(3)
-    free, apart, drift = np.empty(3), np.empty(3), np.empty(3)
+        moves[i, 0], moves[i, 1], moves[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]
+        moves[i, 3], moves[i, 4], moves[i, 5] = _along(i, push, ground, cosine, gravity)
     for k in range(of.size):
         i = of[k]
+        u, v, w, ax, ay, az = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0  # of the water around
+        for s in range(count[k]):
+            j, part = index[k, s], weight[k, s]
+            u += part * moves[j, 0]
+            v += part * moves[j, 1]
+            w += part * moves[j, 2]
+            ax += part * moves[j, 3]
+            ay += part * moves[j, 4]
+            az += part * moves[j, 5]
+        nx, ny, nz = -cosine[i] * ground[1, i], -cosine[i] * ground[2, i], cosine[i]
+        # what water around on other slopes has across this one does not count
+        across, pull = u * nx + v * ny + w * nz, ax * nx + ay * ny + az * nz
+        u, v, w = u - across * nx, v - across * ny, w - across * nz
+        ax, ay, az = ax - pull * nx, ay - pull * ny, az - pull * nz
         m_s = solid_density * (1.0 - porosity[i]) * thickness[i]
         m_w = water_density * porosity[i] * thickness[i]
-        v[:], a[:] = 0.0, 0.0
-        for s in range(count[k]):
-            j, w = index[k, s], weight[k, s]
-            for d in range(3):
-                v[d] += w * velocity[d, j]
-                a[d] += w * water_push[d, j]
-        rate = coupling[i] * (1.0 / m_s + 1.0 / m_w) if count[k] > 0 else 0.0
-        x = dt * rate
-        left = np.exp(-x)
-        response = dt * (-np.expm1(-x) / x if x > 1e-12 else 1.0)
+        x = dt * coupling[i] * (1.0 / m_s + 1.0 / m_w) if count[k] > 0 else 0.0
+        lost = -np.expm1(-x)
+        left, response = 1.0 - lost, dt * (lost / x if x > 1e-12 else 1.0)
         part = m_w / (m_s + m_w)  # of the momentum
         compliance = (dt + m_w / m_s * response) / (m_s + m_w)
-        c = cosine[i]
-        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
-        for vector in (v, a):  # what water around on other slopes has across this one does not count
-            across = vector[0] * nx + vector[1] * ny + vector[2] * nz
-            vector[0], vector[1], vector[2] = vector[0] - across * nx, vector[1] - across * ny, vector[2] - across * nz
-        speed2, was, drive2 = 0.0, 0.0, 0.0
-        for d in range(3):
-            before, own = velocity[d, i], water_push[d, i]
-            apart[d] = (v[d] - before) * left + response * (a[d] - own)
-            free[d] = (1.0 - part) * (before + dt * own) + part * (v[d] + dt * a[d]) - part * apart[d]
-            drive = ((1.0 - part) * own + part * a[d]) * dt - part * response * (a[d] - own)
-            speed2 += free[d] * free[d]
-            was += before * before
-            drive2 += drive * drive
-        speed = np.sqrt(speed2)
+        us, vs, ws, bx, by, bz = moves[i, 0], moves[i, 1], moves[i, 2], moves[i, 3], moves[i, 4], moves[i, 5]
+        du = (u - us) * left + response * (ax - bx)
+        dv = (v - vs) * left + response * (ay - by)
+        dw = (w - ws) * left + response * (az - bz)
+        fu = us + dt * bx + part * (u - us + dt * (ax - bx) - du)
+        fv = vs + dt * by + part * (v - vs + dt * (ay - by) - dv)
+        fw = ws + dt * bz + part * (w - ws + dt * (az - bz) - dw)
+        speed, grip = np.sqrt(fu * fu + fv * fv + fw * fw), compliance * yield_stress[i]
         factor = 0.0
-        if speed > 0.0:
-            slow = speed - compliance * yield_stress[i]
-            if slow < 0.0:  # not max(): a NaN must survive
+        if speed > 0.0 or not speed <= 0.0:  # a NaN must survive
+            slow = speed - grip
+            if slow < 0.0:
                 slow = 0.0
             slow /= 1.0 + compliance * drag[i]
-            held = drive2 <= (compliance * yield_stress[i]) ** 2
-            factor = 0.0 if slow < rest_speed and slow * slow < was and held else slow / speed
-        mass = solid_density * volume[i] / m_s * m_w  # of the water with these grains
-        for d in range(3):
-            friction = (1.0 - factor) * free[d] / compliance
-            velocity[d, i] = factor * free[d]
-            drift[d] = velocity[d, i] + apart[d] + response / m_s * friction - v[d] - dt * a[d]
+            factor = slow / speed
+            if slow < rest_speed and slow * slow < us * us + vs * vs + ws * ws:
+                share = part * (dt - response)  # what of the pull on the water has reached the grains
+                ex, ey, ez = dt * bx + share * (ax - bx), dt * by + share * (ay - by), dt * bz + share * (az - bz)
+                if ex * ex + ey * ey + ez * ez <= grip * grip:
+                    factor = 0.0
+        velocity[0, i], velocity[1, i], velocity[2, i] = factor * fu, factor * fv, factor * fw
+        # the water's velocity is that of the grains, and apart, and more apart for the friction on the grains
+        more = factor + response / m_s * (1.0 - factor) / compliance
+        mass = m_w * solid_density * volume[i] / m_s  # of the water with these grains
+        gx, gy, gz = (
+            mass * (more * fu + du - u - dt * ax), mass * (more * fv + dv - v - dt * ay),
+            mass * (more * fw + dw - w - dt * az),
+        )  # fmt: skip
         for s in range(count[k]):
-            j, w = index[k, s], weight[k, s]
-            for d in range(3):
-                received[d, j] += mass * w * drift[d]
+            j, part = index[k, s], weight[k, s]
+            received[j, 0] += part * gx
+            received[j, 1] += part * gy
+            received[j, 2] += part * gz
     for i in range(n):
         if phase[i] != WATER:
             continue
         per_mass = 1.0 / (water_density * volume[i])
-        gx, gy, gz = received[0, i] * per_mass, received[1, i] * per_mass, received[2, i] * per_mass
-        c = cosine[i]
-        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+        gx, gy, gz = received[i, 0] * per_mass, received[i, 1] * per_mass, received[i, 2] * per_mass
+        nx, ny, nz = -cosine[i] * ground[1, i], -cosine[i] * ground[2, i], cosine[i]
         across = gx * nx + gy * ny + gz * nz
-        u = velocity[0, i] + dt * water_push[0, i] + gx - across * nx
-        v1 = velocity[1, i] + dt * water_push[1, i] + gy - across * ny
-        w1 = velocity[2, i] + dt * water_push[2, i] + gz - across * nz
+        ax, ay, az = moves[i, 3], moves[i, 4], moves[i, 5]
+        u = velocity[0, i] + dt * ax + gx - across * nx
+        v = velocity[1, i] + dt * ay + gy - across * ny
+        w = velocity[2, i] + dt * az + gz - across * nz
         was = np.sqrt(velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
-        slow = 1.0 / (1.0 + dt * manning[i] * was)
-        speed = slow * np.sqrt(u * u + v1 * v1 + w1 * w1)
+        factor = 1.0 / (1.0 + dt * manning[i] * was)
+        speed = factor * np.sqrt(u * u + v * v + w * w)
         if speed < rest_speed and speed < was:
-            pull = np.sqrt(water_push[0, i] ** 2 + water_push[1, i] ** 2 + water_push[2, i] ** 2)
-            seepage = pull * water_density * porosity[i] * thickness[i]
+            seepage = np.sqrt(ax * ax + ay * ay + az * az) * water_density * porosity[i] * thickness[i]
             if seepage <= rest_speed * coupling[i]:  # what drag would leave of its speed if the grains rest
-                slow = 0.0
-        velocity[0, i], velocity[1, i], velocity[2, i] = slow * u, slow * v1, slow * w1
+                factor = 0.0
+        velocity[0, i], velocity[1, i], velocity[2, i] = factor * u, factor * v, factor * w
 
 
 @kernel

@@ -224,6 +224,14 @@ class Simulation:
             self._arrested = True
 
     @property
+    def own_density(self):
+        """Density of what each particle is of, shape (n,) [kg m-3]."""
+        p, material = self.particles, self.physics.material
+        if self.mixture is None:
+            return p.density
+        return np.where(p.phase == WATER, material.water_density, material.solid_density)
+
+    @property
     def solid_volume(self):
         """Volume of the grains in each particle, shape (n,) [m3]."""
         p = self.particles

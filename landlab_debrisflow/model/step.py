@@ -189,11 +189,11 @@ def interact(sim) -> None:
     sim.computed = cells.computed[: p.count]
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
-    partners = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
+    parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p, sim.phases)
     np.divide(p.own_thickness, p.share, out=p.thickness)
     if sim.mixture is not None:
-        sim.mixture.found(p, partners)
+        sim.mixture.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)

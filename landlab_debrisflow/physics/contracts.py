@@ -137,5 +137,5 @@ class FlowLaw(Protocol):
         That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
         rate at which converging flow thickens. A law with two phases, one with the methods `drag_coefficient` and
         `coefficient_of_consolidation` of `physics.flow.TwoPhase`, also writes ``state.mixture`` and returns the
-        partners of its grains.
+        cells of grains and of water.
         """

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.motion import basal_state
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
@@ -16,8 +17,8 @@ def on_bed(velocity, gradient=(0.0, 0.0), hessian=(0.0, 0.0, 0.0)):
     u, v = velocity
     along = np.array([[u, v, u * gradient[0] + v * gradient[1]]]).T
     cosine = 1.0 / np.sqrt(1.0 + np.sum(np.square([gradient]), axis=1))
-    speed, normal = np.empty(1), np.empty(1)
-    basal_state(0, along, ground, cosine, G, SPACING, speed, normal)
+    speed, normal, stress, one = np.empty(1), np.empty(1), np.empty(1), np.ones(1)
+    basal_state(0, along, ground, cosine, G, SPACING, one, one, 0.0, 0.0 * one, speed, normal, stress)
     return float(speed[0]), float(normal[0])
 
 
@@ -54,10 +55,13 @@ def test_over_a_bump_the_flow_gets_lighter_and_without_weight_it_has_no_friction
         found, normal = on_bed((speed, 0.0), hessian=(-1.0 / radius, 0.0, 0.0))
         assert normal == 0.0
         one = np.ones(1)
-        state = BasalState(one, one, found * one, normal * one, 9712.0 * one, 0.0 * one, 1990.0, 990.0, G)
+        state = BasalState(
+            one, one, found * one, normal * one, 990.0 * normal * one, 9712.0 * one, 0.0 * one,
+            1990.0 * one, G, 0.0, None,
+        )  # fmt: skip
         for law in (Coulomb(), Voellmy()):
             stress, drag = np.empty(1), np.empty(1)
-            law.basal_resistance(state, stress, drag)
+            law.basal_resistance(state._replace(parameters=on_nodes(law, {})), stress, drag)
             assert stress[0] == 0.0
             # what is left of Voellmy is turbulence
             assert drag[0] == (0.0 if isinstance(law, Coulomb) else pytest.approx(1990.0 * G * speed / 500.0))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.across import Across, Crossing, Partners, cells_of, find_partners, sum_across
+from ...spatial.across import Across, Crossing, cells_of, sum_across
 from ...spatial.summation import Moving, sum_over_neighbours
 from ..contracts import WATER, FlowState
 
@@ -56,8 +56,8 @@ class TwoPhase:
         """Return K n^2/C_d (eq. 19), shape (n,) [m2 s-1]: the drag between the phases is that within a column."""
         return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
 
-    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> Partners:
-        """Write the sums of each phase and what the mixture is; return the partners of the grains."""
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
+        """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
         water = state.phase == WATER
         parts = cells_of(cells, ~water), cells_of(cells, water)
         within, shared, density = self._strengths(state, water)
@@ -78,7 +78,7 @@ class TwoPhase:
         np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
         np.divide(sums.thickness, sums.thickness + across.thickness, out=mixture.share, where=computed)
         np.copyto(mixture.mean_pressure, across.mean, where=computed & water[:n])
-        return find_partners(*parts, crossing, n)
+        return parts
 
     @staticmethod
     def _strengths(state: FlowState, water):
