@@ -18,7 +18,7 @@ from landlab_debrisflow.model.physics import LAWS
 from landlab_debrisflow.terrains import tsing_shan_valley
 
 START, TURN = 2.0, 0.2
-"""Until when all run before the first turn, and how long a turn is [s of the event]: before the laws have brought them apart."""
+"""Until when all run before the first turn, and how long a turn is [s of the event]: before laws bring them apart."""
 
 
 def cases():

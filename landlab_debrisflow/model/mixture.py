@@ -135,7 +135,7 @@ class Mixture:
         Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
         of a velocity in a step of `dt` seconds.
         """
-        if not self.column.stores_pressure:
+        if not self.column.stores_pressure or sim.particles.count == 0:
             return np.zeros(1)
         p, material = sim.particles, self.material
         n = p.porosity

@@ -40,7 +40,7 @@ class TwoPhase:
     stiffness: float = parameter(
         "Pa", "volumetric stiffness of the skeleton of grains, K_v over alpha", 2.5e5, (0.0, 1e12)
     )
-    manning_coefficient: float = parameter("s m-0.333", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
+    manning_coefficient: float = parameter("s m-1/3", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
 
     def drag_coefficient(self, porosity, material):
         """Return C_d, drag per volume and relative velocity, for some porosities, shape (n,) [Pa s m-2]."""
