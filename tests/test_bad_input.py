@@ -8,6 +8,7 @@ import pytest
 from landlab import FieldError, HexModelGrid, RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, SimulationError
+from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.friction import Coulomb
 
 from .grids import COARSE, changed_fields, copy_fields, place

@@ -25,6 +25,7 @@ PARTICLE_VARIABLES = (
     Variable("x", "m", "map coordinate, from the lower left node of the grid"),
     Variable("y", "m", "map coordinate, from the lower left node of the grid"),
     Variable("z", "m", "elevation of the bed below"),
+    Variable("lowest_z", "m", "lowest bed it has come over", initial=float("inf"), written=False),
     Variable("velocity", "m s-1", "depth-averaged velocity, tangent to the bed", vector=True),
     Variable("thrust", "m s-2", "acceleration by the pressure of the flow", vector=True, written=False),
     Variable("volume", "m3", "volume of debris carried"),
@@ -101,8 +102,20 @@ NODE_FIELDS = (
     ),
     NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
     NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),
+    NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
+    NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
+    NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
     NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
     NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
+    NodeField(
+        "debris_flow__max_impact_pressure", "out", "Pa",
+        "Largest density times speed squared so far; on closed nodes with the speed towards their faces",
+    ),
+    NodeField(
+        "debris_flow__max_run_up", "out", "m",
+        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes of "
+        "what stood at their faces",
+    ),
     NodeField("debris_flow__arrival_time", "out", "s", "Time of first arrival; -1 where nothing came"),
     NodeField("debris_flow__eroded_depth", "out", "m", "Cumulative erosion, without the release"),
     NodeField("debris_flow__deposit_depth", "out", "m", "Depth of mass at rest now plus what has settled"),

@@ -224,6 +224,14 @@ class Simulation:
             self._arrested = True
 
     @property
+    def own_density(self):
+        """Density of what each particle is of, shape (n,) [kg m-3]."""
+        p, material = self.particles, self.physics.material
+        if self.mixture is None:
+            return p.density
+        return np.where(p.phase == WATER, material.water_density, material.solid_density)
+
+    @property
     def solid_volume(self):
         """Volume of the grains in each particle, shape (n,) [m3]."""
         p = self.particles
@@ -234,7 +242,9 @@ class Simulation:
         p = self.particles
         if volume := float(p.volume[p.touched_wall > 0].sum()):
             log.warning(
-                "%.3g m3 ran against closed or NODATA nodes at %.4g s: the DEM is probably too small", volume, self.time
+                "%.3g m3 ran against closed or NODATA nodes at %.4g s: obstacles, or the DEM is too small",
+                volume,
+                self.time,
             )
             p.touched_wall[:] = 0
 

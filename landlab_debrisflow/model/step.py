@@ -164,6 +164,7 @@ def find_ground(sim, dt: float = 0.0) -> None:
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
     owed = sim.owed if dt > 0.0 else np.empty(0)
     follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
+    np.minimum(p.lowest_z, p.z, out=p.lowest_z)
     sim.node = sim.bed.nodes.nearest(p.x, p.y)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
@@ -175,10 +176,11 @@ def interact(sim) -> None:
         sim.computed = np.zeros(0, bool)
         return
     longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
+    mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
         p.own_thickness, p.thickening, p.gradient_term, sim.cosine, p.density, p.phase, p.share, p.cross_term,
-        p.mean_excess_pore_pressure, material.gravity, material,
+        p.mean_excess_pore_pressure, material.gravity, material, mixture,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
@@ -187,12 +189,12 @@ def interact(sim) -> None:
     sim.computed = cells.computed[: p.count]
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
-    mixed = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
-    partners = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums, mixed)
+    parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p, sim.phases)
-    np.divide(p.own_thickness, p.share, out=p.thickness)
-    if sim.mixture is not None:
-        sim.mixture.found(p, partners)
+    if sim.mixture is None:
+        p.thickness[:] = p.own_thickness
+    else:
+        sim.mixture.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
@@ -209,7 +211,7 @@ def consolidate(sim, dt: float) -> None:
         forced = sim.mixture.force(sim, forced, dt)
     sim.physics.column.advance(columns(p, awake), forced, dt, p.basal_excess_pore_pressure[awake])
     if sim.mixture is not None:
-        sim.mixture.follow_mean(sim, dt * forced.porosity_source)
+        sim.mixture.follow_mean(sim, forced.porosity_source, dt)
 
 
 def check(sim, dt: float = 0.0) -> None:

@@ -96,6 +96,14 @@ MIXTURE, WATER = 0, 1
 """What a particle is of: grains, with the water between them if the flow law has one phase; or water."""
 
 
+class MixtureState(NamedTuple):
+    """What a flow law with two phases finds of the mixture at each of n particles; written where cells are awake."""
+
+    share: Array  # of the thickness that is of the own phase [-]
+    cross_term: Array  # [-]
+    mean_pressure: Array  # depth mean of the excess pore pressure, of the grains around, at water only [Pa]
+
+
 class FlowState(NamedTuple):
     """The moving mass as the flow law sees it, n particles on the surface."""
 
@@ -117,24 +125,17 @@ class FlowState(NamedTuple):
     mean_pressure: Array  # depth mean of the excess pore pressure [Pa]
     gravity: float  # [m s-2]
     material: Any  # physics.material.Material
-
-
-class MixtureState(NamedTuple):
-    """What a flow law with two phases finds of the mixture at each of n particles; written where cells are awake."""
-
-    share: Array  # of the thickness that is of the own phase [-]
-    cross_term: Array  # [-]
-    mean_pressure: Array  # depth mean of the excess pore pressure, of the grains around, at water only [Pa]
+    mixture: MixtureState  # of those that are moved, without mirror images
 
 
 class FlowLaw(Protocol):
     """Inner forces of the flow."""
 
-    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums, mixture: MixtureState):
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
         """Write, where cells are awake, what neighbours do to each other: `spatial.summation.Sums`.
 
         That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
         rate at which converging flow thickens. A law with two phases, one with the methods `drag_coefficient` and
-        `coefficient_of_consolidation` of `physics.flow.TwoPhase`, also writes what the mixture is and returns the
-        partners of its grains.
+        `coefficient_of_consolidation` of `physics.flow.TwoPhase`, also writes ``state.mixture`` and returns the
+        cells of grains and of water.
         """

@@ -164,8 +164,17 @@ class Partners(NamedTuple):
     weight: np.ndarray  # (m, MOST_PARTNERS) their parts, which sum to 1 [-]
 
 
-def find_partners(targets: Cells, sources: Cells, crossing: Crossing, n: int) -> Partners:
-    """Find the partners of the targets among the sources, of those below `n`; arguments as in `sum_across`."""
+def find_partners(targets: Cells, sources: Cells, x, y, z, volume, smoothing_length) -> Partners:
+    """Find the partners of some particles among others.
+
+    Parameters
+    ----------
+    targets, sources : Cells
+        As in `sum_across`.
+    x, y, z, volume, smoothing_length : ndarray, shape (n,)
+        Of particles that have and may be partners [m, m3]; the cells may have more behind them.
+    """
+    n = x.size
     of = targets.order[targets.order < n]
     partners = Partners(
         of, np.zeros(of.size, np.int64), np.empty((of.size, MOST_PARTNERS), np.int64),
@@ -173,7 +182,7 @@ def find_partners(targets: Cells, sources: Cells, crossing: Crossing, n: int) ->
     )  # fmt: skip
     _find(
         n, targets.columns, targets.order, targets.start, sources.order, sources.start, targets.box, targets.window,
-        *crossing[:5], *partners[1:],
+        x, y, z, volume, smoothing_length, *partners[1:],
     )  # fmt: skip
     return partners
 

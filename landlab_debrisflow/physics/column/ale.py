@@ -10,11 +10,14 @@ from .schemes import ADVANCE, advance, check_scheme, synchronise
 
 @declared
 class ALE:
-    """Excess pore pressure of a column that grows at its base (Pastor et al., 2022, eq. 35).
+    """dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S: a column that grows at its base.
 
-    ``dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S``: a grain keeps its depth below the
-    surface while the column erodes. At the base the bed prescribes the pressure of a column that
-    erodes; it is impermeable to one that does not.
+    A grain keeps its depth below the surface while the column erodes. At the base the bed prescribes the
+    pressure of a column that erodes; it is impermeable to one that does not. S is what changes of the load add.
+
+    References
+    ----------
+    Pastor et al. (2022), eq. 35.
 
     Examples
     --------

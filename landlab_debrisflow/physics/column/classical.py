@@ -10,10 +10,13 @@ from .schemes import ADVANCE, advance, check_scheme, synchronise
 
 @declared
 class Classical:
-    """Excess pore pressure without the advection by erosion (Pastor et al., 2009, 2015; eq. 19).
+    """dp/dt = (c_v/h^2) d2p/dxi2 + S: a column without the advection by erosion, kept for comparison.
 
-    ``dp/dt = (c_v/h^2) d2p/dxi2 + S``, with the same base and sources as `ALE`: a grain keeps its
-    fraction of the depth while the column grows. Kept for comparison.
+    Base and sources are those of `ALE`; a grain keeps its fraction of the depth while the column grows.
+
+    References
+    ----------
+    Pastor et al. (2009, 2015); Pastor et al. (2022), eq. 19.
 
     Examples
     --------

@@ -10,9 +10,13 @@ from ..contracts import ColumnForcing, ColumnState
 
 @declared
 class ConstantRatio:
-    """Excess pore pressure proportional to the overburden at every depth, for ever.
+    """p = r rho' g h cos(theta) (1 - xi): excess pore pressure proportional to the overburden at every depth, for ever.
 
-    The limit of tight debris whose bed has its own ratio (theory, section 6, "constant ratio").
+    The limit of tight debris whose bed has its own ratio.
+
+    References
+    ----------
+    Hungr (1995), friction with a constant ratio of pore pressure.
 
     Examples
     --------

@@ -8,7 +8,11 @@ from ..contracts import ColumnForcing, ColumnState
 
 @declared
 class NoExcessPressure:
-    """Dry debris, or debris so permeable that its pore water stays hydrostatic.
+    """p = 0: dry debris, or debris so permeable that its pore water stays hydrostatic.
+
+    References
+    ----------
+    Terzaghi (1943), effective stress of drained soil.
 
     Examples
     --------

@@ -4,19 +4,19 @@ import numpy as np
 
 from ...core.parameters import declared
 from ...spatial.summation import Moving, sum_over_neighbours
-from ..contracts import FlowState, MixtureState
+from ..contracts import FlowState
 
 
 @declared
 class OnePhase:
-    """Depth-averaged momentum of one phase: rho h dv/dt = - grad(1/2 rho g cos(theta) h^2) + ...
+    """rho h dv/dt = -grad(1/2 rho g cos(theta) h^2) + ...: depth-averaged momentum of one phase, h slope-normal.
 
-    Pastor et al. (2022), eq. 18, with the misprinted thrust mended; h is slope-normal.
+    References
+    ----------
+    Pastor et al. (2022), eq. 18, with the misprinted thrust mended.
     """
 
-    def interact(
-        self, state: FlowState, cells, shock_viscosity: float, threads: int, sums, mixture: MixtureState
-    ) -> None:
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
         """Write thickness, smoothing length, acceleration by pressure and thickening rate."""
         normal_gravity, inertia = state.gravity * state.cos_slope, state.density / state.density.max()
         moving = Moving(

@@ -3,9 +3,9 @@
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.across import Across, Crossing, Partners, cells_of, find_partners, sum_across
-from ...spatial.summation import Moving, sum_over_neighbours
-from ..contracts import WATER, FlowState, MixtureState
+from ...spatial.across import Across, Crossing, cells_of, sum_across
+from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
+from ..contracts import WATER, FlowState
 
 LEAST_PART = 1e-6
 """Least part of the thickness that a phase is taken to have where it is divided by."""
@@ -13,14 +13,17 @@ LEAST_PART = 1e-6
 
 @declared
 class TwoPhase:
-    """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ..., k being grains and water.
+    """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ...: k is grains or water.
 
     With the thrust of the effective stress, E = rho' g_n h^2/2 - h p, and of the pore pressure,
     P = rho_w g_n h^2/2 + h p, p being the depth mean of the excess pore pressure, grains feel
-    - grad E - (1 - n) grad P and water - n grad P. Expanded, these are the terms of Pastor et al. (2022), eqs. 10 and
-    11, those in grad n and grad(n h p) included; without excess pore pressure they are those of Pitman & Le (2005).
-    Drag: Darcy C_d = n^2/k_w (eq. 21), or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m) (Anderson & Jackson, 1967; eq.
-    23).
+    - grad E - (1 - n) grad P and water - n grad P, the terms in grad n and grad(n h p) included.
+    Drag: Darcy C_d = n^2/k_w, or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m).
+
+    References
+    ----------
+    Pastor et al. (2022), eqs. 10, 11, 21 and 23; without excess pore pressure Pitman & Le (2005); drag of Anderson &
+    Jackson (1967).
     """
 
     drag: str = parameter("-", "what grains and water do to each other", "darcy", choices=("darcy", "anderson_jackson"))
@@ -37,7 +40,7 @@ class TwoPhase:
     stiffness: float = parameter(
         "Pa", "volumetric stiffness of the skeleton of grains, K_v over alpha", 2.5e5, (0.0, 1e12)
     )
-    manning_coefficient: float = parameter("s m-0.333", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
+    manning_coefficient: float = parameter("s m-1/3", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
 
     def drag_coefficient(self, porosity, material):
         """Return C_d, drag per volume and relative velocity, for some porosities, shape (n,) [Pa s m-2]."""
@@ -53,10 +56,8 @@ class TwoPhase:
         """Return K n^2/C_d (eq. 19), shape (n,) [m2 s-1]: the drag between the phases is that within a column."""
         return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
 
-    def interact(
-        self, state: FlowState, cells, shock_viscosity: float, threads: int, sums, mixture: MixtureState
-    ) -> Partners:
-        """Write the sums of each phase and what the mixture is; return the partners of the grains."""
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
+        """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
         water = state.phase == WATER
         parts = cells_of(cells, ~water), cells_of(cells, water)
         within, shared, density = self._strengths(state, water)
@@ -68,16 +69,17 @@ class TwoPhase:
         crossing = Crossing(
             state.x, state.y, state.z, state.volume, state.smoothing_length, shared, state.mean_pressure
         )
-        n = sums.thickness.size
+        n, mixture = sums.thickness.size, state.mixture
         computed = cells.computed[:n]
         across = Across(np.empty(n), mixture.cross_term, np.empty(n), np.zeros((3, n)))
         for targets, sources in (parts, parts[::-1]):
             sum_over_neighbours(targets, moving, shock_viscosity, sums, threads)
             sum_across(targets, sources, crossing, across, threads)
         np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
-        np.divide(sums.thickness, sums.thickness + across.thickness, out=mixture.share, where=computed)
+        own = plain_thickness(state.volume[:n], state.smoothing_length[:n], sums)
+        np.divide(own, own + across.thickness, out=mixture.share, where=computed)
         np.copyto(mixture.mean_pressure, across.mean, where=computed & water[:n])
-        return find_partners(*parts, crossing, n)
+        return parts
 
     @staticmethod
     def _strengths(state: FlowState, water):
