@@ -12,8 +12,12 @@ from ..physics.contracts import WATER
 from ..spatial.across import find_partners
 
 STEPS_BETWEEN_LOOKS = 16
-"""Steps after which the depth mean of the pore pressure is read off the columns; between, only what changes of porosity
-make of it is followed, which can be fast."""
+"""Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
+of it is followed, which can be fast, and drains at `DRAINAGE`."""
+
+DRAINAGE = 3.0
+"""Rate at which the mean is lost in between, over c_v/h^2: a steady source S then gives S h^2/(3 c_v), as in
+a column."""
 
 STEPS_WITH_PARTNERS = 4
 """Steps for which grains keep their partners among the water: in so few nothing gets far."""
@@ -35,6 +39,7 @@ class Mixture:
         self.law, self.material, self.column = physics.flow, physics.material, physics.column
         self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
         self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
+        self.drainage = None  # [s-1]
         self._steps = 0
 
     def found(self, p, cells) -> None:
@@ -43,6 +48,7 @@ class Mixture:
         _mix(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
         np.divide(p.own_thickness, p.share, out=p.thickness)
         self.coupling = law.drag_coefficient(p.porosity, material) * p.thickness
+        self.drainage = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
         self.manning = np.zeros(1)
         if law.manning_coefficient > 0.0:
             self.manning = material.gravity * law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
@@ -118,22 +124,16 @@ class Mixture:
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.column.stores_pressure else 0.0
         _follow(
-            p.phase,
-            gained,
-            source,
-            weight,
-            p.thickness,
-            sim.cosine,
-            p.liquefaction_pressure,
+            p.phase, gained, source, weight, p.thickness, sim.cosine, p.liquefaction_pressure, self.drainage,
             p.mean_excess_pore_pressure,
-        )
+        )  # fmt: skip
         self._steps += 1
 
     def celerity_squared(self, sim, dt: float):
         """Return by how much the square of the celerity is higher as the skeleton is stiff, shape (n,) [m2 s-2].
 
         Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
-        of a velocity in a step of `dt` seconds.
+        of a velocity in a step of `dt` seconds, and drainage what is reached of a pressure.
         """
         if not self.column.stores_pressure or sim.particles.count == 0:
             return np.zeros(1)
@@ -141,7 +141,13 @@ class Mixture:
         n = p.porosity
         lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
         x = dt * self.coupling / (p.thickness * n * n) * lightness
-        return self.law.stiffness * lightness * -np.expm1(-x) / np.maximum(x, 1e-12)
+        return self.law.stiffness * lightness * _reached(x) * _reached(dt * self.drainage)
+
+
+def _reached(x):
+    """Return (1 - exp(-x))/x: what of a gain is left after a time in which x times of it are lost."""
+    x = np.maximum(x, 1e-12)
+    return -np.expm1(-x) / x
 
 
 @kernel
@@ -153,11 +159,13 @@ def _mix(phase, share, solid_density, water_density, porosity, density):
 
 
 @kernel
-def _follow(phase, dt, source, weight, thickness, cosine, liquefaction_pressure, mean):
-    """Add the source to the mean of grains, and hold it between suction and liquefaction."""
+def _follow(phase, dt, source, weight, thickness, cosine, liquefaction_pressure, drainage, mean):
+    """Add the source to the mean of grains while it drains, and hold it between suction and liquefaction."""
     for i in range(phase.size):
         if phase[i] != WATER:
-            gained = mean[i] + dt * source[min(i, source.size - 1)]
+            x = dt * drainage[i]
+            lost = -np.expm1(-x)
+            gained = (1.0 - lost) * mean[i] + dt * source[min(i, source.size - 1)] * (lost / x if x > 1e-12 else 1.0)
             lowest, highest = -0.5 * weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
             mean[i] = min(max(gained, lowest), highest)
 

@@ -14,6 +14,7 @@ from landlab import RasterModelGrid
 from benchmarks.flow_planes import plane
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.contracts import WATER
+from landlab_debrisflow.physics.flow import TwoPhase
 
 from ..grids import inclined, place, release, release_cap, release_slab
 
@@ -54,9 +55,9 @@ def test_the_volume_of_each_phase_balances(foot):
         material={"porosity": 0.45, "bed_porosity": 0.25}, numerics={"particle_count": 60, "rest_energy": 1e-2},
     )  # fmt: skip
     flow.run_one_step(6.0)
-    middle = flow._ledger.budget_by_phase(flow._simulation)
+    middle = flow.budget_by_phase
     flow.run_until_rest(120.0)
-    end = flow._ledger.budget_by_phase(flow._simulation)
+    end = flow.budget_by_phase
     for budget in (middle, end):
         for terms in budget.values():
             # a deposit is measured in the elevation: to the rounding of some 1e3 nodes at some 100 m, each of 25 m2
@@ -254,6 +255,13 @@ def test_particles_feel_the_gradients_of_both_thrusts():
 # ---- waves and bounds ----
 
 
+class TightInDepth(TwoPhase):
+    """Drag along the bed, but none of the drainage across it that goes with it: else no wave as long as this lasts."""
+
+    def coefficient_of_consolidation(self, porosity, material):
+        return 0.0 * porosity
+
+
 class Sealed:
     """A column that keeps all pressure made by changes of porosity, the same at all levels, and never drains."""
 
@@ -275,7 +283,7 @@ def test_porosity_swings_with_the_stiffness_of_the_skeleton():
     """
     length, spacing, conductivity, slip = 4.0, 0.5, 10.0, 0.05
     flow = basin(
-        8, 8, spacing, Sealed(), flow=two_phase(hydraulic_conductivity=conductivity),
+        8, 8, spacing, Sealed(), flow=TightInDepth(hydraulic_conductivity=conductivity),
         material={"initial_pressure_ratio": 0.0}, numerics={"courant_number": 0.1},
     )  # fmt: skip
     celerity = math.sqrt(2.5e5 * N * (1.0 / RHO_W + N / M_S))
@@ -295,6 +303,8 @@ def test_porosity_swings_with_the_stiffness_of_the_skeleton():
     turns = np.flatnonzero(found[:-1] * found[1:] < 0.0)
     times = (turns + 1.0 + found[turns] / (found[turns] - found[turns + 1])) / 8.0  # in quarters of a period
     # eight spacings in half a wave: the kernel blunts gradients by some 10 %, twice; measured 2.21 quarters
+    # with a tenth of a step's usual length: thrust has the pressure of the step before, which feeds what drag does not
+    # take away (2.3 times in a period with usual steps); where columns drain as with such a drag, nothing swings
     assert np.diff(times).mean() == pytest.approx(2.0, rel=0.15)
     size = abs(found)
     assert size.max() < 1.02 and size[32:].max() < size[:24].max()

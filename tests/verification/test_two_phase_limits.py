@@ -34,15 +34,12 @@ def sliding_cap(law, count):
 def test_a_tight_mixture_is_one_phase_with_pore_pressure():
     """By the default coefficient of consolidation, 4e-4 m2/s: a slip of 1e-7 m/s.
 
-    The lattices distort, which looks like a change of porosity of 1e-4; the stiffness makes of it a pressure, 40 Pa
-    with 2.5e5 Pa. So travel is known to 1 %, falling as particles get more (1.2, .9, .5 % with 300, 1200, 4800), and
-    in proportion to the stiffness.
+    Particles of both phases lie alike, so that porosity stays what it is to 4e-5, 17 Pa by the default stiffness.
     """
-    travel, ratio = sliding_cap("one_phase", 1200)
-    for stiffness, tolerance in ((2.5e5, 0.01), (2.5e4, 0.002)):
-        found, found_ratio = sliding_cap({"law": "two_phase", "stiffness": stiffness}, 1200)
-        assert found == pytest.approx(travel, rel=tolerance)
-        assert found_ratio == pytest.approx(ratio, rel=3.0 * tolerance)  # 40 Pa of some 1700: measured 2.2 %
+    travel, ratio = sliding_cap("one_phase", 300)
+    found, found_ratio = sliding_cap("two_phase", 300)
+    assert found == pytest.approx(travel, rel=1e-3)  # measured 2e-4
+    assert found_ratio == pytest.approx(ratio, rel=0.01)  # 17 Pa of some 1700
 
 
 @pytest.mark.parametrize(
@@ -76,18 +73,19 @@ def centres(flow):
 def test_a_permeable_mixture_drains_by_itself():
     """Columns with and without pore pressure come together as the conductivity rises: pressure over load is h dn/dt/K.
 
-    With 0.1 m/s it still matters to what travels: the grains' is 2.6 m, the water's 3.9 m with 1 m/s.
+    And the stiffness of the skeleton, whose waves drain away, costs no steps then (2600 where 110 do, if it did).
     """
     apart = []
-    for conductivity in (0.1, 1.0):
+    for conductivity in (0.1, 1.0, 10.0):
         mixture = replace(CASES["cap"].mixture, conductivity=conductivity)
-        with_and_without = [
-            centres(two_phase.run("cap", 300, **two_phase.keywords(mixture, column, initial_pressure_ratio=0.0))[0])
+        runs = [
+            two_phase.run("cap", 300, **two_phase.keywords(mixture, column, initial_pressure_ratio=0.0))
             for column in ("none", "ale")
         ]
-        bare, pressed = np.array(with_and_without)
+        bare, pressed = (np.array(centres(flow)) for flow, _, _ in runs)
         apart.append(abs(pressed / bare - 1.0).max())
-    assert apart[0] > 0.015 and apart[1] < 0.01  # measured .022 and .005 with 500
+        assert runs[1][2] < 1.5 * runs[0][2]
+    assert apart[0] > 0.015 and apart[1] < 0.008 and apart[2] < 0.004  # measured .022, .004, .001 with 500
 
 
 @pytest.mark.parametrize("stiffness", [2.5e5, 2.5e6])
