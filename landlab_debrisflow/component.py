@@ -234,7 +234,7 @@ class DebrisFlow(Component):
         elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
             self._said_nothing_to_do = True
-        bed = ground.make_bed()
+        bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
         sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
@@ -275,13 +275,12 @@ class DebrisFlow(Component):
         self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
 
     def _settle(self):
-        elevation, bed = self._ground.elevation, self._simulation.bed
         self._ledger.watch_soil(None, None)  # what settles becomes soil, too
-        rise = Journal([elevation], self.grid.number_of_node_columns)
+        rise = Journal([self._ground.elevation], self.grid.number_of_node_columns)
         self._journals = [self._undo, rise]
         self._cover()
         nodes, depth = self._simulation.settle()
-        self._ledger.count_deposit(bed.nodes.core, rise)
+        self._ledger.count_deposit(self._simulation.bed.nodes.core, rise)
         self._settled[nodes] += depth
         self._lying = np.union1d(self._lying, nodes)
         self._footprint.clear()
@@ -289,10 +288,11 @@ class DebrisFlow(Component):
     def _finish(self):
         """Show the deposit, and remember the terrain to notice what other components change."""
         self._show()
-        self._ground.remember(self._undo.nodes)
+        self._ground.remember(self._undo.nodes, self.elapsed_time)
 
     def _show(self):
         """Write the deposit: what has settled and what lies still now."""
+        self._ground.show(self._undo.nodes, self.elapsed_time)
         field = self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
         nodes, depth = self._simulation.resting_depth()
         field[self._lying] = self._settled[self._lying]

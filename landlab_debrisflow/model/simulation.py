@@ -71,6 +71,7 @@ class Simulation:
         self.bed, self.status, self.parameters = bed, status, parameters
         self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
+        step.press(self)
 
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
@@ -107,6 +108,7 @@ class Simulation:
             least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
         )  # fmt: skip
         self._find_everything(FIRST_SWEEPS)
+        step.press(self)
         load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,

@@ -38,6 +38,7 @@ def advance(sim, dt: float) -> None:
     find_ground(sim, dt)
     interact(sim)
     sleep.wake(sim, sleep.disturbed(sim))
+    press(sim, dt)
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -170,6 +171,20 @@ def interact(sim) -> None:
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
 
 
+def press(sim, dt: float | None = None) -> None:
+    """Tell the bed what the flow weighs after a step, or, without one, what has lain there before."""
+    p, bed, material = sim.particles, sim.bed.pore_pressure, sim.physics.material
+    if bed is None or (p.count == 0 and dt is None):
+        return
+    # volume over depth is map area; g_n h_n is g h cos^2(theta)
+    weight = p.volume * material.gravity * (p.thickness / p.depth) ** 2
+    force = np.array([weight * p.density, weight * (p.density - material.bearing_density)])
+    if dt is None:
+        bed.stand(p.x, p.y, p.spread, force, sim.time)
+    else:
+        bed.carry(p.x, p.y, p.spread, force, sim.time + dt, dt)
+
+
 def consolidate(sim, dt: float) -> None:
     """Advance the pore-pressure columns with what the flow did to them."""
     p = sim.particles
@@ -239,5 +254,5 @@ def base(sim, which: slice, kind: str, pressure=None) -> BasalState:
     here = (values if values.size == 1 else values[sim.node[which]] for values in parameters)
     return BasalState(
         depth, thickness, speed, normal_gravity, stress, p.liquefaction_pressure[which], pressure, density,
-        material.gravity, material.basal_slip_ratio, type(parameters)(*here),
+        sim.bed.eroded_in_event(sim.node[which]), material.gravity, material.basal_slip_ratio, type(parameters)(*here),
     )  # fmt: skip
