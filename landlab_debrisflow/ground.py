@@ -105,7 +105,8 @@ class Ground:
         """Note how the call leaves the elevation and what it eroded; only drainage changes more than `nodes`."""
         self._seen[0][nodes] = self.elevation[nodes]
         self._eroded[nodes] = self.bed.eroded_in_event(nodes)
-        self.show(slice(None), time)
+        if self._loaded:
+            self.bed.pore_pressure.finish(time, nodes)
 
     def forget(self) -> None:
         """Read everything anew at the next call."""
