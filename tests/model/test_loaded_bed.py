@@ -127,7 +127,7 @@ def test_who_looks_in_between_sees_the_present():
 def test_a_ratio_beside_it_is_refused():
     grid, flow = slope()
     grid.add_full("bed__excess_pore_pressure_ratio", 0.5, at="node")
-    with pytest.raises(InputError, match="bed_loading_coefficient > 0 .* delete the field"):
+    with pytest.raises(InputError, match=r"bed_loading_coefficient > 0 .* delete the field"):
         flow.run_one_step(1.0)
 
 
