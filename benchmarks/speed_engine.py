@@ -13,9 +13,9 @@ import numba
 import numpy as np
 
 from benchmarks.flow_planes import similarity_body
-from landlab_debrisflow import DebrisFlow, component
+from landlab_debrisflow import DebrisFlow, calls
 from landlab_debrisflow.demo import MATERIAL
-from landlab_debrisflow.model import footprint, simulation, sleep, step
+from landlab_debrisflow.model import footprint, release, simulation, sleep, step
 from landlab_debrisflow.physics.flow import one_phase
 from landlab_debrisflow.spatial.cells import sort_into_cells
 from landlab_debrisflow.spatial.summation import Moving, Sums, _copy_neighbourhood, _pack, sum_over_neighbours
@@ -187,7 +187,7 @@ def placed_valley(count, threads=1):
 
 
 STAGES = {
-    "placing of the release": (simulation, "place_particles"), "rest of the set-up": (component.DebrisFlow, "_begin"),
+    "placing of the release": (release, "place_particles"), "rest of the set-up": (calls.Calls, "begin"),
     "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
     "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
     "interact": (step, "interact"),
@@ -195,7 +195,7 @@ STAGES = {
     "consolidate": (step, "consolidate"), "check": (step, "check"),
     "wake those disturbed": (sleep, "wake"), "fall asleep": (sleep, "fall_asleep"),
     "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (footprint.Footprint, "record"),
-    "cover": (component.DebrisFlow, "_cover"), "settle and finish": (component.DebrisFlow, "_settle"),
+    "cover": (calls.Calls, "_cover"), "settle and finish": (calls.Calls, "_settle"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
 

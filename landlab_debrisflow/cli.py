@@ -1,21 +1,16 @@
 """The command line: ``landlab-debrisflow demo`` and ``landlab-debrisflow info``."""
 
 import argparse
-import dataclasses
-import inspect
-import math
 import sys
 from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
-from . import __version__
+from . import __version__, laws_page
 from .core.errors import InputError, ParameterError
-from .model.hydrograph import Hydrograph
-from .model.numerics import Numerics
 from .model.physics import LAWS
-from .physics.material import Material
 
 USER_ERROR = 2
 
@@ -54,7 +49,10 @@ def _parser():
     demo.add_argument("--output-dir", type=Path, default=Path(), help="where demo.nc and demo.png go (default: here)")
     demo.set_defaults(command=_demo)
 
-    info = commands.add_parser("info", help="list all laws and parameters with units, defaults and bounds")
+    info = commands.add_parser(
+        "info", help="list all laws and parameters with formula, source, units, defaults and bounds"
+    )
+    info.add_argument("--markdown", action="store_true", help="as the page docs/laws.md")
     info.set_defaults(command=_info)
     return parser
 
@@ -65,51 +63,33 @@ def _demo(arguments):
     run_demo(arguments.particles, arguments.output_dir, Console())
 
 
-def _info(_):
+def _info(arguments):
+    if arguments.markdown:
+        sys.stdout.write(laws_page.markdown())
+        return
     console = Console()
-    for kind, laws in LAWS.items():
-        for number, (name, law) in enumerate(laws.items()):
-            default = " (default)" if number == 0 else ""
-            _show(console, f"{kind}: {name}{default}", law)
-    _show(console, "material", Material)
-    _show(console, "numerics", Numerics)
-    _show(console, "inflow", Hydrograph)
+    for kind in LAWS:
+        for number, entry in enumerate(laws_page.law_entries(kind)):
+            _show(console, entry, " (default)" if number == 0 else "")
+    for entry in laws_page.other_entries():
+        _show(console, entry)
 
 
-def _show(console, title, declared):
-    """Print the parameters of a declared class and the first paragraph of what it says of itself."""
-    parameters = dataclasses.fields(declared)
-    words = " ".join(inspect.cleandoc(declared.__doc__ or "").split("\n\n")[0].split())
-    console.print(f"[bold]{title}[/bold]  {words}", highlight=False)
-    if not parameters:
+def _show(console, entry, remark=""):
+    """Print formula, source and parameters of a declared class."""
+    words = ": ".join(filter(None, (entry.formula, entry.summary)))
+    console.print(f"[bold]{entry.title}{remark}[/bold]  {escape(words)}", highlight=False)
+    if entry.source:
+        console.print(f"  [dim]{escape(entry.source)}[/dim]", highlight=False)
+    if not entry.rows:
         console.print("  no parameters\n", highlight=False)
         return
     table = Table(box=None, pad_edge=True, header_style="dim")
-    for heading in ("parameter", "unit", "default", "allowed", "meaning"):
+    for heading in laws_page.HEADINGS:
         table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names stay whole
-    for parameter in parameters:
-        meta = parameter.metadata
-        table.add_row(parameter.name, meta["unit"], _plain(parameter.default), _allowed(meta), meta["meaning"])
+    for row in entry.rows:
+        table.add_row(*map(escape, row))
     console.print(table, "", highlight=False)
-
-
-def _allowed(meta):
-    if meta["choices"]:
-        return ", ".join(meta["choices"])
-    if meta["kind"] is bool:
-        return "true, false"
-    low, high = meta["bounds"]
-    if high < math.inf:
-        return f"{low:g} to {high:g}"
-    return f"{low:g} or more" if low > -math.inf else "any"
-
-
-def _plain(value):
-    if value is None:
-        return "not set"
-    if isinstance(value, bool):
-        return str(value).lower()
-    return value if isinstance(value, str) else f"{value:.6g}"
 
 
 if __name__ == "__main__":

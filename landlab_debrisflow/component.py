@@ -1,28 +1,19 @@
 """The Landlab component: fields of the grid on one side, the model on the other."""
 
-import logging
-from contextlib import contextmanager
 from typing import ClassVar
 
-import numpy as np
 from landlab import Component, RasterModelGrid
 
 from . import inputs
+from .calls import Calls
 from .citation import PAPER
-from .core.variables import NODE_FIELDS, OUTPUT_PREFIX
-from .ground import Ground
-from .inflow_inputs import check_lines, check_strips, read_hydrographs
-from .model.footprint import NOW, PEAKS, Footprint
+from .core.variables import NODE_FIELDS
+from .inflow_inputs import read_hydrographs
 from .model.inflow import Inflow
-from .model.journal import Journal
-from .model.ledger import Ledger
 from .model.numerics import Numerics
 from .model.physics import build_declared, build_physics
 from .model.simulation import Simulation
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
-from .spatial.transfer import REACH
-
-log = logging.getLogger("landlab_debrisflow")
 
 
 class DebrisFlow(Component):
@@ -84,17 +75,14 @@ class DebrisFlow(Component):
         self._physics = build_physics(flow, friction, erosion, column, material)
         self._numerics = build_declared(Numerics, numerics, "numerics")
         self._observers = inputs.check_observers(observers)
+        inputs.check_phases(self._physics)
         self._hydrographs = read_hydrographs(inflow)
         super().__init__(grid)
         inputs.check_boundaries(grid)
         inputs.add_fields(self)
         entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
         self._simulation = Simulation(self._physics, self._numerics, entering)
-        self._settled = np.zeros(grid.number_of_nodes)
-        self._ledger = Ledger(grid.dx * grid.dy)
-        self._ground = Ground(grid, self._physics)
-        self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
-        self._said_nothing_to_do = False
+        self._calls = Calls(self, self._simulation)
 
     # ---- what a user calls ----
 
@@ -117,7 +105,7 @@ class DebrisFlow(Component):
             If the state stopped being finite; the grid is as it was before the call.
         """
         if (dt := inputs.check_duration(dt)) > 0.0:
-            self._run(dt, stop_at_rest=False)
+            self._calls.run(dt, stop_at_rest=False)
 
     def run_until_rest(self, max_duration=3600.0):
         """Run the whole event.
@@ -133,7 +121,7 @@ class DebrisFlow(Component):
             True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on.
         """
         if (duration := inputs.check_duration(max_duration, "max_duration")) > 0.0:
-            self._run(duration, stop_at_rest=True)
+            self._calls.run(duration, stop_at_rest=True)
         return self.at_rest
 
     def settle(self):
@@ -146,10 +134,7 @@ class DebrisFlow(Component):
         """
         if not self.at_rest:
             raise inputs.InputError("settle() lays down mass at rest, but the flow still moves; run_until_rest() first")
-        with self._all_or_nothing():
-            self._begin(take_release=False)
-            self._settle()
-            self._finish()
+        self._calls.settle()
 
     @property
     def elapsed_time(self):
@@ -168,12 +153,20 @@ class DebrisFlow(Component):
         Each is measured on its own: release field, hydrographs, soil field, particles, elevation field,
         particles that left. ``moving`` counts all particles, also those at rest but not settled.
         """
-        return self._ledger.budget(self._simulation)
+        return self._calls.ledger.budget(self._simulation)
+
+    @property
+    def budget_by_phase(self):
+        """The same for ``"solid"`` and ``"water"`` [m3]: grains, and what is between them, water if saturated.
+
+        What of the released, inflowing and eroded volume is of which phase follows from the porosities.
+        """
+        return self._calls.ledger.budget_by_phase(self._simulation)
 
     @property
     def outflow_by_edge(self):
         """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
-        return self._simulation.outflow_by_edge(*self.grid.shape)
+        return self._simulation.outflow.by_edge(*self.grid.shape)
 
     @property
     def particles(self):
@@ -190,111 +183,3 @@ class DebrisFlow(Component):
     def maps(self):
         """The fields of the grid as a Dataset over ``y`` and ``x``, with units and all parameters."""
         return maps_dataset(self.grid, self._physics, self._numerics, self.budget, self.elapsed_time, self._hydrographs)
-
-    # ---- the life of a call ----
-
-    def _run(self, duration, stop_at_rest):
-        with self._all_or_nothing():
-            self._begin()
-            self._advance(duration, stop_at_rest)
-            self._ledger.watch_soil(None, None)
-            self._simulation.warn_of_walls()
-            if self.at_rest and self._numerics.settle:
-                self._settle()
-            self._finish()
-
-    @contextmanager
-    def _all_or_nothing(self):
-        """Leave grid and model as they were if anything goes wrong inside, an interrupt included."""
-        names = [f for f in self._info if f in self.grid.at_node and "out" in self._info[f]["intent"]]
-        fields = [self.grid.at_node[name] for name in names] + [self._settled]
-        self._undo = Journal(fields, self.grid.number_of_node_columns)
-        simulation, ledger, lying = self._simulation.snapshot(), self._ledger.snapshot(), self._lying
-        try:
-            yield
-        except BaseException:
-            self._undo.restore()
-            self._simulation.restore(simulation)
-            self._ledger.restore(ledger)
-            self._lying = lying
-            self._ground.forget()
-            raise
-
-    def _begin(self, take_release=True):
-        """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
-        grid, ground, sim = self.grid, self._ground, self._simulation
-        changed = ground.read()
-        check_lines(grid, sim.inflow)
-        failing, depth = inputs.read_release(grid, ground.soil) if take_release else (np.zeros(0, int), np.zeros(0))
-        if failing.size:
-            rows = failing // grid.number_of_node_columns
-            self._undo.cover(rows.min(), rows.max() + 1)
-            ground.fail(failing, depth)
-            self._ledger.released += float(depth.sum() * grid.dx * grid.dy)
-        elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
-            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
-            self._said_nothing_to_do = True
-        bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
-        sim.inflow.aim(bed.surface)
-        check_strips(grid, sim.inflow)
-        sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
-        shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in NOW + PEAKS}
-        self._footprint = Footprint(bed.nodes, shown, self._numerics.arrival_depth, sim.time)
-        soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
-        self._ledger.watch_soil(bed.nodes.core, soil)
-        self._journals = [self._undo] if soil is None else [self._undo, soil]
-        if failing.size:
-            sim.release(failing, depth)
-        self._cover()
-        self._footprint.record(sim.particles, sim.time)
-
-    def _cover(self):
-        """Keep the rows of the grid that the next step may change."""
-        south, north = self._simulation.extent()
-        for journal in self._journals if south <= north else ():
-            journal.cover(int(south / self.grid.dy) - REACH, int(north / self.grid.dy) + REACH + 2)
-
-    def _advance(self, duration, stop_at_rest):
-        """Run, stopping where an observer wants to look while there is an event."""
-        sim, end = self._simulation, self._simulation.time + duration
-        while sim.time < end and not (stop_at_rest and self.at_rest):
-            sim.wait(end)
-            watching = () if sim.idle else self._observers
-            looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
-            self._cover()
-            sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
-            self._footprint.record(sim.particles, sim.time)
-            for observer, look in zip(watching, looks, strict=True):
-                if sim.time >= look or sim.idle:
-                    self._show()
-                    observer.observe(self)
-
-    def _follow(self):
-        sim = self._simulation
-        self._cover()
-        self._footprint.follow(sim.particles, sim.time, sim.survey.fastest)
-
-    def _settle(self):
-        self._ledger.watch_soil(None, None)  # what settles becomes soil, too
-        rise = Journal([self._ground.elevation], self.grid.number_of_node_columns)
-        self._journals = [self._undo, rise]
-        self._cover()
-        nodes, depth = self._simulation.settle()
-        self._ledger.count_deposit(self._simulation.bed.nodes.core, rise)
-        self._settled[nodes] += depth
-        self._lying = np.union1d(self._lying, nodes)
-        self._footprint.clear()
-
-    def _finish(self):
-        """Show the deposit, and remember the terrain to notice what other components change."""
-        self._show()
-        self._ground.remember(self._undo.nodes, self.elapsed_time)
-
-    def _show(self):
-        """Write the deposit: what has settled and what lies still now."""
-        self._ground.show(self._undo.nodes, self.elapsed_time)
-        field = self.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
-        nodes, depth = self._simulation.resting_depth()
-        field[self._lying] = self._settled[self._lying]
-        field[nodes] = self._settled[nodes] + depth
-        self._lying = nodes

@@ -7,6 +7,7 @@ import numpy as np
 
 from .core.errors import InputError
 from .core.parameters import NodeValues, check_values
+from .core.variables import NODE_FIELDS
 
 NODATA = -9999.0
 FIXED_GRADIENT, LOOPED, CLOSED = 2, 3, 4  # node statuses of Landlab
@@ -24,6 +25,10 @@ def check_duration(value, name: str = "dt") -> float:
 def add_fields(component) -> None:
     """Add what a component writes, and its release, to its grid where they are missing."""
     grid = component.grid
+    if hasattr(component._physics.flow, "drag_coefficient"):
+        for field in NODE_FIELDS:
+            if field.intent == "out" and field.optional and field.name not in grid.at_node:
+                grid.add_zeros(field.name, at="node", units=field.unit)
     new_arrival = "debris_flow__arrival_time" not in grid.at_node
     component.initialize_output_fields()
     if "debris_flow__release_depth" not in grid.at_node:
@@ -100,6 +105,27 @@ def check_parameters(grid, laws) -> None:
                 )
             values = np.where(grid.status_at_node == CLOSED, field.metadata["bounds"][0], grid.at_node[value])
             check_values(f"{name}, from field {value!r},", values, field.metadata, lambda k: f"at {_where(grid, k)}")
+
+
+def check_phases(physics) -> None:
+    """Refuse materials in which the two phases of a flow law cannot be told apart."""
+    material = physics.material
+    if not hasattr(physics.flow, "drag_coefficient"):
+        return
+    for name, allowed in (("water_density", "> 0"), ("porosity", "> 0"), ("water_table_ratio", "1")):
+        value = getattr(material, name)
+        if value == 0.0 or (name == "water_table_ratio" and value < 1.0):
+            raise InputError(
+                f"flow: two phases need a material whose {name} is {allowed}, got {value:g}; "
+                "use flow='one_phase' for debris that is not saturated"
+            )
+    law = physics.flow
+    derived = getattr(law, "drag", "") == "darcy" and law.hydraulic_conductivity is None
+    if derived and (material.coefficient_of_consolidation == 0.0 or law.stiffness == 0.0):
+        raise InputError(
+            "flow: Darcy's drag follows from coefficient_of_consolidation and stiffness, of which one is 0; "
+            "give hydraulic_conductivity [m s-1]"
+        )
 
 
 def check_observers(observers) -> tuple:

@@ -20,7 +20,7 @@ os.environ["NUMBA_CACHE_DIR"] = os.path.join(
 import numpy as np  # noqa: E402  numba must not be imported before the line above
 import pytest  # noqa: E402
 
-from landlab_debrisflow import DebrisFlow  # noqa: E402
+from landlab_debrisflow.calls import Calls  # noqa: E402
 
 from .grids import inclined, release_slab  # noqa: E402
 
@@ -44,12 +44,13 @@ def valley():
 @pytest.fixture(autouse=True)
 def every_call_balances(monkeypatch):
     """In every test and example: volume, and the elevation the call left, against the budget, to round-off."""
-    run, known = DebrisFlow._run, {}
+    run, known = Calls.run, {}
 
-    def checked(flow, duration, stop_at_rest):
+    def checked(calls, duration, stop_at_rest):
+        flow = calls.flow
         z, core = flow.grid.at_node["topographic__elevation"], flow.grid.core_nodes
         before, ground = flow.budget, z[core].copy()
-        run(flow, duration, stop_at_rest)
+        run(calls, duration, stop_at_rest)
         after, area = flow.budget, flow.grid.dx * flow.grid.dy
         tolerance = 1e-12 * (after["released"] + after["inflow"] + after["eroded"])
         gain = {name: after[name] - before[name] for name in after}
@@ -61,4 +62,4 @@ def every_call_balances(monkeypatch):
         assert abs(after["residual"]) <= tolerance + known[flow]
         assert abs(rise - (gain["deposited"] - gain["released"] - gain["eroded"])) <= tolerance + rounding
 
-    monkeypatch.setattr(DebrisFlow, "_run", checked)
+    monkeypatch.setattr(Calls, "run", checked)

@@ -8,6 +8,7 @@ import pytest
 from landlab import FieldError, HexModelGrid, RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, SimulationError
+from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.friction import Coulomb
 
 from .grids import COARSE, changed_fields, copy_fields, place
@@ -173,6 +174,7 @@ class Poison:
         self.poisoned, self.sound = poisoned, Coulomb()
 
     def basal_resistance(self, state, yield_stress, drag):
+        state = state._replace(parameters=on_nodes(self.sound, {}))
         self.sound.basal_resistance(state, yield_stress, drag)
         {"yield_stress": yield_stress, "drag": drag}[self.poisoned][state.speed > 5.0] = np.nan
 

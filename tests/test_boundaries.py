@@ -124,7 +124,7 @@ def test_a_neighbour_that_leaves_wakes_those_asleep():
     sim._find_everything(8)
     p.still_steps[:], sim._arrested = 1000, False
     sim.advance(0.01)
-    assert p.count == 99 and sim.outflow
+    assert p.count == 99 and sim.outflow.total
     after = p.thickness.copy()
     p.still_steps[:] = 0
     sim._find_everything(8)

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError
 
-from .grids import COARSE, inclined, release_cap
+from .grids import COARSE, inclined, place, release_cap
 
 
 def sloping():
@@ -29,6 +29,84 @@ def test_a_drained_bed_takes_the_pressure_and_shortens_the_way():
         assert_allclose(base, 0.0, atol=0.0) if drained else np.testing.assert_array_less(0.0, base.median())
         fronts[drained] = float(flow.particles.x.max())
     assert fronts[1] < fronts[0] - 5.0  # a cell
+
+
+SLOPE, RATIO = 0.1, 0.4
+
+
+def over_a_screen(first, last, angle, speed, drained=True):
+    """Send a film with uniform pressure, so thin that it hardly spreads, over a drain between two x [m]."""
+    grid = inclined((13, 121), 2.5, SLOPE)
+    release_cap(grid, (60.0, 15.0), (10.0, 10.0), 0.002, on_top=True)
+    screen = (grid.x_of_node > first) & (grid.x_of_node < last)
+    grid.add_field("bed__drained", np.where(screen & drained, 1.0, 0.0), at="node")
+    flow = DebrisFlow(
+        grid, friction={"law": "coulomb", "basal_friction_angle": angle}, erosion="none",
+        column={"law": "ale", "levels": 41}, numerics={"settle": False, "particle_count": 100},
+        material={
+            "coefficient_of_consolidation": 5e-9, "initial_pressure_ratio": RATIO,
+            "initial_pressure_profile": "uniform",
+        },
+    )  # fmt: skip
+    place(flow)
+    flow._simulation._arrested = False
+    flow._simulation.particles.velocity[[0, 2]] = np.array([[speed], [-SLOPE * speed]]) / np.hypot(1.0, SLOPE)
+    return flow
+
+
+def pressure_ratio(flow):
+    """Return the basal excess pore pressure over its liquefaction value, in order of release."""
+    return (flow.particles.basal_excess_pore_pressure / flow.particles.liquefaction_pressure).values
+
+
+def test_behind_a_screen_the_pressure_comes_back_out_of_the_column():
+    """Drained for a time t at its base and then closed for s, a deep column of pressure p has p 2/pi atan(sqrt(s/t)).
+
+    From the profile p erf(y/(4 c t)^1/2) at the end of the screen, spread by a Gauss kernel and its mirror image.
+    """
+    flow, step = over_a_screen(100.0, 130.0, angle=10.0, speed=20.0), 0.05
+    on = off = np.zeros(100)
+    seen = []
+    for _ in range(100):
+        before = flow.particles.x.values
+        flow.run_one_step(step)
+        nearest = 2.5 * np.floor(0.5 * (before + flow.particles.x.values) / 2.5 + 0.5)
+        drained = (nearest > 100.0) & (nearest < 130.0)
+        on, off = on + step * drained, off + step * ~drained * (nearest >= 130.0)
+        ratio = pressure_ratio(flow)
+        inside = abs(flow.particles.x.values - 115.0) < 13.0
+        assert not ratio[inside].any()
+        deep = (off > 0.2) & (5e-9 * (on + off) < 0.02 * flow.particles.thickness.values**2)
+        seen.append((ratio - RATIO * 2.0 / np.pi * np.arctan(np.sqrt(off / np.maximum(on, step))))[deep])
+    error = np.concatenate(seen)
+    assert error.size > 1000 and 0.15 < ratio[deep].min() < ratio[deep].max() < RATIO
+    # measured .020. Braked at its front first the body thickens by 3 % from screen to end, undrained: the ratio r grows
+    # by .03 (1 - r), .02; and when a particle came and left is known to half a sample, .006
+    assert abs(error).max() < 0.025
+
+
+def test_on_a_screen_friction_is_full_and_the_flow_stops_earlier():
+    full = 9.81 * (SLOPE - np.tan(np.radians(20.0)) * 990.0 / 1990.0) / np.hypot(1.0, SLOPE)
+    reached = []
+    for drained in (True, False):
+        flow = over_a_screen(80.0, 290.0, 20.0, 10.0, drained)
+        flow.run_one_step(4.0)
+        p = flow.particles
+        assert p.x.min() > 82.0
+        speed = np.sqrt(p.velocity_x**2 + p.velocity_y**2 + p.velocity_z**2).mean()
+        start = p.x.mean()
+        flow.run_one_step(1.0)
+        p = flow.particles
+        slowed = float(np.sqrt(p.velocity_x**2 + p.velocity_y**2 + p.velocity_z**2).mean() - speed)
+        # all are on it, and each is slowed by all of its buoyant weight; what is not drained by .6 of it
+        assert slowed == pytest.approx(full, rel=1e-3) if drained else slowed > 0.3 * full
+        flow.run_until_rest(30.0)
+        reached.append(float(flow.particles.x.mean() - start))
+        if drained:
+            assert flow.at_rest
+            way = float(speed) ** 2 / (2.0 * -full) / np.hypot(1.0, SLOPE)
+            assert reached[0] == pytest.approx(way, rel=0.01)
+    assert reached[1] > 1.5 * reached[0]
 
 
 def test_a_drain_is_there_or_not():

@@ -33,3 +33,10 @@ def test_table_of_fields_is_complete_and_true():
     rows = re.findall(r"^\| `(\w+)` \| ([\w, ]+) \| (\S+) \|", README, re.MULTILINE)
     declared = [(f.name, f.intent + (", optional" if f.optional else ""), f.unit) for f in NODE_FIELDS]
     assert sorted(rows) == sorted(declared)
+
+
+@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "docs/laws.md"])
+def test_links_to_files_lead_somewhere(page):
+    path = Path(__file__).parents[1] / page
+    targets = re.findall(r"\]\((?!https?:)([^)#]+)\)", path.read_text(encoding="utf-8"))
+    assert targets and [target for target in targets if not (path.parent / target).exists()] == []

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..physics.column.start import initial_profile
-from ..physics.contracts import BASE_IMPERMEABLE, ColumnForcing, ColumnState
+from ..physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing, ColumnState
 from ..spatial.summation import SMOOTHING_RATIO
 from .hydrograph import Hydrograph, Integral
 from .release import THICKNESS_RANGE
@@ -187,11 +187,13 @@ class Inflow:
         fall = np.einsum("in,in->n", towards, sim.ground[1:3, held])
         sim.particles.velocity[:, held] = velocity / np.sqrt(1.0 + fall**2) * np.array([*towards, fall])
 
-    def hold_thickness(self, p) -> None:
-        """Give the particles in the strips the thickness they entered with."""
+    def hold_thickness(self, p, phases) -> None:
+        """Give the particles in the strips the thickness they entered with; `phases` are those of the simulation."""
         held = self.held(p)
-        thickness = self._thickness[p.inflow_row[held]]
-        p.thickness[held], p.gradient_term[held] = thickness, 1.0
+        part = np.array([part for _, part in phases])[p.phase[held]]
+        p.share[held] = part
+        thickness = part * self._thickness[p.inflow_row[held]]
+        p.own_thickness[held], p.gradient_term[held] = thickness, 1.0
         p.next_smoothing_length[held] = _smoothing_length(p.volume[held], thickness, p.least_thickness[held])
 
     def held(self, p):
@@ -233,13 +235,21 @@ class Inflow:
         )  # fmt: skip
         least = THICKNESS_RANGE * source.hydrograph.largest_thickness
         length = _smoothing_length(volume, thickness, least)
-        new = p.append(
-            count, x=x, y=y, z=ground[0], volume=volume, released_volume=volume, depth=thickness * slant,
-            thickness=thickness, least_thickness=least, smoothing_length=length, next_smoothing_length=length,
-            liquefaction_pressure=load, excess_pore_pressure=profile, basal_excess_pore_pressure=profile[:, 0],
-            inflow_row=row, porosity=material.porosity, density=material.density,
-        )  # fmt: skip
-        nothing = np.zeros(count)
+        for phase, part in sim.phases:
+            borne = load if phase == MIXTURE else np.zeros(count)
+            new = p.append(
+                count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * volume,
+                released_volume=part * volume, depth=thickness * slant, thickness=thickness,
+                own_thickness=part * thickness, least_thickness=part * least, smoothing_length=length,
+                next_smoothing_length=length, liquefaction_pressure=borne,
+                excess_pore_pressure=profile if phase == MIXTURE else 0.0, porosity=material.porosity,
+                porosity_before=material.porosity, density=material.density, inflow_row=row,
+            )  # fmt: skip
+            self._start_columns(sim, new, borne)
+
+    def _start_columns(self, sim, new, load):
+        p, material, nothing = sim.particles, sim.physics.material, np.zeros(load.size)
+        p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         c_v = np.array([material.coefficient_of_consolidation])
         forcing = ColumnForcing(
             p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),

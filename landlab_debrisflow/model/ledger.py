@@ -35,12 +35,25 @@ class Ledger:
     def budget(self, simulation) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""
         moving = float(simulation.particles.volume.sum())
-        inflow, outflow = simulation.inflow.volume, float(sum(simulation.outflow.values()))
+        inflow, outflow = simulation.inflow.volume, simulation.outflow.total
         return {
             "released": self.released, "inflow": inflow, "eroded": self.eroded, "moving": moving,
             "deposited": self.deposited, "outflow": outflow,
             "residual": self.released + inflow + self.eroded - moving - self.deposited - outflow,
         }  # fmt: skip
+
+    def budget_by_phase(self, simulation) -> dict[str, dict[str, float]]:
+        """Return the budgets of grains and of what is between them [m3]; settled grains are those of the particles."""
+        whole, material = self.budget(simulation), simulation.physics.material
+        parts = {name: (1.0 - material.porosity) * whole[name] for name in ("released", "inflow")}
+        parts["eroded"] = (1.0 - material.soil_porosity) * whole["eroded"]
+        parts["moving"] = float(simulation.solid_volume.sum())
+        parts["deposited"], parts["outflow"] = simulation.settled_solid, simulation.outflow.solid
+        phases = {"solid": parts, "water": {name: whole[name] - part for name, part in parts.items()}}
+        for terms in phases.values():
+            came = terms["released"] + terms["inflow"] + terms["eroded"]
+            terms["residual"] = came - terms["moving"] - terms["deposited"] - terms["outflow"]
+        return phases
 
     def snapshot(self):
         """Return what `restore` needs."""

@@ -42,9 +42,14 @@ class Particles:
         return self.volume.size
 
     @property
+    def roll(self):
+        """What differs whenever particles came or went: their number, and how many there ever were."""
+        return self.volume.size, self._next_identity
+
+    @property
     def spread(self):
         """Half-width of the tents in which they show on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
-        return 2.0 * np.sqrt(self.volume / self.depth)
+        return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:
         """Add particles that are awake, and return their places; what is not named gets its declared initial value."""

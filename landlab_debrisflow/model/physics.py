@@ -8,12 +8,12 @@ from ..core.parameters import from_mapping
 from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
-from ..physics.flow import OnePhase
+from ..physics.flow import OnePhase, TwoPhase
 from ..physics.friction import Coulomb, Voellmy
 from ..physics.material import Material
 
 LAWS = {
-    "flow": {"one_phase": OnePhase},
+    "flow": {"one_phase": OnePhase, "two_phase": TwoPhase},
     "friction": {"coulomb": Coulomb, "voellmy": Voellmy},
     "erosion": {"growth": Growth, "shear_excess": ShearExcess, "liquefied_bed": LiquefiedBed, "none": NoErosion},
     "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
@@ -67,7 +67,7 @@ def build_law(kind: str, value):
     >>> build_law("flow", "plough")
     Traceback (most recent call last):
         ...
-    landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase
+    landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase, two_phase
     """
     laws = LAWS[kind]
     if value is None:

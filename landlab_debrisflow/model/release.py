@@ -20,6 +20,30 @@ STEP = 0.5
 """Length of one relaxation step in l^2 times the logarithmic gradient: half of what is stable."""
 
 
+def release_particles(sim, nodes, depth) -> slice:
+    """Add particles for failing ground to a simulation and return their places; arguments as of its `release`."""
+    raster, material = sim.bed.nodes, sim.physics.material
+    volume = depth.sum() * raster.area
+    count = sim.numerics.count_for(nodes.size * raster.area)
+    rows, columns = np.divmod(nodes, raster.columns)
+    corner = rows.min(), columns.min()  # only the part of the raster that fails is looked at
+    failing = np.zeros((rows.max() - corner[0] + 1, columns.max() - corner[1] + 1))
+    failing[rows - corner[0], columns - corner[1]] = depth
+    x, y, here = place_particles(failing, (raster.dx, raster.dy), corner, sim.bed.surface, count)
+    ground = sim.bed.surface.sample(x, y)
+    each = volume / count
+    normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+    least, first = THICKNESS_RANGE * normal.max(), sim.particles.awake
+    for phase, part in sim.phases:
+        sim.particles.append(
+            count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * each, released_volume=part * each,
+            depth=here, thickness=normal, own_thickness=part * normal, least_thickness=part * least,
+            porosity=material.porosity, density=material.density,
+            smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
+        )  # fmt: skip
+    return slice(first, sim.particles.awake)
+
+
 def place_particles(depth, spacing, corner, surface: Surface, count: int):
     """Place `count` particles so that each stands for an equal part of the volume.
 

@@ -7,15 +7,17 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.start import initial_profile
-from ..spatial.summation import SMOOTHING_RATIO
+from ..physics.contracts import MIXTURE, WATER
 from ..terrain.bed import Bed
 from . import sleep, step
 from .inflow import Inflow
+from .mixture import Mixture
 from .motion import CLOSED
 from .numerics import Numerics
+from .outflow import Outflow
 from .particles import Particles
 from .physics import Physics
-from .release import THICKNESS_RANGE, place_particles
+from .release import release_particles
 from .timestep import Pace
 
 log = logging.getLogger("landlab_debrisflow")
@@ -40,8 +42,9 @@ class Simulation:
     def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
         self.particles = Particles(physics.column.levels)
+        self.mixture = Mixture(physics) if hasattr(physics.flow, "drag_coefficient") else None
         self.time = 0.0
-        self.outflow = {}  # volume by open node [m3]
+        self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
         self._peak_energy, self._arrested = 0.0, False
         self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
@@ -90,23 +93,8 @@ class Simulation:
         depth : ndarray
             Vertical thickness that fails there [m].
         """
-        p, raster, material = self.particles, self.bed.nodes, self.physics.material
-        volume = depth.sum() * raster.area
-        count = self.numerics.count_for(nodes.size * raster.area)
-        rows, columns = np.divmod(nodes, raster.columns)
-        corner = rows.min(), columns.min()  # only the part of the raster that fails is looked at
-        failing = np.zeros((rows.max() - corner[0] + 1, columns.max() - corner[1] + 1))
-        failing[rows - corner[0], columns - corner[1]] = depth
-        x, y, here = place_particles(failing, (raster.dx, raster.dy), corner, self.bed.surface, count)
-        ground = self.bed.surface.sample(x, y)
-        each = volume / count
-        normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
-        least = THICKNESS_RANGE * normal.max()
-        new = p.append(
-            count, x=x, y=y, z=ground[0], volume=each, released_volume=each, depth=here, thickness=normal,
-            porosity=material.porosity, density=material.density,
-            least_thickness=least, smoothing_length=SMOOTHING_RATIO * np.sqrt(each / np.maximum(normal, least)),
-        )  # fmt: skip
+        p, material = self.particles, self.physics.material
+        new = release_particles(self, nodes, depth)
         self._find_everything(FIRST_SWEEPS)
         step.press(self)
         load = p.liquefaction_pressure[new]
@@ -129,7 +117,16 @@ class Simulation:
         for _ in range(sweeps):
             step.interact(self)
         step.check(self)
+        p.porosity_before[:] = p.porosity
         self._changed = False
+
+    @property
+    def phases(self):
+        """What of a volume goes into which particles: phase and part."""
+        if self.mixture is None:
+            return ((MIXTURE, 1.0),)
+        porosity = self.physics.material.porosity
+        return ((MIXTURE, 1.0 - porosity), (WATER, porosity))
 
     @property
     def idle(self) -> bool:
@@ -168,7 +165,7 @@ class Simulation:
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
             self._steps += 1
-            if self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
+            if self.mixture is None and self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
                 sleep.fall_asleep(self)
             self._look_for_rest()
             if after_step is not None:
@@ -228,26 +225,28 @@ class Simulation:
             p.entrainment_rate[:] = 0.0
             self._arrested = True
 
-    def count_outflow(self, nodes, volume) -> None:
-        """Add volumes [m3] to the account of the open nodes over which they left."""
-        for node, part in zip(nodes.tolist(), volume.tolist(), strict=True):
-            self.outflow[node] = self.outflow.get(node, 0.0) + part
+    @property
+    def own_density(self):
+        """Density of what each particle is of, shape (n,) [kg m-3]."""
+        p, material = self.particles, self.physics.material
+        if self.mixture is None:
+            return p.density
+        return np.where(p.phase == WATER, material.water_density, material.solid_density)
 
-    def outflow_by_edge(self, rows: int, columns: int) -> dict[str, float]:
-        """Return the volume that left over each side, or over open nodes inside the grid [m3]."""
-        edges = dict.fromkeys(("west", "east", "south", "north", "inside"), 0.0)
-        for node, volume in self.outflow.items():
-            r, c = divmod(node, columns)
-            sides = {"west": c == 0, "east": c == columns - 1, "south": r == 0, "north": r == rows - 1}
-            edges[next((side for side, on in sides.items() if on), "inside")] += volume
-        return edges
+    @property
+    def solid_volume(self):
+        """Volume of the grains in each particle, shape (n,) [m3]."""
+        p = self.particles
+        return p.volume * (1.0 - p.porosity if self.mixture is None else p.phase != WATER)
 
     def warn_of_walls(self) -> None:
         """Log how much ran against closed or NODATA nodes since the last warning."""
         p = self.particles
         if volume := float(p.volume[p.touched_wall > 0].sum()):
             log.warning(
-                "%.3g m3 ran against closed or NODATA nodes at %.4g s: the DEM is probably too small", volume, self.time
+                "%.3g m3 ran against closed or NODATA nodes at %.4g s: obstacles, or the DEM is too small",
+                volume,
+                self.time,
             )
             p.touched_wall[:] = 0
 
@@ -282,6 +281,7 @@ class Simulation:
             Depth laid on each [m].
         """
         p = self.particles
+        self.settled_solid += float(self.solid_volume.sum())
         laid = self.bed.lay_down(p.x, p.y, p.spread, p.volume)
         p.keep(np.zeros(p.count, bool))
         self._arrested = False
@@ -289,8 +289,8 @@ class Simulation:
 
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
-        kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps")}
-        return self.particles.copy(), dict(self.outflow), copy(self._pace), self.inflow.rows_entered, kept
+        kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps", "settled_solid")}
+        return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
 
     def restore(self, snapshot) -> None:
         """Go back to a snapshot."""

@@ -9,12 +9,21 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..core.jit import kernel
-from ..physics.contracts import BASE_BY_EROSION, BASE_PRESCRIBED, BasalState, ColumnForcing, ColumnState, FlowState
+from ..physics.contracts import (
+    BASE_BY_EROSION,
+    BASE_PRESCRIBED,
+    WATER,
+    BasalState,
+    ColumnForcing,
+    ColumnState,
+    FlowState,
+    MixtureState,
+)
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import sleep
 from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
-from .timestep import survey, viscous_share
+from .timestep import NOT_STIFF, survey, viscous_share
 from .walls import mirror
 
 STEPS_TO_SLEEP = 4
@@ -42,7 +51,7 @@ def advance(sim, dt: float) -> None:
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
-    check(sim)
+    check(sim, dt)
 
 
 def friction_and_kick(sim, dt: float) -> None:
@@ -51,8 +60,11 @@ def friction_and_kick(sim, dt: float) -> None:
     m = p.awake
     yield_stress, drag = np.empty(m), np.empty(m)
     sim.physics.friction.basal_resistance(base(sim, slice(m), "friction"), yield_stress, drag)
-    mass = p.density[:m] * p.thickness[:m]
-    kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, material.gravity, sim.rest_speed, dt)
+    if sim.mixture is None:
+        mass, g = p.density[:m] * p.thickness[:m], material.gravity
+        kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, g, sim.rest_speed, dt)
+    else:
+        sim.mixture.kick(sim, p.velocity, yield_stress, drag, sim.rest_speed, dt)
     if sim.walled:
         stop_at_walls(
             m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
@@ -66,38 +78,50 @@ def entrain(sim, dt: float):
     rate, wanted, dilution = np.zeros(m), np.empty(m), np.empty(m)
     sim.physics.erosion.entrainment_rate(base(sim, slice(m), "erosion"), rate)
     rate[sim.inflow.held(p)] = 0.0
-    np.divide(rate * p.volume[:m], p.depth[:m], out=wanted)
+    if sim.mixture is not None:
+        rate[~sim.mixture.takes_soil(p)] = 0.0
+    np.divide(rate * p.volume[:m], p.depth[:m] * p.share[:m], out=wanted)
     wanted *= dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x[:m], p.y[:m], p.spread[:m], wanted)
+    own_part = 1.0
+    if sim.mixture is not None:
+        sim.mixture.take_up(sim, sim.granted)
+        own_part -= material.soil_porosity
     _take_up(
-        sim.granted, dt, sim.time, material.coefficient_of_consolidation, material.basal_slip_ratio,
-        material.soil_porosity, material.solid_density, material.bearing_density, p.depth, p.thickness, sim.cosine,
-        p.volume, p.porosity, p.density, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number, dilution,
+        sim.granted, own_part, dt, sim.time, material.coefficient_of_consolidation, material.basal_slip_ratio,
+        material.soil_porosity, material.solid_density, material.bearing_density, p.depth, p.thickness, p.share,
+        sim.cosine, p.volume, p.porosity, p.density, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number,
+        dilution,
     )  # fmt: skip
+    p.porosity_before[:] = p.porosity
     return dilution
 
 
 @kernel
 def _take_up(
-    granted, dt, time, coefficient_of_consolidation, slip_ratio, soil_porosity, solid_density, bearing_density,
-    depth, thickness, cosine, volume, porosity, density, entrainment_rate, first_erosion_time, basal_peclet_number,
-    dilution,
+    granted, own_part, dt, time, coefficient_of_consolidation, slip_ratio, soil_porosity, solid_density,
+    bearing_density, depth, thickness, share, cosine, volume, porosity, density, entrainment_rate, first_erosion_time,
+    basal_peclet_number, dilution,
 ):  # fmt: skip
     """Mix in the soil; what is not at the base already at the speed of the base is sped up by the flow.
 
-    d(v)/dt = - (v - v_b) dm/dt / m with v_b = `slip_ratio` v, so v goes like m^(slip_ratio - 1), m being the mass.
+    What is granted becomes what the own phase takes of it. d(v)/dt = - (v - v_b) dm/dt / m with v_b = `slip_ratio` v,
+    so v goes like m^(slip_ratio - 1), m being the mass.
     """
     for i in range(granted.size):
-        rate, before = granted[i] * depth[i] / (volume[i] * dt), volume[i]
+        rate, before = granted[i] * depth[i] * share[i] / (volume[i] * dt), volume[i]
         entrainment_rate[i] = rate
-        volume[i] = before + granted[i]
         dilution[i] = 1.0
         if granted[i] > 0.0:
-            mass = density[i] * before
+            whole, soil, was = before / share[i], granted[i], density[i]
+            granted[i] = own_part * soil
+            volume[i] = before + granted[i]
+            dilution[i] = before / volume[i]
             if porosity[i] != soil_porosity:
-                porosity[i] = (porosity[i] * before + soil_porosity * granted[i]) / volume[i]
+                porosity[i] = (porosity[i] * whole + soil_porosity * soil) / (whole + soil)
                 density[i] = (1.0 - porosity[i]) * solid_density + porosity[i] * bearing_density
-            dilution[i] = mass / (density[i] * volume[i])
+                if own_part == 1.0:
+                    dilution[i] *= was / density[i]
             if slip_ratio > 0.0:
                 dilution[i] **= 1.0 - slip_ratio
             # as `column.peclet.basal_peclet_number`, without its arrays: this is done in every step
@@ -121,7 +145,7 @@ def move(sim, dt: float, dilution) -> None:
         raise SimulationError("velocity", int(p.identity[place]), sim.time, float(p.velocity[:, place].sum()))
     gone = np.flatnonzero(left >= 0)
     if gone.size:
-        sim.count_outflow(left[gone], p.volume[gone])
+        sim.outflow.count(left[gone], p.volume[gone], sim.solid_volume[gone])
         support = 2.0 * p.smoothing_length
         disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
         stay = np.ones(p.count, bool)
@@ -141,6 +165,7 @@ def find_ground(sim, dt: float = 0.0) -> None:
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
     owed = sim.owed if dt > 0.0 else np.empty(0)
     follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
+    np.minimum(p.lowest_z, p.z, out=p.lowest_z)
     sim.node = sim.bed.nodes.nearest(p.x, p.y)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)
 
@@ -152,9 +177,11 @@ def interact(sim) -> None:
         sim.computed = np.zeros(0, bool)
         return
     longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
+    mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
-        p.thickness, p.thickening, p.gradient_term, sim.cosine, p.density, material.gravity,
+        p.own_thickness, p.thickening, p.gradient_term, sim.cosine, p.density, p.phase, p.share, p.cross_term,
+        p.mean_excess_pore_pressure, material.gravity, material, mixture,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:
@@ -162,13 +189,17 @@ def interact(sim) -> None:
     cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sim.computed = cells.computed[: p.count]
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
-    sums = Sums(p.thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
-    sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
-    sim.inflow.hold_thickness(p)
+    sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
+    parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
+    sim.inflow.hold_thickness(p, sim.phases)
+    np.divide(p.own_thickness, p.share, out=p.thickness)
+    if sim.mixture is not None:
+        sim.mixture.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
+    p.liquefaction_pressure[p.phase == WATER] = 0.0
 
 
 def press(sim, dt: float | None = None) -> None:
@@ -176,8 +207,9 @@ def press(sim, dt: float | None = None) -> None:
     p, bed, material = sim.particles, sim.bed.pore_pressure, sim.physics.material
     if bed is None or (p.count == 0 and dt is None):
         return
-    # volume over depth is map area; g_n h_n is g h cos^2(theta)
-    weight = p.volume * material.gravity * (p.thickness / p.depth) ** 2
+    # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
+    weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
+    weight[p.phase == WATER] = 0.0
     force = np.array([weight * p.density, weight * (p.density - material.bearing_density)])
     if dt is None:
         bed.stand(p.x, p.y, p.spread, force, sim.time)
@@ -190,15 +222,20 @@ def consolidate(sim, dt: float) -> None:
     p = sim.particles
     awake = slice(p.awake)
     forced = forcing(sim, awake, sim.granted, sim.granted_ratio)
+    if sim.mixture is not None:
+        forced = sim.mixture.force(sim, forced, dt)
     sim.physics.column.advance(columns(p, awake), forced, dt, p.basal_excess_pore_pressure[awake])
+    if sim.mixture is not None:
+        sim.mixture.follow_mean(sim, dt * forced.porosity_source)
 
 
-def check(sim) -> None:
-    """Look at the whole; raise SimulationError if anything that moves is not finite."""
+def check(sim, dt: float = 0.0) -> None:
+    """Look at the whole after a step of some length; raise SimulationError if anything that moves is not finite."""
     p, nodes = sim.particles, sim.bed.nodes
     sim.survey = survey(
         p, sim.computed, sim.cosine, sim.physics.material.gravity,
         sim.numerics.courant_number * viscous_share(sim.numerics.shock_viscosity), min(nodes.dx, nodes.dy),
+        NOT_STIFF if sim.mixture is None else sim.mixture.celerity_squared(sim, dt),
     )  # fmt: skip
     if (place := sim.survey.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
@@ -234,6 +271,8 @@ def held(sim, which: slice, pressure):
     n = pressure.size
     yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
     physics.friction.basal_resistance(base(sim, which, "friction", pressure), yield_stress, drag)
+    if sim.mixture is not None:
+        return sim.mixture.held(sim, yield_stress, drag)
     thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
     mass = p.density[which] * p.thickness[which]
     kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)

@@ -87,6 +87,10 @@ def viscous_share(viscosity: float) -> float:
     return float(min(1.0, limit(viscosity) / limit(1.0)))
 
 
+NOT_STIFF = np.zeros(1)
+"""Nothing but weight drives waves [m2 s-2]."""
+
+
 class Survey(NamedTuple):
     """What the particles that are awake look like as a whole."""
 
@@ -96,7 +100,9 @@ class Survey(NamedTuple):
     broken: int  # place of a particle that is not finite, or -1
 
 
-def survey(particles, computed, cosine, gravity: float, courant_number: float, node_spacing: float) -> Survey:
+def survey(
+    particles, computed, cosine, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF
+) -> Survey:
     """Look at all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
@@ -115,11 +121,14 @@ def survey(particles, computed, cosine, gravity: float, courant_number: float, n
         Time step over smoothing length / celerity.
     node_spacing : float
         Smaller one of the raster's [m].
+    stiff : ndarray, shape (n,) or (1,)
+        What else but weight adds to the square of the celerity [m2 s-2].
     """
     p = particles
     waves, growth, across, energy, fastest, broken = _survey(
         p.awake, computed, cosine, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
-        p.thickening, p.smoothing_length, p.volume, p.basal_excess_pore_pressure, p.entrainment_rate, p.depth,
+        p.own_thickness, p.thickening, stiff, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
+        p.entrainment_rate, p.depth,
     )  # fmt: skip
     longest = min(courant_number / max(waves, 1e-300), GROWTH / max(growth, 1e-300), across)
     return Survey(longest, energy, fastest, broken)
@@ -127,8 +136,8 @@ def survey(particles, computed, cosine, gravity: float, courant_number: float, n
 
 @kernel
 def _survey(
-    count, computed, cosine, gravity, way, velocity, thrust, thickness, thickening, smoothing_length, volume, pressure,
-    entrainment_rate, depth,
+    count, computed, cosine, gravity, way, velocity, thrust, thickness, own_thickness, thickening, stiff,
+    smoothing_length, volume, pressure, entrainment_rate, depth,
 ):  # fmt: skip
     waves, growth, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
     for i in range(count):
@@ -138,7 +147,8 @@ def _survey(
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if computed[i]:
-            waves = max(waves, celerity / smoothing_length[i] + max(thickening[i], 0.0) / thickness[i])
+            fastest_wave = np.sqrt(celerity * celerity + stiff[min(i, stiff.size - 1)])
+            waves = max(waves, fastest_wave / smoothing_length[i] + max(thickening[i], 0.0) / own_thickness[i])
         # v dt + 1/2 a dt^2 within the way, also of those that wait: with the most that thrust and gravity, or friction,
         # can do, so that stopping is resolved to that way, too
         gain = gravity + np.sqrt(push2)

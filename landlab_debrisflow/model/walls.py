@@ -69,6 +69,10 @@ ALIKE = (
     "gradient_term",
     "cos_slope",
     "density",
+    "phase",
+    "share",
+    "cross_term",
+    "mean_pressure",
 )
 """What an image has in common with its particle."""
 

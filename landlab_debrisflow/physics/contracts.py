@@ -5,7 +5,7 @@ arrays it is given, writes only those named ``out`` (or named in the docstring),
 others in Python: no law knows another.
 """
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 from numpy import ndarray as Array
 
@@ -80,6 +80,8 @@ class ErosionLaw(Protocol):
 class ColumnLaw(Protocol):
     """Excess pore pressure under a particle."""
 
+    stores_pressure: ClassVar[bool]  # whether a source of pressure raises the pressure in the column
+
     @property
     def levels(self) -> int:
         """Number of levels of a column, at least 2."""
@@ -89,6 +91,18 @@ class ColumnLaw(Protocol):
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Bring every profile to the present in place, for output, a change of volume or the end."""
+
+
+MIXTURE, WATER = 0, 1
+"""What a particle is of: grains, with the water between them if the flow law has one phase; or water."""
+
+
+class MixtureState(NamedTuple):
+    """What a flow law with two phases finds of the mixture at each of n particles; written where cells are awake."""
+
+    share: Array  # of the thickness that is of the own phase [-]
+    cross_term: Array  # [-]
+    mean_pressure: Array  # depth mean of the excess pore pressure, of the grains around, at water only [Pa]
 
 
 class FlowState(NamedTuple):
@@ -101,20 +115,28 @@ class FlowState(NamedTuple):
     volume: Array  # [m3]
     smoothing_length: Array  # [m]
     longest: Array  # cap of the smoothing length [m]
-    thickness: Array  # slope-normal, of the step before [m]
+    thickness: Array  # slope-normal, of the own phase, of the step before [m]
     thickening: Array  # -h div v, of the step before [m s-1]
     gradient_term: Array  # Omega of the grad-h formulation, of the step before [-]
     cos_slope: Array  # [-]
-    density: Array  # [kg m-3]
+    density: Array  # of the mixture [kg m-3]
+    phase: Array  # MIXTURE or WATER (int8)
+    share: Array  # of the thickness that is of the own phase, of the step before [-]
+    cross_term: Array  # as that of `spatial.across.Across`, of the step before [-]
+    mean_pressure: Array  # depth mean of the excess pore pressure [Pa]
     gravity: float  # [m s-2]
+    material: Any  # physics.material.Material
+    mixture: MixtureState  # of those that are moved, without mirror images
 
 
 class FlowLaw(Protocol):
     """Inner forces of the flow."""
 
-    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
         """Write, where cells are awake, what neighbours do to each other: `spatial.summation.Sums`.
 
         That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
-        rate at which converging flow thickens.
+        rate at which converging flow thickens. A law with two phases, one with the methods `drag_coefficient` and
+        `coefficient_of_consolidation` of `physics.flow.TwoPhase`, also writes ``state.mixture`` and returns the
+        cells of grains and of water.
         """

@@ -26,7 +26,10 @@ def state(x, y, velocity=None, longest=1e9):
     n = x.size
     one, zero = np.ones(n), np.zeros(n)
     velocity = np.zeros((3, n)) if velocity is None else velocity
-    return FlowState(x, y, zero, velocity, one, SMOOTHING_RATIO * one, longest * one, one, zero, one, one, one, 9.81)
+    return FlowState(
+        x, y, zero, velocity, one, SMOOTHING_RATIO * one, longest * one, one, zero, one, one, one, zero, one, zero,
+        zero, 9.81, None, None,
+    )  # fmt: skip
 
 
 def reflect(flow, changed=None):

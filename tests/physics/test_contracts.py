@@ -2,11 +2,12 @@
 
 import dataclasses
 import math
+import re
 
 import numpy as np
 import pytest
 
-from landlab_debrisflow import Material, Numerics
+from landlab_debrisflow import Material, Numerics, laws_page
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.physics import LAWS, METHOD, build_law, build_physics
@@ -131,6 +132,17 @@ def test_a_law_is_built_by_name_mapping_or_given(kind, name):
     values = {field.name: getattr(law, field.name) for field in dataclasses.fields(law)}
     assert build_law(kind, {"law": name, **values}) == law
     assert callable(getattr(law, METHOD[kind])) and type(law).__doc__ and hash(law) == hash(LAWS[kind][name]())
+
+
+@pytest.mark.parametrize(
+    "entry", [entry for kind in LAWS for entry in laws_page.law_entries(kind)], ids=lambda e: e.title
+)
+def test_the_docstring_of_a_law_has_its_formula_and_source(entry):
+    name = entry.cls.__name__
+    assert " = " in entry.formula, f"{name}: the first line must be the formula, with '=': {entry.formula!r}"
+    assert re.search(r"[A-Z]\w+.*\b(1[6-9]|20)\d\d\b", entry.source), (
+        f"{name}: a section References must name author and year, got {entry.source!r}; see CONTRIBUTING.md"
+    )
 
 
 def test_defaults_are_those_of_tsing_shan():

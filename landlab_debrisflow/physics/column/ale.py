@@ -1,5 +1,7 @@
 """Columns that move with the base they erode: the arbitrary Lagrangian-Eulerian model."""
 
+from typing import ClassVar
+
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
 from .scheme import BED_CONTACT, LOADING
@@ -8,11 +10,14 @@ from .schemes import ADVANCE, advance, check_scheme, synchronise
 
 @declared
 class ALE:
-    """Excess pore pressure of a column that grows at its base (Pastor et al., 2022, eq. 35).
+    """dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S: a column that grows at its base.
 
-    ``dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S``: a grain keeps its depth below the
-    surface while the column erodes. At the base the bed prescribes the pressure of a column that
-    erodes; it is impermeable to one that does not.
+    A grain keeps its depth below the surface while the column erodes. At the base the bed prescribes the
+    pressure of a column that erodes; it is impermeable to one that does not. S is what changes of the load add.
+
+    References
+    ----------
+    Pastor et al. (2022), eq. 35.
 
     Examples
     --------
@@ -40,6 +45,8 @@ class ALE:
     source_includes_erosion: bool = parameter(
         "-", "load grains by soil that comes in below them, to replicate eqs. 19 and 38", False, kind=bool
     )
+
+    stores_pressure: ClassVar[bool] = True
 
     def _agree(self):
         check_scheme(self)

@@ -1,5 +1,7 @@
 """Columns that spread what they erode over their whole depth: the model before the ALE one."""
 
+from typing import ClassVar
+
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
 from .scheme import BED_CONTACT, LOADING
@@ -8,10 +10,13 @@ from .schemes import ADVANCE, advance, check_scheme, synchronise
 
 @declared
 class Classical:
-    """Excess pore pressure without the advection by erosion (Pastor et al., 2009, 2015; eq. 19).
+    """dp/dt = (c_v/h^2) d2p/dxi2 + S: a column without the advection by erosion, kept for comparison.
 
-    ``dp/dt = (c_v/h^2) d2p/dxi2 + S``, with the same base and sources as `ALE`: a grain keeps its
-    fraction of the depth while the column grows. Kept for comparison.
+    Base and sources are those of `ALE`; a grain keeps its fraction of the depth while the column grows.
+
+    References
+    ----------
+    Pastor et al. (2009, 2015); Pastor et al. (2022), eq. 19.
 
     Examples
     --------
@@ -35,6 +40,8 @@ class Classical:
     source_includes_erosion: bool = parameter(
         "-", "load grains by soil that comes in below them, to replicate eqs. 19 and 38", False, kind=bool
     )
+
+    stores_pressure: ClassVar[bool] = True
 
     def _agree(self):
         check_scheme(self)

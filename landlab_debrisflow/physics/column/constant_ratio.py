@@ -1,5 +1,7 @@
 """Columns whose basal pressure follows the load."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...core.parameters import declared, parameter
@@ -8,9 +10,13 @@ from ..contracts import ColumnForcing, ColumnState
 
 @declared
 class ConstantRatio:
-    """Excess pore pressure proportional to the overburden at every depth, for ever.
+    """p = r rho' g h cos(theta) (1 - xi): excess pore pressure proportional to the overburden at every depth, for ever.
 
-    The limit of tight debris whose bed has its own ratio (theory, section 6, "constant ratio").
+    The limit of tight debris whose bed has its own ratio.
+
+    References
+    ----------
+    Hungr (1995), friction with a constant ratio of pore pressure.
 
     Examples
     --------
@@ -19,6 +25,8 @@ class ConstantRatio:
     """
 
     ratio: float = parameter("-", "excess pore pressure over its liquefaction value", 0.65, (0.0, 1.0))
+
+    stores_pressure: ClassVar[bool] = False  # sources come to nothing
 
     @property
     def levels(self) -> int:

@@ -1,18 +1,26 @@
 """Columns without excess pore pressure."""
 
+from typing import ClassVar
+
 from ...core.parameters import declared
 from ..contracts import ColumnForcing, ColumnState
 
 
 @declared
 class NoExcessPressure:
-    """Dry debris, or debris so permeable that its pore water stays hydrostatic.
+    """p = 0: dry debris, or debris so permeable that its pore water stays hydrostatic.
+
+    References
+    ----------
+    Terzaghi (1943), effective stress of drained soil.
 
     Examples
     --------
     >>> NoExcessPressure()
     NoExcessPressure()
     """
+
+    stores_pressure: ClassVar[bool] = False  # sources come to nothing
 
     @property
     def levels(self) -> int:

@@ -10,7 +10,9 @@ from ..contracts import BasalState
 class Growth:
     """e_R = E_s h v: the flow grows by the fraction E_s per metre of travel.
 
-    McDougall & Hungr (2005), the law used by Pastor et al. (2022), section 4.2.3.
+    References
+    ----------
+    McDougall & Hungr (2005); the law used by Pastor et al. (2022), section 4.2.3.
     """
 
     growth_rate: float = parameter(

@@ -8,12 +8,16 @@ from ..contracts import BasalState
 
 @declared
 class ShearExcess:
-    """e_R = rate until e_m = (dz/dtau) (tau - tau_c) is eroded, tau = rho g h_n sin(theta); else, and at rest, 0.
+    """e_R = rate, while the eroded depth is below (dz/dtau) (tau - tau_c): down to a depth that shear stress sets.
 
-    Frank et al. (2015, 2017), the erosion module of RAMMS, from the Illgraben: depth against shear stress by Schürch et
-    al. (2011), rate by Berger et al. (2011). The shear stress is the one that drives the flow, known from depth and
-    slope, not the resistance of a friction law: they agree where the flow neither gains nor loses speed. What has
-    been eroded is that of the event, at the node nearest to a particle.
+    tau = rho g h_n sin(theta) drives the flow; it is not the resistance of a friction law, with which it agrees where the
+    flow neither gains nor loses speed. What has been eroded is that of the event, at the node nearest to a particle. At
+    rest nothing erodes. An event ends when no debris is left to move, or lies unsettled, and none will flow in.
+
+    References
+    ----------
+    Frank et al. (2015, 2017), the erosion module of RAMMS, from the Illgraben: depth against shear stress of Schürch et
+    al. (2011), rate of Berger et al. (2011).
     """
 
     erosion_rate: float = parameter("m s-1", "rate at which the bed is lowered", 0.025, (0.0, None), varies=True)

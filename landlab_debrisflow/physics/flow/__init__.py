@@ -1,5 +1,6 @@
-"""Laws of the flow itself: one phase."""
+"""Laws of the flow itself: one phase or two."""
 
 from .one_phase import OnePhase
+from .two_phase import TwoPhase
 
-__all__ = ["OnePhase"]
+__all__ = ["OnePhase", "TwoPhase"]

@@ -9,9 +9,11 @@ from ..contracts import FlowState
 
 @declared
 class OnePhase:
-    """Depth-averaged momentum of one phase: rho h dv/dt = - grad(1/2 rho g cos(theta) h^2) + ...
+    """rho h dv/dt = -grad(1/2 rho g cos(theta) h^2) + ...: depth-averaged momentum of one phase, h slope-normal.
 
-    Pastor et al. (2022), eq. 18, with the misprinted thrust mended; h is slope-normal.
+    References
+    ----------
+    Pastor et al. (2022), eq. 18, with the misprinted thrust mended.
     """
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:

@@ -13,7 +13,11 @@ class Coulomb:
     """tau_b = sigma' tan(phi), sigma' = max(0, rho' g_n h_n - p_b), with g_n including the curvature of the bed.
 
     The excess pore pressure p_b lowers the effective normal stress; at full liquefaction nothing is
-    left. Pastor et al. (2022), section 4.2; Terzaghi's effective stress.
+    left.
+
+    References
+    ----------
+    Pastor et al. (2022), section 4.2; Terzaghi's effective stress.
     """
 
     basal_friction_angle: float = parameter(

@@ -12,8 +12,11 @@ from ..contracts import BasalState
 class Voellmy:
     """tau_b = sigma' tan(phi) + rho g v^2 / xi, sigma' = max(0, rho' g_n h_n - p_b).
 
-    Voellmy (1955); Hungr (1995). The terminal speed on a plane follows from
-    v^2 = xi h_n (sin(theta) - mu_a cos(theta)).
+    The terminal speed on a plane follows from v^2 = xi h_n (sin(theta) - mu_a cos(theta)).
+
+    References
+    ----------
+    Voellmy (1955); Hungr (1995).
     """
 
     basal_friction_angle: float = parameter(

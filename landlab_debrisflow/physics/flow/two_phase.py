@@ -1,0 +1,97 @@
+"""Grains and water with velocities of their own."""
+
+import numpy as np
+
+from ...core.parameters import declared, parameter
+from ...spatial.across import Across, Crossing, cells_of, sum_across
+from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
+from ..contracts import WATER, FlowState
+
+LEAST_PART = 1e-6
+"""Least part of the thickness that a phase is taken to have where it is divided by."""
+
+
+@declared
+class TwoPhase:
+    """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ...: k is grains or water.
+
+    With the thrust of the effective stress, E = rho' g_n h^2/2 - h p, and of the pore pressure,
+    P = rho_w g_n h^2/2 + h p, p being the depth mean of the excess pore pressure, grains feel
+    - grad E - (1 - n) grad P and water - n grad P, the terms in grad n and grad(n h p) included.
+    Drag: Darcy C_d = n^2/k_w, or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m).
+
+    References
+    ----------
+    Pastor et al. (2022), eqs. 10, 11, 21 and 23; without excess pore pressure Pitman & Le (2005); drag of Anderson &
+    Jackson (1967).
+    """
+
+    drag: str = parameter("-", "what grains and water do to each other", "darcy", choices=("darcy", "anderson_jackson"))
+    hydraulic_conductivity: float = parameter(
+        "m s-1", "of Darcy's drag; by default that of the material's coefficient of consolidation and the stiffness",
+        None, (1e-15, 1e6),
+    )  # fmt: skip
+    terminal_velocity: float = parameter(
+        "m s-1", "of a single grain that sinks in water, of Anderson & Jackson's drag", 0.1, (1e-12, 1e6)
+    )
+    drag_exponent: float = parameter(
+        "-", "m of Anderson & Jackson's drag: that of Richardson & Zaki (1954) less 1", 3.65, (0.0, 10.0)
+    )
+    stiffness: float = parameter(
+        "Pa", "volumetric stiffness of the skeleton of grains, K_v over alpha", 2.5e5, (0.0, 1e12)
+    )
+    manning_coefficient: float = parameter("s m-0.333", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
+
+    def drag_coefficient(self, porosity, material):
+        """Return C_d, drag per volume and relative velocity, for some porosities, shape (n,) [Pa s m-2]."""
+        if self.drag == "darcy":
+            conductivity = self.hydraulic_conductivity
+            if conductivity is None:
+                return porosity**2 * self.stiffness / material.coefficient_of_consolidation
+            return porosity**2 * material.water_density * material.gravity / conductivity
+        weight = (material.solid_density - material.water_density) * material.gravity
+        return porosity ** (1.0 - self.drag_exponent) * (1.0 - porosity) * weight / self.terminal_velocity
+
+    def coefficient_of_consolidation(self, porosity, material):
+        """Return K n^2/C_d (eq. 19), shape (n,) [m2 s-1]: the drag between the phases is that within a column."""
+        return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
+
+    def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
+        """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
+        water = state.phase == WATER
+        parts = cells_of(cells, ~water), cells_of(cells, water)
+        within, shared, density = self._strengths(state, water)
+        celerity = np.sqrt(state.gravity * state.cos_slope * state.thickness / state.share)
+        moving = Moving(
+            state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
+            within / density, celerity, state.thickness, state.thickening, np.ones(density.size),
+        )  # fmt: skip
+        crossing = Crossing(
+            state.x, state.y, state.z, state.volume, state.smoothing_length, shared, state.mean_pressure
+        )
+        n, mixture = sums.thickness.size, state.mixture
+        computed = cells.computed[:n]
+        across = Across(np.empty(n), mixture.cross_term, np.empty(n), np.zeros((3, n)))
+        for targets, sources in (parts, parts[::-1]):
+            sum_over_neighbours(targets, moving, shock_viscosity, sums, threads)
+            sum_across(targets, sources, crossing, across, threads)
+        np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
+        own = plain_thickness(state.volume[:n], state.smoothing_length[:n], sums)
+        np.divide(own, own + across.thickness, out=mixture.share, where=computed)
+        np.copyto(mixture.mean_pressure, across.mean, where=computed & water[:n])
+        return parts
+
+    @staticmethod
+    def _strengths(state: FlowState, water):
+        """Return thrust over own thickness squared and Omega, that over total thickness squared [N m-3], and density.
+
+        Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
+        """
+        material, share = state.material, np.maximum(state.share, LEAST_PART)
+        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / state.share
+        pressure = state.mean_pressure / thickness
+        shared = 0.5 * material.water_density * normal_gravity + pressure
+        grains = 0.5 * (material.solid_density - material.water_density) * normal_gravity / share - pressure / share**2
+        within = shared * (1.0 - state.cross_term) + np.where(water, 0.0, grains)
+        density = np.where(water, material.water_density, material.solid_density)
+        return within / state.gradient_term, shared, density
