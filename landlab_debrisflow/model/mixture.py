@@ -11,16 +11,15 @@ from ..core.jit import inner, kernel
 from ..physics.contracts import WATER
 from ..spatial.across import find_partners
 
-STEPS_BETWEEN_LOOKS = 8
+STEPS_BETWEEN_LOOKS = 16
 """Steps after which the depth mean of the pore pressure is read off the columns; between, only what changes of porosity
 make of it is followed, which can be fast."""
-
 
 STEPS_WITH_PARTNERS = 4
 """Steps for which grains keep their partners among the water: in so few nothing gets far."""
 
 LEAST = 1e-6
-"""Least part of the volume that water and grains are taken to have."""
+"""Least part of the volume that either phase is taken to have."""
 
 
 class Mixture:
@@ -35,11 +34,22 @@ class Mixture:
     def __init__(self, physics):
         self.law, self.material, self.column = physics.flow, physics.material, physics.column
         self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
-        self.steps = 0
+        self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
+        self._steps = 0
 
-    def porosity(self, p):
-        """Return the porosity where the particles are, neither 0 nor 1, shape (n,) [-]."""
-        return np.clip(p.porosity, LEAST, 1.0 - LEAST)
+    def found(self, p, cells) -> None:
+        """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
+        material, law = self.material, self.law
+        _mix(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
+        np.divide(p.own_thickness, p.share, out=p.thickness)
+        self.coupling = law.drag_coefficient(p.porosity, material) * p.thickness
+        self.manning = np.zeros(1)
+        if law.manning_coefficient > 0.0:
+            self.manning = material.gravity * law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
+        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
+            self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
+            self._found_for, self._found = p.roll, 0
+        self._found += 1
 
     def kick(self, sim, velocity, yield_stress, drag, rest_speed: float, dt: float) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
@@ -54,29 +64,20 @@ class Mixture:
         dt : float
             [s]
         """
-        p, material, porosity = sim.particles, self.material, self.porosity(sim.particles)
-        manning = material.gravity * self.law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
+        p, material = sim.particles, self.material
         _kick(
-            *self.partners, p.phase, velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag,
-            self._coupling(p, porosity), porosity, manning, p.thickness, p.volume, material.solid_density,
-            material.water_density, material.gravity, rest_speed, dt,
+            *self.partners, p.phase, velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, self.coupling,
+            p.porosity, self.manning, p.thickness, p.volume, material.solid_density, material.water_density,
+            material.gravity, rest_speed, dt,
         )  # fmt: skip
 
     def held(self, sim, yield_stress, drag):
         """Return which grains friction would hold at rest, and which water drag, shape (n,)."""
-        p, porosity, velocity = sim.particles, self.porosity(sim.particles), np.zeros((3, sim.particles.count))
+        p, velocity = sim.particles, np.zeros((3, sim.particles.count))
         self.kick(sim, velocity, yield_stress, drag, 0.0, 1.0)
-        held = ~np.any(velocity, axis=0)
         pull = _pull(p.thrust, sim.ground, sim.cosine, self.material.gravity)
-        seeping = pull * self.material.water_density * porosity * p.thickness
-        return np.where(p.phase == WATER, seeping <= sim.rest_speed * self._coupling(p, porosity), held)
-
-    def take_up(self, sim, granted) -> None:
-        """Give water its part of the soil that the grains took, of volume `granted`, shape (n,) [m3]."""
-        p, material = sim.particles, self.material
-        _share_soil(
-            *self.partners, granted, material.soil_porosity, p.volume, p.velocity, 1.0 - material.basal_slip_ratio
-        )
+        seeping = pull * self.material.water_density * p.porosity * p.thickness
+        return np.where(p.phase == WATER, seeping <= sim.rest_speed * self.coupling, ~np.any(velocity, axis=0))
 
     def takes_soil(self, p):
         """Return which particles the bed may give soil to: grains with water around to take its part."""
@@ -84,53 +85,48 @@ class Mixture:
         takes[self.partners.of[self.partners.count > 0]] = True
         return takes
 
-    def found(self, p, cells) -> None:
-        """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
-        np.copyto(p.porosity, np.where(p.phase == WATER, p.share, 1.0 - p.share))
-        np.copyto(p.density, self.material.density_of(p.porosity))
-        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
-            self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
-            self._found_for, self._found = p.roll, 0
-        self._found += 1
+    def take_up(self, sim, granted) -> None:
+        """Give water its part of the soil that the grains took, of volume `granted`, shape (n,) [m3]."""
+        p, material = sim.particles, self.material
+        if granted.any():
+            exponent = 1.0 - material.basal_slip_ratio
+            _share_soil(*self.partners, granted, material.soil_porosity, p.volume, p.velocity, exponent)
 
     def force(self, sim, forced, dt: float):
-        """Return the forcing of the columns with what two phases make of it."""
-        c_v = self.law.coefficient_of_consolidation(self.porosity(sim.particles), self.material)
-        gain = self.pressure_gain(sim, dt)
-        return forced._replace(porosity_source=gain, coefficient_of_consolidation=c_v)
-
-    def pressure_gain(self, sim, dt: float):
-        """Return the pressure that changes of porosity made in the step that has gone, and follow its depth mean.
+        """Return the forcing of the columns with what two phases make of it.
 
         Water that leaves relative to the grains lets their skeleton take up the load: with dn/dt the rate by
         relative motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            [Pa s-1]
         """
         p = sim.particles
-        before = np.clip(p.porosity_before, LEAST, 1.0 - LEAST)
-        gain = self.law.stiffness * np.log((1.0 - before) / (1.0 - self.porosity(p)))
-        gain[p.phase == WATER] = 0.0
+        gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
         gain[sim.inflow.held(p)] = 0.0
-        return gain / dt if dt > 0.0 else gain
+        gain[p.phase == WATER] = 0.0
+        c_v = self.law.coefficient_of_consolidation(p.porosity, self.material)
+        source = gain / dt if dt > 0.0 else np.zeros(1)
+        return forced._replace(porosity_source=source, coefficient_of_consolidation=c_v)
 
-    def follow_mean(self, sim, gain) -> None:
-        """Follow the depth mean of the pore pressure after a step that gained so much [Pa]: thrust depends on it."""
+    def follow_mean(self, sim, source, dt: float) -> None:
+        """Follow the depth mean of the pore pressure through a step with a source [Pa s-1]: thrust depends on it."""
         p = sim.particles
-        grains = p.phase != WATER
-        if self.steps % STEPS_BETWEEN_LOOKS == 0:
-            profile = sim.columns_now()[grains]
+        if self._steps % STEPS_BETWEEN_LOOKS == 0:
+            profile = sim.columns_now()
             mean = (profile.sum(axis=1) - 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
-        else:
-            mean = p.mean_excess_pore_pressure[grains] + (gain[grains] if self.column.stores_pressure else 0.0)
-        suction = self.material.water_density * self.material.gravity * p.thickness * sim.cosine
-        p.mean_excess_pore_pressure[grains] = np.clip(
-            mean, -0.5 * suction[grains], 0.5 * p.liquefaction_pressure[grains]
+            np.copyto(p.mean_excess_pore_pressure, mean, where=p.phase != WATER)
+            dt = 0.0
+        weight = self.material.water_density * self.material.gravity
+        gained = dt if self.column.stores_pressure else 0.0
+        _follow(
+            p.phase,
+            gained,
+            source,
+            weight,
+            p.thickness,
+            sim.cosine,
+            p.liquefaction_pressure,
+            p.mean_excess_pore_pressure,
         )
-        self.steps += 1
+        self._steps += 1
 
     def celerity_squared(self, sim, dt: float):
         """Return by how much the square of the celerity is higher as the skeleton is stiff, shape (n,) [m2 s-2].
@@ -138,15 +134,31 @@ class Mixture:
         Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
         of a velocity in a step of `dt` seconds.
         """
-        material, n = self.material, self.porosity(sim.particles)
-        stiff = self.law.stiffness * n * (1.0 / material.water_density + n / ((1.0 - n) * material.solid_density))
-        lightness = 1.0 / (material.water_density * n) + 1.0 / (material.solid_density * (1.0 - n))
-        x = dt * self.law.drag_coefficient(n, material) * lightness
-        return stiff * -np.expm1(-x) / np.maximum(x, 1e-12) if self.column.stores_pressure else np.zeros(1)
+        if not self.column.stores_pressure:
+            return np.zeros(1)
+        p, material = sim.particles, self.material
+        n = p.porosity
+        lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
+        x = dt * self.coupling / (p.thickness * n * n) * lightness
+        return self.law.stiffness * lightness * -np.expm1(-x) / np.maximum(x, 1e-12)
 
-    def _coupling(self, p, porosity):
-        """Return drag per area and relative velocity, shape (n,) [Pa s m-1]."""
-        return self.law.drag_coefficient(porosity, self.material) * p.thickness
+
+@kernel
+def _mix(phase, share, solid_density, water_density, porosity, density):
+    for i in range(phase.size):
+        share[i] = min(max(share[i], LEAST), 1.0 - LEAST)
+        porosity[i] = share[i] if phase[i] == WATER else 1.0 - share[i]
+        density[i] = solid_density + porosity[i] * (water_density - solid_density)
+
+
+@kernel
+def _follow(phase, dt, source, weight, thickness, cosine, liquefaction_pressure, mean):
+    """Add the source to the mean of grains, and hold it between suction and liquefaction."""
+    for i in range(phase.size):
+        if phase[i] != WATER:
+            gained = mean[i] + dt * source[min(i, source.size - 1)]
+            lowest, highest = -0.5 * weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
+            mean[i] = min(max(gained, lowest), highest)
 
 
 @inner
@@ -243,7 +255,7 @@ def _kick(
         v = velocity[1, i] + dt * ay + gy - across * ny
         w = velocity[2, i] + dt * az + gz - across * nz
         was = np.sqrt(velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
-        factor = 1.0 / (1.0 + dt * manning[i] * was)
+        factor = 1.0 / (1.0 + dt * manning[min(i, manning.size - 1)] * was)
         speed = factor * np.sqrt(u * u + v * v + w * w)
         if speed < rest_speed and speed < was:
             seepage = np.sqrt(ax * ax + ay * ay + az * az) * water_density * porosity[i] * thickness[i]
@@ -265,12 +277,17 @@ def _pull(push, ground, cosine, gravity):
 @kernel
 def _share_soil(of, count, index, weight, granted, share, volume, velocity, exponent):
     """Share what water there is in the soil among the partners, in place; v goes like V^-`exponent`."""
-    before = volume.copy()
+    taken = np.zeros(volume.size)
     for k in range(of.size):
-        for s in range(count[k]):
-            volume[index[k, s]] += weight[k, s] * share * granted[of[k]]
+        soil = share * granted[of[k]]
+        if soil > 0.0:
+            for s in range(count[k]):
+                taken[index[k, s]] += weight[k, s] * soil
     for i in range(volume.size):
-        if volume[i] > before[i]:
-            part = (before[i] / volume[i]) ** exponent
+        if taken[i] > 0.0:
+            part = volume[i] / (volume[i] + taken[i])
+            volume[i] += taken[i]
+            if exponent < 1.0:
+                part **= exponent
             for d in range(3):
                 velocity[d, i] *= part

@@ -192,8 +192,9 @@ def interact(sim) -> None:
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p, sim.phases)
-    np.divide(p.own_thickness, p.share, out=p.thickness)
-    if sim.mixture is not None:
+    if sim.mixture is None:
+        p.thickness[:] = p.own_thickness
+    else:
         sim.mixture.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
@@ -226,7 +227,7 @@ def consolidate(sim, dt: float) -> None:
         forced = sim.mixture.force(sim, forced, dt)
     sim.physics.column.advance(columns(p, awake), forced, dt, p.basal_excess_pore_pressure[awake])
     if sim.mixture is not None:
-        sim.mixture.follow_mean(sim, dt * forced.porosity_source)
+        sim.mixture.follow_mean(sim, forced.porosity_source, dt)
 
 
 def check(sim, dt: float = 0.0) -> None:
