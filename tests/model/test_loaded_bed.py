@@ -86,6 +86,17 @@ def test_a_bed_that_keeps_its_pressure_lets_the_flow_run_farther():
     assert kept > drained + 10.0  # measured 139 and 120 m
 
 
+def test_grains_and_water_weigh_what_their_mixture_weighs():
+    """At the start, on bare ground: two sets of particles in one place are one load, not two."""
+    loads = []
+    for law in ("one_phase", "two_phase"):
+        _, flow = slope(flow=law, soil=None)
+        flow.run_one_step(1e-9)
+        loads.append(flow._simulation.bed.pore_pressure._load)
+    # the particles of either are elsewhere: a sum over all nodes, of a body that has the same depth
+    assert loads[1].sum() == pytest.approx(loads[0].sum(), rel=0.05)
+
+
 class Fails:
     """An observer that raises in the middle of a call."""
 
