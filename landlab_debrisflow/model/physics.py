@@ -9,12 +9,18 @@ from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
 from ..physics.flow import OnePhase, TwoPhase
-from ..physics.friction import Coulomb, Voellmy
+from ..physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 from ..physics.material import Material
 
 LAWS = {
     "flow": {"one_phase": OnePhase, "two_phase": TwoPhase},
-    "friction": {"coulomb": Coulomb, "voellmy": Voellmy},
+    "friction": {
+        "coulomb": Coulomb,
+        "voellmy": Voellmy,
+        "bingham": Bingham,
+        "herschel_bulkley": HerschelBulkley,
+        "mu_i": MuI,
+    },
     "erosion": {"growth": Growth, "shear_excess": ShearExcess, "liquefied_bed": LiquefiedBed, "none": NoErosion},
     "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
 }
@@ -63,7 +69,7 @@ def build_law(kind: str, value):
     Examples
     --------
     >>> build_law("friction", {"law": "voellmy", "turbulent_coefficient": 300})
-    Voellmy(basal_friction_angle=30.96375653207352, turbulent_coefficient=300.0)
+    Voellmy(basal_friction_angle=30.96375653207352, cohesion=0.0, turbulent_coefficient=300.0)
     >>> build_law("flow", "plough")
     Traceback (most recent call last):
         ...

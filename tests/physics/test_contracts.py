@@ -13,7 +13,7 @@ from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.physics import LAWS, METHOD, build_law, build_physics
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.erosion import Growth
-from landlab_debrisflow.physics.friction import Coulomb, Voellmy
+from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, Voellmy
 
 ALL = [(kind, name) for kind, laws in LAWS.items() for name in laws]
 DECLARED = [law for laws in LAWS.values() for law in laws.values()] + [Material, Numerics]
@@ -22,6 +22,27 @@ PARAMETERS = [(law, field) for law in DECLARED for field in dataclasses.fields(l
 
 def of(kind):
     return pytest.mark.parametrize("law", [law() for law in LAWS[kind].values()], ids=list(LAWS[kind]))
+
+
+def of_friction(test):
+    """Every law by its defaults, and once more with all there is in it."""
+    more = [
+        Coulomb(cohesion=800.0, viscosity=50.0, velocity_profile="parabolic"), Voellmy(cohesion=800.0),
+        Bingham(basal_friction_angle=20.0), HerschelBulkley(basal_friction_angle=20.0, flow_index=1.5),
+        Bingham(yield_stress=0.0), HerschelBulkley(yield_stress=0.0),
+    ]  # fmt: skip
+    return pytest.mark.parametrize("law", [law() for law in LAWS["friction"].values()] + more, ids=str)(test)
+
+
+def has_friction(law):
+    """Whether an angle of the law says that normal stress holds a body."""
+    angles = [field.name for field in dataclasses.fields(law) if field.metadata["unit"] == "deg"]
+    return any(getattr(law, name) > 0.0 for name in angles)
+
+
+def strength_without_normal_stress(law):
+    """Return what holds a body that is liquefied or off the ground [Pa]."""
+    return getattr(law, "cohesion", 0.0) + getattr(law, "yield_stress", 0.0)
 
 
 def basal_state(count=50, seed=1, **given):
@@ -54,7 +75,7 @@ def entrainment(law, state):
     return out
 
 
-@of("friction")
+@of_friction
 def test_friction_is_finite_and_never_negative(law):
     state = basal_state()
     yield_stress, drag = resistance(law, state)
@@ -62,7 +83,7 @@ def test_friction_is_finite_and_never_negative(law):
     assert (yield_stress >= 0.0).all() and (drag >= 0.0).all()
 
 
-@of("friction")
+@of_friction
 def test_friction_leaves_its_inputs_alone(law):
     unchanged(resistance, law)
 
@@ -81,31 +102,65 @@ def unchanged(ask, law):
     np.testing.assert_array_equal(first, ask(law, state))  # and keeps nothing to itself
 
 
-@of("friction")
+@of_friction
 def test_pore_pressure_lowers_what_holds_a_body(law):
     dry, wet = basal_state(excess_pore_pressure=np.zeros(50)), basal_state()
-    assert np.all(resistance(law, wet)[0] < resistance(law, dry)[0])
+    if has_friction(law):
+        assert np.all(resistance(law, wet)[0] < resistance(law, dry)[0])
+    else:
+        np.testing.assert_array_equal(resistance(law, wet), resistance(law, dry))
 
 
-@of("friction")
+@of_friction
+def test_pore_pressure_enters_through_the_effective_normal_stress_only(law):
+    state, other = basal_state(), np.full(50, np.nan)
+    found = resistance(law, state._replace(excess_pore_pressure=other, liquefaction_pressure=other))
+    np.testing.assert_array_equal(found, resistance(law, state))
+
+
+@of_friction
 @pytest.mark.parametrize("excess", [1.0, 1.5, 1e6])
-def test_what_is_liquefied_yields_at_once(law, excess):
+def test_what_is_liquefied_keeps_its_cohesion_only(law, excess):
     load = basal_state().liquefaction_pressure
     # the small excess over 1 keeps round-off of rho' g_n h_n - p out of it
     state = basal_state(excess_pore_pressure=load * excess * (1.0 + 1e-12))
-    assert not resistance(law, state)[0].any()
+    assert np.all(resistance(law, state)[0] == strength_without_normal_stress(law))
 
 
-@of("friction")
+@of_friction
 def test_a_bend_that_lifts_the_flow_off_leaves_no_friction_to_hold_it(law):
-    assert not resistance(law, basal_state(normal_gravity=np.zeros(50)))[0].any()
+    found = resistance(law, basal_state(normal_gravity=np.zeros(50)))[0]
+    assert np.all(found == strength_without_normal_stress(law))
 
 
-@of("friction")
+@of_friction
 def test_a_film_of_no_thickness_needs_no_special_case(law):
     state = basal_state(thickness=np.zeros(50))
     out = resistance(law, state)
-    assert np.isfinite(out).all() and not out[0].any()
+    assert np.isfinite(out).all() and np.all(out[0] == strength_without_normal_stress(law))
+
+
+@of_friction
+@pytest.mark.parametrize("slip_ratio", [0.0, 0.4, 1.0])
+def test_friction_at_rest_is_finite_whatever_slides(law, slip_ratio):
+    for thickness in (np.zeros(50), np.full(50, 2.0)):
+        out = resistance(law, basal_state(thickness=thickness, speed=np.zeros(50), slip_ratio=slip_ratio))
+        assert np.isfinite(out).all() and (out >= 0.0).all()
+
+
+@of_friction
+def test_parameters_that_vary_are_taken_each_at_its_place(law):
+    """Given as arrays over the particles, all alike, they change nothing; a changed one changes its own particle."""
+    state, here = basal_state(), on_nodes(law, {})
+    same, other = np.empty((2, 50)), np.empty((2, 50))
+    spread = [np.full(50, values[0]) for values in here]
+    law.basal_resistance(state._replace(parameters=type(here)(*spread)), *same)
+    np.testing.assert_array_equal(same, resistance(law, state))
+    for name, values in zip(here._fields, spread, strict=True):
+        changed = values.copy()
+        changed[7] = 0.9 * values[7] + 0.1
+        law.basal_resistance(state._replace(parameters=type(here)(*spread)._replace(**{name: changed})), *other)
+        assert np.flatnonzero((other != same).any(axis=0)).tolist() == [7], name
 
 
 @of("erosion")

@@ -1,4 +1,4 @@
-"""Coulomb friction on the effective normal stress."""
+"""Coulomb friction on the effective normal stress, with cohesion and a viscous part."""
 
 import math
 
@@ -6,14 +6,20 @@ import numpy as np
 
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
+from .shear import THINNEST, strength
+
+SHEAR_AT_BASE = {"linear": 2.0, "parabolic": 3.0}
+"""Shear rate at the base over (v - v_b)/h_n, v being the mean, of velocity profiles with no more to them."""
 
 
 @declared
 class Coulomb:
-    """tau_b = sigma' tan(phi), sigma' = max(0, rho' g_n h_n - p_b), with g_n including the curvature of the bed.
+    """tau_b = c + sigma' tan(phi) + k mu (v - v_b)/h_n: friction on the effective normal stress, with a viscous part.
 
-    The excess pore pressure p_b lowers the effective normal stress; at full liquefaction nothing is
-    left.
+    sigma' = max(0, rho' g_n h_n - p_b), with g_n including the curvature of the bed. The excess pore pressure p_b
+    lowers it; at full liquefaction cohesion c and the viscous part are left. k is 2 for a velocity that grows linearly
+    from v_b at the base to the surface, 3 for a parabola without shear at the surface: 2 mu v/h_n without slip,
+    (4/3) mu v/h_n at v_b = v/3, 3 mu v/h_n. v_b/v is the material's `basal_slip_ratio`.
 
     References
     ----------
@@ -24,8 +30,16 @@ class Coulomb:
         "deg", "friction angle between grains and bed, on effective stress",
         math.degrees(math.atan(0.6)), (0.0, 89.0), varies=True,
     )  # fmt: skip
+    cohesion: float = parameter("Pa", "strength without normal stress; no pore pressure lowers it", 0.0, (0.0, None),
+                                varies=True)  # fmt: skip
+    viscosity: float = parameter("Pa s", "of the sheared mixture; 0.5 at Tsing Shan", 0.0, (0.0, None), varies=True)
+    velocity_profile: str = parameter(
+        "-", "over the thickness, for the viscous part", "linear", choices=tuple(SHEAR_AT_BASE)
+    )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa]; there is no drag."""
-        np.multiply(np.tan(state.parameters.basal_friction_angle), state.effective_normal_stress, out=yield_stress)
-        drag[:] = 0.0
+        """Write cohesion and friction [Pa], and the viscous part over speed [Pa s m-1]."""
+        here = state.parameters
+        strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
+        factor = SHEAR_AT_BASE[self.velocity_profile] * (1.0 - state.slip_ratio)
+        np.divide(factor * here.viscosity, np.maximum(state.thickness, THINNEST), out=drag)

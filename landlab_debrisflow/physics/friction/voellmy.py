@@ -1,4 +1,4 @@
-"""Coulomb friction with Voellmy's drag, which grows with the square of the speed."""
+"""Coulomb friction and cohesion with Voellmy's drag, which grows with the square of the speed."""
 
 import math
 
@@ -6,13 +6,15 @@ import numpy as np
 
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
+from .shear import strength
 
 
 @declared
 class Voellmy:
-    """tau_b = sigma' tan(phi) + rho g v^2 / xi, sigma' = max(0, rho' g_n h_n - p_b).
+    """tau_b = c + sigma' tan(phi) + rho g v^2/xi: friction and a drag that grows with the square of the speed.
 
-    The terminal speed on a plane follows from v^2 = xi h_n (sin(theta) - mu_a cos(theta)).
+    sigma' = max(0, rho' g_n h_n - p_b). The terminal speed on a plane follows from
+    v^2 = xi (h_n (sin(theta) - mu_a cos(theta)) - c/(rho g)).
 
     References
     ----------
@@ -23,11 +25,14 @@ class Voellmy:
         "deg", "friction angle between grains and bed, on effective stress",
         math.degrees(math.atan(0.6)), (0.0, 89.0), varies=True,
     )  # fmt: skip
+    cohesion: float = parameter("Pa", "strength without normal stress; no pore pressure lowers it", 0.0, (0.0, None),
+                                varies=True)  # fmt: skip
     turbulent_coefficient: float = parameter(
         "m s-2", "Voellmy's xi: large means little drag", 500.0, (1.0, None), varies=True
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa] and the drag per speed, rho g v / xi [Pa s m-1]."""
-        np.multiply(np.tan(state.parameters.basal_friction_angle), state.effective_normal_stress, out=yield_stress)
-        np.multiply(state.gravity / state.parameters.turbulent_coefficient, state.density * state.speed, out=drag)
+        """Write cohesion and friction [Pa], and the drag per speed, rho g v / xi [Pa s m-1]."""
+        here = state.parameters
+        strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
+        np.multiply(state.gravity / here.turbulent_coefficient, state.density * state.speed, out=drag)

@@ -1,0 +1,27 @@
+"""What laws share: cohesion and friction, the velocity that shears a flow, and where formulas that divide by it end.
+
+A basal slip ratio s leaves (1 - s) v of the mean velocity to the shear: v_b = s v slides, as a block does.
+"""
+
+import numpy as np
+
+from ..contracts import BasalState
+
+SLOWEST = 1e-9
+"""Three centimetres a year [m s-1]: below, drag is that at this speed. The drag per speed of what has a yield stress,
+or thins under shear, goes to infinity at rest; held there, a body that starts finds its speed in a few kicks."""
+
+THINNEST = 1e-6
+"""A grain of clay [m]: what is thinner shears like this. No rate of shear is divided by nothing."""
+
+
+def strength(cohesion, friction_angle, state: BasalState, out) -> None:
+    """Write c + sigma' tan(phi) [Pa] (Coulomb; Terzaghi's effective stress), of c [Pa] and phi [rad], (n,) or (1,)."""
+    np.multiply(np.tan(friction_angle), state.effective_normal_stress, out=out)
+    out += cohesion
+
+
+def shearing(state: BasalState):
+    """Return the velocity (1 - s) v of the mean [m s-1], and that over thickness [s-1], each (n,) and > 0."""
+    velocity = np.maximum((1.0 - state.slip_ratio) * state.speed, SLOWEST)
+    return velocity, velocity / np.maximum(state.thickness, THINNEST)
