@@ -21,7 +21,7 @@ from ..physics.contracts import (
 )
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
-from . import sleep
+from . import loading, sleep
 from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
 from .timestep import NOT_STIFF, survey, viscous_share
 from .walls import mirror
@@ -47,7 +47,7 @@ def advance(sim, dt: float) -> None:
     find_ground(sim, dt)
     interact(sim)
     sleep.wake(sim, sleep.disturbed(sim))
-    press(sim, dt)
+    loading.press(sim, dt)
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -201,21 +201,6 @@ def interact(sim) -> None:
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
     p.liquefaction_pressure[p.phase == WATER] = 0.0
-
-
-def press(sim, dt: float | None = None) -> None:
-    """Tell the bed what the flow weighs after a step, or, without one, what has lain there before."""
-    p, bed, material = sim.particles, sim.bed.pore_pressure, sim.physics.material
-    if bed is None or (p.count == 0 and dt is None):
-        return
-    # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
-    weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
-    weight[p.phase == WATER] = 0.0
-    force = np.array([weight * p.density, weight * (p.density - material.bearing_density)])
-    if dt is None:
-        bed.stand(p.x, p.y, p.spread, force, sim.time)
-    else:
-        bed.carry(p.x, p.y, p.spread, force, sim.time + dt, dt)
 
 
 def consolidate(sim, dt: float) -> None:
