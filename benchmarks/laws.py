@@ -1,0 +1,64 @@
+"""What a step costs with every law, over Coulomb friction and growth: ``python -m benchmarks.laws``.
+
+All run the same stand-in valley from the same moment on, in turns: the ratio of CPU time per step
+in one turn is not disturbed by what else the machine does, but for its noise; medians over turns are printed. Two
+phases have as many particles of each phase as one phase has in all.
+"""
+
+import argparse
+import time
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow.demo import MATERIAL
+from landlab_debrisflow.model.physics import LAWS
+from landlab_debrisflow.terrains import tsing_shan_valley
+
+START, TURN = 2.0, 0.2
+"""Until when all run before the first turn, and how long a turn is [s of the event]: before the laws have brought them apart."""
+
+
+def cases():
+    """Return keywords of `DebrisFlow` by name; the first is what the others are compared with."""
+    found = {"coulomb + growth": {}}
+    for kind in ("friction", "erosion"):
+        for name in list(LAWS[kind])[1:]:
+            found[f"{kind}: {name}"] = {kind: name}
+    found["two_phase, tight"] = {"flow": "two_phase"}
+    found["two_phase, permeable"] = {"flow": {"law": "two_phase", "hydraulic_conductivity": 1e-3}}
+    return found
+
+
+def main(particles=10_000, turns=9):
+    """Return and print the cost of a step over that of the first case, and its CPU time [us per particle]."""
+    flows = {}
+    for name, keywords in cases().items():
+        flows[name] = DebrisFlow(
+            tsing_shan_valley(), material=MATERIAL, numerics={"particle_count": particles, "settle": False}, **keywords
+        )
+        flows[name].run_one_step(START)
+    costs = {name: [] for name in flows}
+    for _ in range(turns):
+        for name, flow in flows.items():
+            steps, cpu = flow._simulation._steps, time.process_time()
+            flow.run_one_step(TURN)
+            costs[name].append((time.process_time() - cpu) / (flow._simulation._steps - steps) / particles * 1e6)
+    base = np.array(next(iter(costs.values())))
+    table = Table("law", "over the first", "from .. to", "us per particle and step", title=f"{particles} particles")
+    ratios = {}
+    for name, values in costs.items():
+        ratio = np.array(values) / base
+        ratios[name] = float(np.median(ratio))
+        low, high = np.quantile(ratio, [0.25, 0.75])
+        table.add_row(name, f"{ratios[name]:.2f}", f"{low:.2f} .. {high:.2f}", f"{np.median(values):.2f}")
+    Console(width=110).print(table)
+    return ratios
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
+    parser.add_argument("--particles", type=int, default=10_000)
+    main(parser.parse_args().particles)
