@@ -60,7 +60,7 @@ def plane(extent, spacing, angle, thickness, mu, count, walls=False, erosion="no
     keywords = dry_block(mu, erosion, particle_count=count, threads=threads)
     if saturated is not None:
         keywords = {"erosion": erosion, "numerics": keywords["numerics"]} | saturated
-    return place(DebrisFlow(grid, flow=law_of_flow(), **keywords))
+    return place(DebrisFlow(grid, **{"flow": law_of_flow()} | keywords))
 
 
 def dam_break(name, along, angle, mu, downstream, solution, walls=False, length=100.0) -> Result:
