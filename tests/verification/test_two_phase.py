@@ -54,9 +54,9 @@ def test_the_volume_of_each_phase_balances(foot):
         material={"porosity": 0.45, "bed_porosity": 0.25}, numerics={"particle_count": 60, "rest_energy": 1e-2},
     )  # fmt: skip
     flow.run_one_step(6.0)
-    middle = flow._ledger.budget_by_phase(flow._simulation)
+    middle = flow.budget_by_phase
     flow.run_until_rest(120.0)
-    end = flow._ledger.budget_by_phase(flow._simulation)
+    end = flow.budget_by_phase
     for budget in (middle, end):
         for terms in budget.values():
             # a deposit is measured in the elevation: to the rounding of some 1e3 nodes at some 100 m, each of 25 m2
