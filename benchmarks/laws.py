@@ -27,6 +27,8 @@ def cases():
     for kind in ("friction", "erosion"):
         for name in list(LAWS[kind])[1:]:
             found[f"{kind}: {name}"] = {kind: name}
+    loaded = {"bed_loading_coefficient": 0.3, "bed_drainage_time": 30.0}
+    found["a bed under load"] = {"material": MATERIAL | loaded}
     found["two_phase, tight"] = {"flow": "two_phase"}
     found["two_phase, permeable"] = {"flow": {"law": "two_phase", "hydraulic_conductivity": 1e-3}}
     return found
@@ -37,7 +39,9 @@ def main(particles=10_000, turns=9):
     flows = {}
     for name, keywords in cases().items():
         flows[name] = DebrisFlow(
-            tsing_shan_valley(), material=MATERIAL, numerics={"particle_count": particles, "settle": False}, **keywords
+            tsing_shan_valley(),
+            numerics={"particle_count": particles, "settle": False},
+            **({"material": MATERIAL} | keywords),
         )
         flows[name].run_one_step(START)
     costs = {name: [] for name in flows}

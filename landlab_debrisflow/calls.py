@@ -84,7 +84,7 @@ class Calls:
         elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
             self._said_nothing_to_do = True
-        bed = ground.make_bed()
+        bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
         sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
@@ -139,10 +139,11 @@ class Calls:
     def _finish(self):
         """Show the deposit, and remember the terrain to notice what other components change."""
         self._show()
-        self._ground.remember(self._undo.nodes)
+        self._ground.remember(self._undo.nodes, self._simulation.time)
 
     def _show(self):
-        """Write the deposit: what has settled and what lies still now."""
+        """Write the deposit, what has settled and what lies still now, and the pressure of the bed."""
+        self._ground.show(self._undo.nodes, self._simulation.time)
         field = self.flow.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
         nodes, depth = self._simulation.resting_depth()
         field[self._lying] = self._settled[self._lying]

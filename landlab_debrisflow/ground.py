@@ -7,7 +7,10 @@ from .core.parameters import on_nodes
 from .core.variables import OUTPUT_PREFIX
 from .spatial.transfer import Nodes
 from .terrain.bed import Bed
+from .terrain.bed_pressure import BedPressure
 from .terrain.surface import Surface
+
+BED_PRESSURE = "bed__excess_pore_pressure"
 
 
 class Ground:
@@ -22,13 +25,21 @@ class Ground:
     """
 
     def __init__(self, grid, physics):
-        self._grid, self._ratio = grid, np.array([physics.material.bed_pressure_ratio])
+        self._grid, self._material = grid, physics.material
+        if self._loaded and BED_PRESSURE not in grid.at_node:
+            grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
         self._laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
         inputs.check_parameters(grid, self._laws)
         self.parameters = None  # by kind, as `Simulation.on` wants them
         self._seen = None  # elevation and status as the last call left them
         self._surface = None  # of that elevation
+        self._eroded = np.zeros(grid.number_of_nodes)  # in this event, before the present call [m]
         self.elevation = self.soil = self.status = self.bed = None
+
+    @property
+    def _loaded(self) -> bool:
+        """Whether the bed's pore pressure follows what lies on it."""
+        return self._material.bed_loading_coefficient > 0.0
 
     def read(self) -> bool:
         """Read and check the fields; return whether the terrain differs from what the last call left.
@@ -49,22 +60,34 @@ class Ground:
             inputs.check_elevation(grid, self.elevation)
             self._seen, self._surface = (self.elevation.copy(), self.status), None
         inputs.check_bed(grid, self.soil, self._ratios, self._drained)
+        if self._loaded:
+            inputs.check_loaded_bed(grid, self._ratios, at[BED_PRESSURE])
         inputs.check_parameters(grid, self._laws)
         self.parameters = {kind: on_nodes(law, at) for kind, law in self._laws.items()}
         return changed
 
-    def make_bed(self) -> Bed:
-        """Return the bed as the fields are now."""
+    def make_bed(self, time: float, new_event: bool) -> Bed:
+        """Return the bed as the fields are now, at some time of the component [s]."""
         grid = self._grid
         closed = (self.status == grid.BC_NODE_IS_CLOSED).reshape(grid.shape)
         if self._surface is None or closed.any():  # what is filled into closed nodes follows those around
             self._surface = Surface(self.elevation.reshape(grid.shape), (grid.dx, grid.dy), closed)
         core = self.status == grid.BC_NODE_IS_CORE
         nodes = Nodes(core, grid.number_of_node_columns, float(grid.dx), float(grid.dy))
-        ratios = self._ratio if self._ratios is None else np.array(self._ratios, float)
+        material, pore_pressure = self._material, None
+        ratios = np.array([material.bed_pressure_ratio]) if self._ratios is None else np.array(self._ratios, float)
+        if self._loaded:
+            drainage_time = np.inf if material.bed_drainage_time is None else material.bed_drainage_time
+            pressure, loading = grid.at_node[BED_PRESSURE], material.bed_loading_coefficient
+            pore_pressure = BedPressure(nodes, pressure, loading, drainage_time, time)
+            ratios = pore_pressure.ratio
+        if new_event:
+            self._eroded = np.zeros(grid.number_of_nodes)
         drained = None if self._drained is None else self._drained > 0.0
         eroded_depth = grid.at_node[OUTPUT_PREFIX + "eroded_depth"]
-        self.bed = Bed(nodes, self._surface, self.elevation, self.soil, eroded_depth, ratios, drained)
+        self.bed = Bed(
+            nodes, self._surface, self.elevation, self.soil, eroded_depth, ratios, drained, pore_pressure, self._eroded
+        )
         return self.bed
 
     def fail(self, nodes, depth) -> None:
@@ -73,9 +96,17 @@ class Ground:
         if self._surface is not None:
             self._surface.move_to(nodes, self.elevation[nodes])
 
-    def remember(self, nodes: slice) -> None:
-        """Note how the call leaves the elevation; only `nodes` may have changed."""
+    def show(self, nodes: slice, time: float) -> None:
+        """Bring what of the bed changes by itself to the present, at some nodes."""
+        if self._loaded:
+            self.bed.pore_pressure.drain(time, nodes)
+
+    def remember(self, nodes: slice, time: float) -> None:
+        """Note how the call leaves the elevation and what it eroded; only drainage changes more than `nodes`."""
         self._seen[0][nodes] = self.elevation[nodes]
+        self._eroded[nodes] = self.bed.eroded_in_event(nodes)
+        if self._loaded:
+            self.bed.pore_pressure.finish(time, nodes)
 
     def forget(self) -> None:
         """Read everything anew at the next call."""

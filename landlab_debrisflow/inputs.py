@@ -77,6 +77,16 @@ def check_bed(grid, soil, ratio, drained) -> None:
             )
 
 
+def check_loaded_bed(grid, ratio, pressure) -> None:
+    """Refuse likewise a bed whose pore pressure follows its load: its ratio, if given too, and its pressure [Pa]."""
+    if ratio is not None:
+        raise InputError(
+            "bed__excess_pore_pressure_ratio is given, but with Material's bed_loading_coefficient > 0 the pressure of "
+            "the bed follows from its load; delete the field, or set bed_loading_coefficient to 0"
+        )
+    _check_range(grid, "bed__excess_pore_pressure", pressure, 0.0, np.inf, "Pa")
+
+
 def check_parameters(grid, laws) -> None:
     """Refuse parameters of laws, by kind, that vary in space but not over the nodes of this grid."""
     for kind, law in laws.items():

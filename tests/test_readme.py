@@ -29,6 +29,18 @@ def test_inflow_as_printed():
     assert names["flow"].budget["inflow"] == pytest.approx(0.5 * 80.0 * 60.0, rel=1e-14)
 
 
+def test_laws_as_printed():
+    blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    (laws,) = [block for block in blocks if "two_phase" in block]
+    names = {}
+    exec(compile(blocks[0].split("flow = DebrisFlow(")[0], "README.md", "exec"), names)
+    names["grid"].add_full("friction__angle", 31.0, at="node")
+    exec(compile("from landlab_debrisflow import DebrisFlow\n" + laws, "README.md", "exec"), names)
+    names["flow"].run_one_step(2.0)
+    assert names["grid"].at_node["bed__excess_pore_pressure"].max() > 0.0
+    assert names["flow"].budget_by_phase["water"]["eroded"] > 0.0
+
+
 def test_table_of_fields_is_complete_and_true():
     rows = re.findall(r"^\| `(\w+)` \| ([\w, ]+) \| (\S+) \|", README, re.MULTILINE)
     declared = [(f.name, f.intent + (", optional" if f.optional else ""), f.unit) for f in NODE_FIELDS]

@@ -98,6 +98,10 @@ NODE_FIELDS = (
         "Excess pore pressure of the bed over its liquefaction value", True,
     ),
     NodeField(
+        "bed__excess_pore_pressure", "inout", "Pa",
+        "Excess pore pressure of the bed, raised by the weight of the flow, drained in time", True,
+    ),
+    NodeField(
         "bed__drained", "in", "-", "1 where a drain holds the excess pore pressure at the base of a flow at 0", True
     ),
     NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),

@@ -7,7 +7,7 @@ from ..core.errors import ParameterError
 from ..core.parameters import from_mapping
 from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
-from ..physics.erosion import Growth, NoErosion
+from ..physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
 from ..physics.flow import OnePhase, TwoPhase
 from ..physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 from ..physics.material import Material
@@ -21,7 +21,7 @@ LAWS = {
         "herschel_bulkley": HerschelBulkley,
         "mu_i": MuI,
     },
-    "erosion": {"growth": Growth, "none": NoErosion},
+    "erosion": {"growth": Growth, "shear_excess": ShearExcess, "liquefied_bed": LiquefiedBed, "none": NoErosion},
     "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
 }
 """Every law by kind and name; the first of a kind is the default."""
@@ -70,10 +70,10 @@ def build_law(kind: str, value):
     --------
     >>> build_law("friction", {"law": "voellmy", "turbulent_coefficient": 300})
     Voellmy(basal_friction_angle=30.96375653207352, cohesion=0.0, turbulent_coefficient=300.0)
-    >>> build_law("erosion", "plough")
+    >>> build_law("flow", "plough")
     Traceback (most recent call last):
         ...
-    landlab_debrisflow.core.errors.ParameterError: erosion: unknown law 'plough'; allowed: growth, none
+    landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase, two_phase
     """
     laws = LAWS[kind]
     if value is None:

@@ -9,7 +9,7 @@ from ..core.errors import SimulationError
 from ..physics.column.start import initial_profile
 from ..physics.contracts import MIXTURE, WATER
 from ..terrain.bed import Bed
-from . import sleep, step
+from . import loading, sleep, step
 from .inflow import Inflow
 from .mixture import Mixture
 from .motion import CLOSED
@@ -74,6 +74,7 @@ class Simulation:
         self.bed, self.status, self.parameters = bed, status, parameters
         self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
+        loading.press(self)
 
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
@@ -95,6 +96,7 @@ class Simulation:
         p, material = self.particles, self.physics.material
         new = release_particles(self, nodes, depth)
         self._find_everything(FIRST_SWEEPS)
+        loading.press(self)
         load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,

@@ -21,7 +21,7 @@ from ..physics.contracts import (
 )
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
-from . import sleep
+from . import loading, sleep
 from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
 from .timestep import NOT_STIFF, survey, viscous_share
 from .walls import mirror
@@ -47,6 +47,7 @@ def advance(sim, dt: float) -> None:
     find_ground(sim, dt)
     interact(sim)
     sleep.wake(sim, sleep.disturbed(sim))
+    loading.press(sim, dt)
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -278,5 +279,5 @@ def base(sim, which: slice, kind: str, pressure=None) -> BasalState:
     here = (values if values.size == 1 else values[sim.node[which]] for values in parameters)
     return BasalState(
         depth, thickness, speed, normal_gravity, stress, p.liquefaction_pressure[which], pressure, density,
-        material.gravity, material.basal_slip_ratio, type(parameters)(*here),
+        sim.bed.eroded_in_event(sim.node[which]), material.gravity, material.basal_slip_ratio, type(parameters)(*here),
     )  # fmt: skip

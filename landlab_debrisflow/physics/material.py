@@ -34,6 +34,14 @@ class Material:
     bed_pressure_ratio: float = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
     )
+    bed_loading_coefficient: float = parameter(
+        "-", "part of the flow's weight that pore water of the bed takes up at once; above 0 the pressure of the bed "
+        "follows from this, not from a ratio", 0.0, (0.0, 1.0),
+    )  # fmt: skip
+    bed_drainage_time: float = parameter(
+        "s", "time in which excess pore pressure of the bed falls to 1/e; by default it does not drain", None,
+        (1e-3, None),
+    )  # fmt: skip
     initial_pressure_ratio: float = parameter(
         "-", "basal excess pore pressure over its liquefaction value at release", 0.65, (0.0, 1.0)
     )

@@ -31,12 +31,20 @@ class Bed:
         Excess pore pressure of the bed over its liquefaction value [-].
     drained : ndarray of bool, shape (nodes,), or None
         Where a drain holds the excess pore pressure at 0; None: nowhere.
+    pore_pressure : BedPressure, optional
+        Of which `pressure_ratio` then is the ratio, and which is told what lies on the bed.
+    earlier : ndarray, shape (nodes,), optional
+        Depth eroded in calls before this one that belong to the same event [m].
     """
 
-    def __init__(self, nodes: Nodes, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None):
+    def __init__(
+        self, nodes: Nodes, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None,
+        pore_pressure=None, earlier=None,
+    ):  # fmt: skip
         self.nodes, self.surface, self.elevation, self.soil = nodes, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
-        self.drained = drained
+        self.drained, self.pore_pressure = drained, pore_pressure
+        self._earlier = np.zeros(elevation.size) if earlier is None else earlier
         self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
         self._taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._demand = np.zeros((1, elevation.size))
@@ -72,6 +80,10 @@ class Bed:
         at = self._touched[:count]
         self.surface.move_to(at, self.elevation[at])
         return granted, ratio
+
+    def eroded_in_event(self, nodes):
+        """Return the depth eroded at some nodes since the event began [m]."""
+        return self._earlier[nodes] + self._taken[nodes]
 
     def depth_of(self, x, y, spread, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""

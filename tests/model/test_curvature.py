@@ -57,7 +57,7 @@ def test_over_a_bump_the_flow_gets_lighter_and_without_weight_it_has_no_friction
         one = np.ones(1)
         state = BasalState(
             one, one, found * one, normal * one, 990.0 * normal * one, 9712.0 * one, 0.0 * one,
-            1990.0 * one, G, 0.0, None,
+            1990.0 * one, 0.0 * one, G, 0.0, None,
         )  # fmt: skip
         for law in (Coulomb(), Voellmy()):
             stress, drag = np.empty(1), np.empty(1)

@@ -57,7 +57,8 @@ def basal_state(count=50, seed=1, **given):
         "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
         "normal_gravity": normal_gravity, "liquefaction_pressure": liquefaction, "excess_pore_pressure": pressure,
         "effective_normal_stress": np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure),
-        "density": np.full(count, 1990.0), "gravity": 9.81, "slip_ratio": 0.0, "parameters": None,
+        "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count), "gravity": 9.81, "slip_ratio": 0.0,
+        "parameters": None,
     }  # fmt: skip
     return BasalState(**(values | given))
 
@@ -283,7 +284,7 @@ def hand_state():
     one = np.ones(1)
     return BasalState(
         2.5 * one, 2.0 * one, 10.0 * one, 9.81 * one, 10423.8 * one, 19423.8 * one, 9000.0 * one, 1990.0 * one,
-        9.81, 0.0, None,
+        0.0 * one, 9.81, 0.0, None,
     )  # fmt: skip
 
 

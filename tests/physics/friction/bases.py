@@ -20,7 +20,7 @@ def base(speed, thickness=2.0, effective_normal_stress=1e4, slip_ratio=0.0):
     )
     none = np.full(speed.size, np.nan)  # no law of friction may look at these
     return BasalState(
-        none, thickness, speed, none, stress, none, none, np.full(speed.size, DENSITY), G, slip_ratio, None
+        none, thickness, speed, none, stress, none, none, np.full(speed.size, DENSITY), none, G, slip_ratio, None
     )
 
 

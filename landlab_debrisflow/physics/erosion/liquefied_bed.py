@@ -1,0 +1,38 @@
+"""Erosion of a bed that liquefies under the flow."""
+
+import numpy as np
+
+from ...core.parameters import declared, parameter
+from ..contracts import BasalState
+
+
+@declared
+class LiquefiedBed:
+    """e_R = 2 tan(phi) sigma'/(rho v cos(theta)), at most a highest rate: the bed bears nothing, having liquefied.
+
+    So all the friction of the flow goes into speeding up soil: E = 2 mu g h_n cos(theta) (1 - lambda)/v normal to the
+    bed, E/cos(theta) per map area. mu = tan(phi) is the flow's coefficient, not the bed's; lambda is pore pressure over
+    normal stress, both total, so rho g h_n cos(theta) (1 - lambda) is sigma', the effective normal stress. Below a
+    speed nothing erodes. The highest rate is by default the highest measured, at which the law then mostly is: without
+    it flows of metres would dig metres in seconds.
+
+    References
+    ----------
+    Iverson (2012), J. Geophys. Res. 117, F03006; 5 to 10 cm/s were measured by Reid et al. (2011).
+    """
+
+    basal_friction_angle: float = parameter(
+        "deg", "friction angle between grains and bed, on effective stress: that of the friction law",
+        float(np.degrees(np.arctan(0.6))), (0.0, 89.0), varies=True,
+    )  # fmt: skip
+    highest_rate: float = parameter("m s-1", "erosion rate per map area not exceeded", 0.1, (0.0, None), varies=True)
+    least_speed: float = parameter("m s-1", "speed below which nothing erodes", 0.1, (1e-6, None))
+
+    def entrainment_rate(self, state: BasalState, out) -> None:
+        """Write the erosion rate asked for [m s-1]."""
+        here, tiny = state.parameters, np.finfo(float).tiny
+        friction = 2.0 * np.tan(here.basal_friction_angle) * state.effective_normal_stress
+        friction *= state.depth / np.maximum(state.thickness, tiny)  # over cos(theta)
+        np.divide(friction, state.density * np.maximum(state.speed, self.least_speed), out=out)
+        np.minimum(out, here.highest_rate, out=out)
+        out[state.speed < self.least_speed] = 0.0

@@ -1,0 +1,101 @@
+"""The pore pressure of the bed itself, which the weight of the flow raises and drainage takes away.
+
+    d(dp)/dt = B dL/dt - dp/T,    L = rho g_n h_n,    dp >= 0
+
+B is the part of a load that pore water takes up at once (Skempton 1954; undrained loading: Hutchinson & Bhandari
+1971), T the time in which it drains. Between two calls of `carry` L changes linearly, for which the step is exact.
+Soil that is eroded has the pressure ratio r_b = dp / p_liq, at most 1, p_liq being that of the flow on the node.
+Only nodes that the flow lies on, or has just left, are looked at; all others drain when next they are.
+"""
+
+import numpy as np
+
+from ..core.jit import kernel
+from ..spatial.transfer import Nodes, scatter
+
+
+class BedPressure:
+    """Excess pore pressure of the bed over one call.
+
+    Parameters
+    ----------
+    nodes : Nodes
+        The raster.
+    pressure : ndarray, shape (nodes,)
+        Excess pore pressure now [Pa], >= 0, changed in place.
+    loading : float
+        B [-].
+    drainage_time : float
+        T [s], may be infinite.
+    time : float
+        Now [s].
+    """
+
+    def __init__(self, nodes: Nodes, pressure, loading: float, drainage_time: float, time: float):
+        self._nodes, self._pressure, self._start = nodes, pressure, time
+        self._loading, self._drainage_time = loading, drainage_time
+        count = nodes.core.size
+        self.ratio = np.zeros(count)  # r_b; 0 where there is no flow [-]
+        self._load = np.zeros(count)  # [Pa]
+        self._age = np.zeros(count)  # time to which `pressure` was brought, since the start [s]
+        self._under = np.zeros(0, np.int64)  # nodes with a load
+        self._sums, self._scratch = np.zeros((2, count)), np.empty(count, np.int64)
+
+    def carry(self, x, y, spread, force, time: float, dt: float) -> None:
+        """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
+
+        Parameters
+        ----------
+        x, y, spread : ndarray, shape (n,)
+            Position and tent half-width of each particle [m].
+        force : ndarray, shape (2, n)
+            What it presses on the bed with, slope-normal stress times map area: all, and less what pore water
+            bears [N].
+        """
+        self._bear(x, y, spread, force, time, dt, self._loading)
+
+    def stand(self, x, y, spread, force, time: float) -> None:
+        """Note what lies on the bed already at the start: that is no new load."""
+        self._bear(x, y, spread, force, time, 0.0, 0.0)
+
+    def _bear(self, x, y, spread, force, time, dt, loading):
+        at = scatter(self._nodes, x, y, spread, force, self._sums, self._scratch).copy()
+        _respond(
+            self._under, at, self._sums, self._nodes.area, loading, self._drainage_time, time - self._start, dt,
+            self._age, self._load, self._pressure, self.ratio,
+        )  # fmt: skip
+        self._under = at
+
+    def drain(self, time: float, nodes: slice) -> None:
+        """Bring the pressure of some nodes to `time` [s]."""
+        age = time - self._start
+        if np.isfinite(self._drainage_time):
+            self._pressure[nodes] *= np.exp((self._age[nodes] - age) / self._drainage_time)
+            self._age[nodes] = age
+
+    def finish(self, time: float, nodes: slice) -> None:
+        """Bring all to `time` [s] at the end; nothing ever lay outside `nodes`, where one factor will do."""
+        self.drain(time, nodes)
+        if np.isfinite(self._drainage_time):
+            for others in (slice(0, nodes.start), slice(nodes.stop, None)):
+                self._pressure[others] *= np.exp((self._start - time) / self._drainage_time)
+
+
+@kernel
+def _respond(left, at, sums, area, loading, drainage_time, age, dt, ages, load, pressure, ratio):
+    """Bring nodes the flow has `left`, if it has, and those it is `at` to the present; clear their sums."""
+    part = dt / drainage_time
+    kept = np.exp(-part)
+    gained = loading * (-np.expm1(-part) / part if part > 0.0 else 1.0)
+    for k in range(left.size + at.size):
+        n = left[k] if k < left.size else at[k - left.size]
+        if k < left.size and sums[0, n] > 0.0:
+            continue
+        idle = age - dt - ages[n]  # under the same load since it was last looked at
+        if idle > 0.0:
+            pressure[n] *= np.exp(-idle / drainage_time)
+        now, liquefied = sums[0, n] / area, sums[1, n] / area
+        pressure[n] = max(0.0, pressure[n] * kept + gained * (now - load[n]))
+        load[n], ages[n] = now, age
+        ratio[n] = min(1.0, pressure[n] / liquefied) if liquefied > 0.0 else 0.0
+        sums[0, n], sums[1, n] = 0.0, 0.0
