@@ -25,10 +25,10 @@ def counting_steps():
 class FixedLength:
     """The paper's class of SPH: smoothing lengths stay as released, without the terms of their gradient."""
 
-    def interact(self, state, cells, shock_viscosity, threads, sums, mixture):
+    def interact(self, state, cells, shock_viscosity, threads, sums):
         """Write the sums; a length at its cap is not adapted, and its gradient term is 1."""
         length = state.smoothing_length
-        OnePhase().interact(state._replace(longest=length), cells, shock_viscosity, threads, sums, mixture)
+        OnePhase().interact(state._replace(longest=length), cells, shock_viscosity, threads, sums)
         sums.next_length[:] = length[: sums.next_length.size]
 
 
