@@ -22,7 +22,6 @@ SIDE = {
 MARKERS = "os^Dv*"
 COLOURS = colormaps["plasma"](np.linspace(0.0, 0.82, len(MARKERS)))
 FRONT_COLOURS = "tab:blue", "tab:green", "tab:brown"  # other times, other colours
-SIDES = {False: "left", True: "right"}  # of a front, for its words
 SCHEME_WORDS = {"default": "default scheme", "lax_wendroff": "paper's scheme (lax_wendroff)"}
 
 
@@ -70,8 +69,7 @@ def draw_fronts(axes, tests, level, fronts):
         axes.plot([0.0, y, y, 1.0], [0.0, 0.0, 1.0, 1.0], color=colour)
         for scheme, profile in fronts.items():
             axes.plot(depth, profile[time == tests.FRONT_PATH][0], **marked(scheme, colour, marker))
-        right = y > 0.7
-        axes.text(y - 0.01 if right else y + 0.01, 0.28, f"$t/T_e$ = {time:g}", color=colour, ha=SIDES[right])
+        axes.text(y + 0.005, 0.28, f"$t/T_e$ = {time:g}", color=colour, fontsize="small")
     axes.set(ylabel="pressure $p/p_b$ [-]", xlabel="depth below the surface $y/h$ [-]", xlim=(0.0, 1.0))
     axes.set_title("Fig. 6 (A): advection alone, the front", fontsize="medium")
 
@@ -105,7 +103,7 @@ def draw_errors(axes, errors):
     axes.set_xscale("log")
     axes.invert_yaxis()
     axes.grid(color="0.9")
-    axes.set_xlabel("largest error over all times [-]; the one not shown is 0")
+    axes.set_xlabel("largest error [-] (0 is not shown)")
     axes.set_title("Errors against the exact solutions", fontsize="medium")
 
 

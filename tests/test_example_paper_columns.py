@@ -1,6 +1,8 @@
 """The example that draws figures 6 to 9 of Pastor et al. (2022)."""
 
+import contextlib
 import importlib.util
+import io
 import sys
 from pathlib import Path
 
@@ -36,9 +38,17 @@ def example():
         yield module
 
 
-def test_numbers_are_close_to_exact_solutions_in_either_reading(example, tmp_path, capsys):
-    picture = tmp_path / "paper_columns.png"
-    errors = example.main(picture)
+@pytest.fixture(scope="module")
+def run(example, tmp_path_factory):
+    """Errors, what was printed, and the figure."""
+    picture, told = tmp_path_factory.mktemp("paper") / "paper_columns.png", io.StringIO()
+    with contextlib.redirect_stdout(told):
+        errors = example.main(picture)
+    return errors, told.getvalue(), picture
+
+
+def test_numbers_are_close_to_exact_solutions_in_either_reading(run):
+    errors, told, picture = run
     assert errors.keys() == {"default", "lax_wendroff"}
     assert len(errors["default"]) == 9
     for name, error in errors["default"].items():
@@ -46,13 +56,12 @@ def test_numbers_are_close_to_exact_solutions_in_either_reading(example, tmp_pat
         assert errors["lax_wendroff"][name] > error, name
     assert errors["lax_wendroff"]["Fig. 6 (A), overshoot"] > 0.2  # "by a quarter", says the README
     assert picture.stat().st_size > 10_000
-    told = capsys.readouterr().out
     assert all(name in told for name in errors["default"]) and "11 levels" in told
     assert "0.998" in told and "0.474" in told  # figure 7 at x/h = 0.8: growing to 1, or stopped
 
 
-def test_more_levels_come_closer(example, capsys):
-    coarse, fine = example.main(), example.main(levels=21)
+def test_more_levels_come_closer(example, run, capsys):
+    (coarse, _, _), fine = run, example.main(levels=21)
     for name, error in coarse["default"].items():
         if "Fig. 8" not in name and "overshoot" not in name:  # the error of figure 8 comes from the time steps
             assert fine["default"][name] < 0.8 * error, name
