@@ -54,7 +54,7 @@ def test_numbers_are_close_to_exact_solutions_in_either_reading(run):
     for name, error in errors["default"].items():
         assert error < BOUNDS[name.removesuffix(", growing").removesuffix(", fixed")], name
         assert errors["lax_wendroff"][name] > error, name
-    assert errors["lax_wendroff"]["Fig. 6 (A), overshoot"] > 0.2  # "by a quarter", says the README
+    assert errors["lax_wendroff"]["Fig. 6 (A), overshoot"] > 0.2  # "by a third", says the README
     assert picture.stat().st_size > 10_000
     assert all(name in told for name in errors["default"]) and "11 levels" in told
     assert "0.998" in told and "0.474" in told  # figure 7 at x/h = 0.8: growing to 1, or stopped
