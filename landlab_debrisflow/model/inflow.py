@@ -26,6 +26,10 @@ LEAST_FALL = 1e-6
 """Slope across the line below which the ground does not say where it falls to [-]."""
 
 
+PARTS_OF_A_ROW = 4
+"""Of equal volume, over which its thickness is averaged."""
+
+
 class Source:
     """One hydrograph: its line, and its rows one after the other.
 
@@ -58,17 +62,27 @@ class Source:
 
     def rows(self):
         """Return time [s] and thickness [m] of every row and how many particles are in it."""
-        rows, before = [], 0
+        rows, before, each = [], 0, self.particle_volume
         while before < self.particles:
             count = 1
             for _ in range(8):  # thickness and number in the row follow from each other
-                time = self.entered.when((before + 0.5 * count) * self.particle_volume)
-                thickness = self.at(time, self.discharge) / (self.at(time, self.velocity) * self.hydrograph.width)
-                fit = self.hydrograph.width * np.sqrt(thickness / self.particle_volume)
+                fit = self.hydrograph.width * np.sqrt(self._row(before, count)[1] / each)
                 count = min(max(1, round(fit)), self.particles - before)
-            rows.append((time, thickness, count))
+            rows.append((*self._row(before, count), count))
             before += count
         return rows
+
+    def _row(self, before, count):
+        """Return when half of a row has crossed the line [s], and its thickness, in the mean over the row [m].
+
+        Not the thickness then, which may be nothing between two surges that share a row.
+        """
+        time = self.entered.when((before + 0.5 * count) * self.particle_volume)
+        parts = before + count * (np.arange(PARTS_OF_A_ROW) + 0.5) / PARTS_OF_A_ROW
+        times = [self.entered.when(part * self.particle_volume) for part in parts]
+        discharge, velocity = self.at(times, self.discharge), self.at(times, self.velocity)
+        thickness = np.divide(discharge, velocity, out=np.zeros(len(times)), where=velocity > 0.0)
+        return time, thickness.mean() / self.hydrograph.width
 
     def at(self, time, values):
         """Return the value at some time of a quantity given at the hydrograph's."""

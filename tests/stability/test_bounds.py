@@ -24,8 +24,12 @@ SHORT = {"courant_number": 1e-5, "gravity": 0.5}
 """Duration where a bound makes steps tiny or falls fast [s]; elsewhere 2 s."""
 
 
-REFUSED = {"solid_density": 1.0, "water_density": 1e5, "stiffness": 0.0}
-"""Bounds that do not go with other defaults: grains must be heavier than water, and a drag needs its stiffness."""
+REFUSED = {
+    "solid_density": 1.0, "water_density": 1e5, "stiffness": 0.0,
+    "static_friction_angle": 89.0, "limiting_friction_angle": 0.0,
+}  # fmt: skip
+"""Bounds that do not go with other defaults: grains must be heavier than water, a drag needs its stiffness, and the
+friction of the inertial law rises."""
 
 
 def bounds():
