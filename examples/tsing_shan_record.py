@@ -6,7 +6,7 @@ LOOK = 0.5
 """Time between two looks at the particles [s]; times since the front left erodible ground are known to that."""
 
 TIMES = (0.0, 32.0, 66.0, 100.0, 160.0, 250.0, 400.0)
-"""Of the figures of Pastor et al. (2022) [s]: 14 and 16 say 33 or 32, and 100 or 150, for the same plots; 17 has 160."""
+"""Of the figures of Pastor et al. (2022), where 32 and 33 s, and 100 and 150 s, name the same plots; 17 has 160 [s]."""
 
 SINCE = (0.0, 4.0, 8.0, 16.0, 32.0, 128.0)
 """Times since the front left erodible ground [s]; from 0 to 128 it is as long as from 32 to 160 in figure 17."""
@@ -28,6 +28,7 @@ MEASURES = {
     "deepest": ("deepest erosion [m]", "{:.2f}"),
     "soil left": ("least soil left where there was any [m]", "{:.2f}"),
     "run-out": ("run-out of the front from the release [m]", "{:.1f}"),
+    "beyond": ("  of it beyond erodible ground, to a node [m]", "{:.0f}"),
     "farthest": ("run-out of the farthest particle [m]", "{:.1f}"),
     "centre": ("run-out of the centre of mass [m]", "{:.1f}"),
     "angle": ("travel angle, crown to front [deg]", "{:.1f}"),
@@ -61,7 +62,7 @@ class Record:
     passing : float or None
         Time of the look that first saw a particle beyond erodible ground [s].
     marked : int or None
-        The particle whose column is shown: of those eroding then, the one half of the volume of which is ahead.
+        The particle whose column is shown: of those that erode then, the one in the middle of their distances.
     measures : dict
         Values of `MEASURES`.
     """
@@ -119,6 +120,12 @@ class Record:
             "depth": depth.reshape(self.shape).copy(), "peclet": here.reshape(self.shape).copy(),
         }  # fmt: skip
 
+    def marked_column(self, key):
+        """Return pressure over height [Pa] of the marked particle in a snapshot, and its liquefaction pressure [Pa]."""
+        now = self.snapshots[key]
+        at = np.searchsorted(now["particles"].particle.values, self.marked)
+        return now["columns"][at], float(now["particles"].liquefaction_pressure[at])
+
     def on_soil(self, particles):
         """Return whether the node nearest to each particle had soil."""
         column = np.rint((particles.x.values - self.corner[0]) / self.dx).astype(int)
@@ -136,7 +143,7 @@ class Record:
         if eroding.size == 0:
             return None
         far = self.distance(particles.x.values[eroding], particles.y.values[eroding])
-        return int(eroding[np.argsort(far)[eroding.size // 2]])
+        return int(particles.particle[eroding[np.argsort(far)[eroding.size // 2]]])
 
     # ---- measures ----
 
@@ -146,14 +153,17 @@ class Record:
         volume, far = end.volume.values, self.distance(end.x.values, end.y.values)
         front = quantile(far, volume, FRONT_SHARE)
         deposit = self.maps.debris_flow__deposit_depth.values
-        beyond = (self.soil == 0.0) & (deposit >= DEPOSIT)
+        bare = self.soil == 0.0
+        beyond = bare & (deposit >= DEPOSIT)
+        crossed = bare & (self.maps.debris_flow__max_depth.values > 0.0)
+        line = self.distance(self.node_x, self.node_y)[crossed].min(initial=np.inf)
         eroded = self.maps.debris_flow__eroded_depth.values
         passing, forty = (self.peclet(self.snapshots.get(key)) for key in (("since", 0.0), PECLET_TIME))
         return {
             "final": self.budget["moving"] + self.budget["deposited"], "eroded": self.budget["eroded"],
             "outflow": self.budget["outflow"], "residual": self.budget["residual"], "deepest": eroded.max(),
             "soil left": (self.soil - self.release - eroded)[eroded > 0.0].min(initial=np.inf),
-            "run-out": front, "farthest": far.max(), "centre": np.average(far, weights=volume),
+            "run-out": front, "beyond": front - line, "farthest": far.max(), "centre": np.average(far, weights=volume),
             "angle": self.travel_angle(end, front), "passing": np.nan if self.passing is None else self.passing,
             "mean deposit": deposit[beyond].mean() if beyond.any() else np.nan, "area": beyond.sum() * self.dx**2,
             "peclet": passing[0], "peclet 5": passing[1], "peclet 40": forty[0], "eroding 40": forty[2],
@@ -180,6 +190,14 @@ class Record:
             return np.nan, np.nan, 0.0
         number, volume = p.basal_peclet_number.values[eroding], p.volume.values[eroding]
         return quantile(number, volume, 0.5), quantile(number, volume, 0.05), volume.sum() / p.volume.values.sum()
+
+
+def first_difference(one, other):
+    """Return the time of the first look at which two runs differ in any bit of any position [s]; infinite if none."""
+    for time, *places in zip(one.times, one.x, other.x, one.y, other.y, strict=False):
+        if not (np.array_equal(*places[:2]) and np.array_equal(*places[2:])):
+            return time
+    return np.inf
 
 
 def quantile(values, weights, share):
