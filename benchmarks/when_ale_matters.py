@@ -20,7 +20,7 @@ from landlab_debrisflow.terrains import tsing_shan_valley
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
 import tsing_shan
 
-CONSOLIDATION = (1e-5, 1e-4, 4e-4, 1e-3, 1e-2, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0)  # [m2 s-1]
+CONSOLIDATION = (1e-5, 1e-3, 1e-2, 0.1, 0.4, 1.0, 4.0, 10.0)  # [m2 s-1]
 
 VALLEYS = {
     "as in the example": {},
