@@ -95,8 +95,8 @@ def main(particles=2000, output_dir=".", rasters=None, loading="overburden", dur
     print_table(console, records, f"{where}: {particles} particles, loading source {loading}")
     write_dataset(paths[0], collect(records))
     figures = (draw_flow(records, CONSOLIDATION[0]), draw_maps_of(records), draw_columns(records))
-    for figure, path in zip(figures, paths[1:], strict=True):
-        save_figure(figure, path, dpi=100)
+    for figure, path, dpi in zip(figures, paths[1:], (70, 90, 100), strict=True):
+        save_figure(figure, path, dpi)
     console.print("Wrote " + ", ".join(str(path) for path in paths), highlight=False, soft_wrap=True)
     return records
 

@@ -100,9 +100,9 @@ def draw_maps_of(records):
         under = under | (record.maps.debris_flow__max_depth.values > 0.0)
     x, y = some.node_x[under], some.node_y[under]
     extent = (x.min() - 30.0, x.max() + 30.0, y.min() - 30.0, y.max() + 30.0)
-    contours = np.arange(0.0, some.elevation.max(), 100.0)
-    figure = draw_maps(layers, relief, contours=contours, extent=extent)
-    figure.suptitle("Pastor et al. (2022), figures 15, 18 to 20 and 22; lines: elevation every 100 m")
+    lowest = round(some.elevation[some.soil > 0.0].min())
+    figure = draw_maps(layers, relief, contours=(lowest,), extent=extent)
+    figure.suptitle("Pastor et al. (2022), figures 15, 18 to 20 and 22; dashed: where erodible ground ends")
     return figure
 
 
@@ -135,7 +135,7 @@ def draw_columns(records):
             panel.plot([1.0, 0.0], [0.0, 1.0], color="0.6", lw=0.6)
             panel.set(xlim=(-1.05, 1.05), xlabel=r"$\Delta p / p_{liq}$ [-]")
         row[0].set_ylabel(f"$c_v$ = {c_v:g} m² s⁻¹\nheight over thickness [-]")
-    axes[0, 0].legend(fontsize="small", loc="lower left")
+    axes[0, 0].legend(fontsize="small", loc="upper left")
     figure.suptitle(
         "Column of one particle since the front left erodible ground: Pastor et al. (2022), figures 17 and 21\n"
         "dotted: the ratio of the bed; thin line: liquefied; $h$: thickness, ALE | classical"

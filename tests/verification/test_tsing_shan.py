@@ -11,7 +11,7 @@ from tests.test_examples import load
 
 PARTICLES = 200
 NOISE = 10.0
-"""Run-out by which runs with other particles and offsets differ [m]: twice the standard deviation the benchmark found."""
+"""Run-out by which runs with other particles and offsets differ [m]: twice the standard deviation in the benchmark."""
 
 DURATION = 45.0
 """By then fronts have stopped [s]; what creeps down the channel after them is no matter of run-out."""
