@@ -32,11 +32,16 @@ VALLEYS = {
 }
 """The second differs from the first in nothing but noise."""
 
-LOADING = {"overburden": "full", "none": "none"}
-"""Loading sources and how markers are filled."""
+LOADING = {"overburden": ("full", "-"), "none": ("none", "--"), "proportional": ("left", ":")}
+"""Loading sources, how markers are filled and what lines are like. The last is done for the first valley only."""
 
-RUNOUT_LENGTH = {"overburden": 1600.0, "none": 3500.0}
+WIDE = {"runout_length": 3500.0, "width": 1000.0}
+EXTENT = {"overburden": {"runout_length": 1600.0}, "none": WIDE, "proportional": WIDE}
 """Of the grid [m]."""
+
+LEVELS = {1e-5: 321, 1e-3: 161}
+"""Of the columns, where 41 are too few for the layer a classical column has at its base: with 1e-5 m2/s, 400 particles
+and loading the difference is 64, 161, 169, 172 m with 41, 161, 321, 641 levels (-82 m with 11). ALE: 1207 to 1203 m."""
 
 COLUMNS = "valley", "loading", "c_v", "Pe_b", "ALE", "classical", "difference", "relative", "outflow", "soil left"
 OUTPUT = Path(__file__).with_suffix(".txt"), Path(__file__).parents[1] / "docs" / "when_ale_matters.png"
@@ -44,9 +49,9 @@ OUTPUT = Path(__file__).with_suffix(".txt"), Path(__file__).parents[1] / "docs" 
 
 def compare(valley, c_v, loading, particles):
     """Return the basal Péclet number and run-outs beyond erodible ground with both models [m]."""
-    terrain = {"runout_length": RUNOUT_LENGTH[loading]} | VALLEYS[valley]
+    terrain, levels = EXTENT[loading] | VALLEYS[valley], LEVELS.get(c_v, tsing_shan.LEVELS)
     ale, classical = (
-        tsing_shan.run(tsing_shan_valley(**terrain), model, c_v, particles, loading).measures
+        tsing_shan.run(tsing_shan_valley(**terrain), model, c_v, particles, loading, levels=levels).measures
         for model in tsing_shan.COLUMNS
     )
     difference = ale["run-out"] - classical["run-out"]
@@ -67,8 +72,9 @@ def draw(found):
         dict.fromkeys(key[:2] for key in found), zip(axes, ("difference", "relative"), strict=True)
     ):
         points = sorted((f["Pe_b"], f[name]) for key, f in found.items() if key[:2] == (valley, loading))
-        style = {"color": colours[valley], "marker": "o", "ms": 5, "lw": 0.8, "fillstyle": LOADING[loading]}
-        panel.plot(*zip(*points, strict=True), ls="-" if loading == "overburden" else "--", **style)
+        style = {"color": colours[valley], "marker": "o", "ms": 5, "lw": 0.8}
+        fill, line = LOADING[loading]
+        panel.plot(*zip(*points, strict=True), ls=line, fillstyle=fill, **style)
     for panel, words in zip(
         axes, ("run-out, ALE less classical [m]", "the same over the run-out with ALE [-]"), strict=True
     ):
@@ -78,11 +84,10 @@ def draw(found):
         panel.set(xscale="log", xlabel=where, ylabel=words)
     handles = [Line2D([], [], color=colour, marker="o", label=valley) for valley, colour in colours.items()]
     handles += [
-        Line2D([], [], color="0.3", marker="o", fillstyle=fill, ls="-" if loading == "overburden" else "--",
-               label=f"loading source {loading}")
-        for loading, fill in LOADING.items()
-    ]  # fmt: skip
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, frameon=False)
+        Line2D([], [], color="0.3", marker="o", fillstyle=fill, ls=line, label=f"loading source {loading}")
+        for loading, (fill, line) in LOADING.items()
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False)
     figure.suptitle("When ALE matters: run-out of the front beyond erodible ground")
     return figure
 
@@ -104,7 +109,8 @@ def main(particles=500, output=OUTPUT):
         f"{COLUMNS[0]:<22}{COLUMNS[1]:<12}{COLUMNS[2]:>8}" + "".join(f"{name:>10}" for name in COLUMNS[3:])
     )
     for valley in VALLEYS:
-        for loading, c_v in itertools.product(LOADING, CONSOLIDATION):
+        done = [loading for loading in LOADING if loading != "proportional" or not VALLEYS[valley]]
+        for loading, c_v in itertools.product(done, CONSOLIDATION):
             found[valley, loading, c_v] = compare(valley, c_v, loading, particles)
         lines = [head, *(row(key, values) for key, values in found.items())]
         write_atomically(output[0], lambda path, lines=lines: path.write_text("\n".join(lines) + "\n"))
