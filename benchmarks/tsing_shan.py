@@ -65,19 +65,19 @@ def marked(record):
 
 
 def tables(found):
-    """Yield one table for each c_v and loading of what was found so far, and one of the noise."""
+    """Yield one table of differences and noise of what was found so far, and one for each c_v and loading."""
+    yield noise(found)
     for c_v, loading in dict.fromkeys(key[:2] for key in found):
         pairs = {key[2:]: pair for key, pair in found.items() if key[:2] == (c_v, loading)}
-        table = Table(title=f"c_v = {c_v:g} m2/s, loading source {loading}: ALE / classical", title_justify="left")
+        table = Table(title=f"c_v = {c_v:g} m2/s, loading source {loading}: ALE and classical", title_justify="left")
         table.add_column("", no_wrap=True)
         for particles, offset in pairs:
             table.add_column(f"{particles}\n{offset[0]:g} {offset[1]:g}", justify="right", no_wrap=True)
         for key, (words, form) in (MEASURES | marked_words(pairs)).items():
-            table.add_row(words, *(f"{form.format(p['ALE'][key])}\n{form.format(p['classical'][key])}"
-                                   for p in pairs.values()))  # fmt: skip
+            cells = (" ".join(form.format(pair[model][key]) for model in tsing_shan.COLUMNS) for pair in pairs.values())
+            table.add_row(words, *cells)
         table.add_row("first difference in any bit at [s]", *(f"{pair['apart']:.1f}" for pair in pairs.values()))
         yield table
-    yield noise(found)
 
 
 def marked_words(pairs):
@@ -111,6 +111,15 @@ def noise(found):
     return table
 
 
+def write(found, output):
+    """Write all tables, the comparison of the models with the noise first, then every run."""
+    console = Console(file=io.StringIO(), width=260)
+    for table in tables(found):
+        console.print(table, highlight=False, markup=False)
+    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
+    write_atomically(output, lambda path: path.write_text("\n".join(lines) + "\n"))
+
+
 def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
     """Run everything, the smallest first, and write the tables after every pair.
 
@@ -132,11 +141,7 @@ def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
         found[key] = compare(c_v, loading, count, offset)
         if keep:
             keep.write_bytes(pickle.dumps(found))
-        console = Console(file=io.StringIO(), width=220)
-        for table in tables(found):
-            console.print(table, highlight=False, markup=False)
-        lines = console.file.getvalue().splitlines()
-        write_atomically(output, lambda path, lines=lines: path.write_text("".join(f"{x.rstrip()}\n" for x in lines)))
+        write(found, output)
 
 
 if __name__ == "__main__":
