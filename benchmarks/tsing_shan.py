@@ -36,15 +36,19 @@ CONSOLIDATION = (*tsing_shan.CONSOLIDATION, 4.0)
 """Those of the paper, and one with which our flow, which is ten times as fast as the paper takes its own to be, has the
 basal Péclet number of the paper's second [m2 s-1]."""
 
+LEVELS = (11, 41, 161, 321)
+"""Of the columns, where their effect is looked at: c_v of the case, fewest particles, no offset."""
+
 SHOWN = (0.0, 4.0, 8.0, 128.0)
 """Times since the front left erodible ground, of the marked particle [s]."""
 OUTPUT = Path(__file__).with_suffix(".txt")
 
 
-def compare(c_v, loading, particles, offset):
+def compare(c_v, loading, particles, offset, levels=tsing_shan.LEVELS):
     """Run both models and return their measures, and what belongs to the pair."""
+    terrain = {"offset": offset} | tsing_shan.VALLEY
     ale, classical = (
-        tsing_shan.run(tsing_shan_valley(offset=offset, **tsing_shan.VALLEY), model, c_v, particles, loading)
+        tsing_shan.run(tsing_shan_valley(**terrain), model, c_v, particles, loading, levels=levels)
         for model in tsing_shan.COLUMNS
     )
     return {
@@ -65,8 +69,22 @@ def marked(record):
 
 
 def tables(found):
-    """Yield one table of differences and noise of what was found so far, and one for each c_v and loading."""
+    """Yield one table of differences and noise of what was found so far, one of levels, one for each c_v and loading.
+
+    Keys of `found` are (c_v, loading, particles, offset), or (loading, levels).
+    """
+    resolved = {key: pair for key, pair in found.items() if len(key) == 2}
+    found = {key: pair for key, pair in found.items() if len(key) == 4}
     yield noise(found)
+    if resolved:
+        words = f"run-out [m] against levels, c_v = {tsing_shan.CONSOLIDATION[0]:g}, {min(PARTICLES)} particles"
+        table = Table(title=words, title_justify="left")
+        for heading in ("loading source", "levels", *tsing_shan.COLUMNS, "difference"):
+            table.add_column(heading, justify="right")
+        for (loading, levels), pair in resolved.items():
+            ale, classical = (pair[model]["run-out"] for model in tsing_shan.COLUMNS)
+            table.add_row(loading, str(levels), f"{ale:.1f}", f"{classical:.1f}", f"{ale - classical:.1f}")
+        yield table
     for c_v, loading in dict.fromkeys(key[:2] for key in found):
         pairs = {key[2:]: pair for key, pair in found.items() if key[:2] == (c_v, loading)}
         table = Table(title=f"c_v = {c_v:g} m2/s, loading source {loading}: ALE and classical", title_justify="left")
@@ -135,10 +153,20 @@ def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
         File of results, which is read first and added to: so that a long series can be done in parts.
     """
     found = pickle.loads(keep.read_bytes()) if keep and keep.exists() else {}
-    for count, offset, loading, c_v in itertools.product(sorted(particles), OFFSETS[:offsets], LOADING, CONSOLIDATION):
-        if (key := (c_v, loading, count, offset)) in found:
+    cases = {
+        (c_v, loading, count, offset): (c_v, loading, count, offset)
+        for count, offset, loading, c_v in itertools.product(
+            sorted(particles), OFFSETS[:offsets], LOADING, CONSOLIDATION
+        )
+    }
+    cases |= {
+        (loading, levels): (CONSOLIDATION[0], loading, min(PARTICLES), OFFSETS[0], levels)
+        for loading, levels in itertools.product(LOADING, LEVELS)
+    }
+    for key, case in cases.items():
+        if key in found:
             continue
-        found[key] = compare(c_v, loading, count, offset)
+        found[key] = compare(*case)
         if keep:
             keep.write_bytes(pickle.dumps(found))
         write(found, output)
