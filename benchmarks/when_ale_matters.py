@@ -64,14 +64,15 @@ def compare(valley, c_v, loading, particles):
 
 
 def draw(found):
-    """Return the chart: difference in metres, and over the run-out beyond erodible ground with ALE."""
+    """Return the chart: difference in metres, and over the run-out with ALE; without runs that left the grid."""
     figure = Figure(figsize=(11.0, 5.2), layout="constrained")
     axes = figure.subplots(1, 2, sharex=True)
     colours = dict(zip(VALLEYS, ("k", "0.6", "tab:cyan", "tab:blue", "tab:green", "tab:orange"), strict=True))
     for (valley, loading), (panel, name) in itertools.product(
         dict.fromkeys(key[:2] for key in found), zip(axes, ("difference", "relative"), strict=True)
     ):
-        points = sorted((f["Pe_b"], f[name]) for key, f in found.items() if key[:2] == (valley, loading))
+        inside = [f for key, f in found.items() if key[:2] == (valley, loading) and f["outflow"] == 0.0]
+        points = sorted((f["Pe_b"], f[name]) for f in inside)
         style = {"color": colours[valley], "marker": "o", "ms": 5, "lw": 0.8}
         fill, line = LOADING[loading]
         panel.plot(*zip(*points, strict=True), ls=line, fillstyle=fill, **style)
