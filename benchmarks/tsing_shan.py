@@ -77,11 +77,11 @@ def tables(found):
     found = {key: pair for key, pair in found.items() if len(key) == 4}
     yield noise(found)
     if resolved:
-        words = f"run-out [m] against levels, c_v = {tsing_shan.CONSOLIDATION[0]:g}, {min(PARTICLES)} particles"
+        words = f"run-out in m against levels, c_v = {tsing_shan.CONSOLIDATION[0]:g}, {min(PARTICLES)} particles"
         table = Table(title=words, title_justify="left")
         for heading in ("loading source", "levels", *tsing_shan.COLUMNS, "difference"):
             table.add_column(heading, justify="right")
-        for (loading, levels), pair in resolved.items():
+        for (loading, levels), pair in sorted(resolved.items()):
             ale, classical = (pair[model]["run-out"] for model in tsing_shan.COLUMNS)
             table.add_row(loading, str(levels), f"{ale:.1f}", f"{classical:.1f}", f"{ale - classical:.1f}")
         yield table
