@@ -35,6 +35,7 @@ def tsing_shan_valley(
     roughness=0.0,
     seed=0,
     spacing=5.0,
+    offset=(0.0, 0.0),
 ):
     """Build a valley with the numbers of the Tsing Shan debris flow of 1990, whose own terrain is not public.
 
@@ -70,6 +71,10 @@ def tsing_shan_valley(
         Seed of the roughness.
     spacing : float
         Distance of nodes [m].
+    offset : tuple of float
+        How far everything, terrain and release, lies east and north of where it would be, in parts of the
+        spacing, from -0.5 to 0.5. It is the same valley seen by other nodes and other particles: what runs
+        differ in with the offset is the noise of the discretisation.
 
     Returns
     -------
@@ -100,14 +105,16 @@ def tsing_shan_valley(
     for name, value in (("channel_depth", channel_depth), ("erodible_depth", erodible_depth), ("roughness", roughness)):
         _check(name, value, value >= 0.0, ">= 0 m")
     _check("slopes", slopes, len(slopes) == 3 and all(0.0 <= a < 60.0 for a in slopes), "three angles in [0, 60) deg")
+    _check("offset", offset, len(offset) == 2 and all(abs(o) <= 0.5 for o in offset), "two numbers in [-0.5, 0.5]")
 
     along, height, path = _thalweg(erodible_length, slopes, transition_length, runout_length)
     head = np.interp(-erodible_length, path, along)  # plan position of the parent landslide; 100 m is at 0
     west = spacing * np.floor((head - HEAD_ROOM) / spacing)
-    rows = 2 * round(0.5 * width / spacing) + 1  # odd: the thalweg runs through the middle row
+    rows = 2 * round(0.5 * width / spacing) + 1  # odd: the thalweg runs through the middle row, if there is no offset
     columns = int((runout_length - west) / spacing) + 1
     grid = RasterModelGrid((rows, columns), xy_spacing=spacing)
-    x, y = grid.x_of_node + west, grid.y_of_node - 0.5 * (rows - 1) * spacing
+    x = grid.x_of_node + west - offset[0] * spacing
+    y = grid.y_of_node - (0.5 * (rows - 1) + offset[1]) * spacing
 
     fading = 1.0 - _blend(np.interp(x, along, path) / transition_length)
     banks = channel_depth * (1.0 - np.exp(-((2.0 * y / channel_width) ** 2)))

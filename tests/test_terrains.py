@@ -1,5 +1,7 @@
 """The stand-in for Tsing Shan has the numbers it claims."""
 
+import re
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
@@ -56,6 +58,15 @@ def test_roughness_is_correlated_reproducible_and_as_strong_as_asked():
     assert np.corrcoef(noise[:, 1:].ravel(), noise[:, :-1].ravel())[0, 1] > 0.9
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_an_offset_moves_all_of_the_valley_between_the_nodes(axis):
+    half = np.eye(2)[1 - axis] * 0.5  # eastward along axis 1
+    further, back = (tuple(fields(tsing_shan_valley(offset=o))) for o in (half, -half))
+    for one, other in zip(further, back, strict=True):
+        one, other = np.moveaxis(one, axis, 0), np.moveaxis(other, axis, 0)
+        assert_allclose(one[1:], other[:-1], rtol=1e-9, atol=1e-9)  # half a node either way: a whole one apart
+
+
 def test_event_stays_on_the_grid_and_never_reaches_the_bottom_of_the_soil():
     grid = tsing_shan_valley()
     flow = DebrisFlow(grid, numerics={"particle_count": 200})
@@ -73,9 +84,10 @@ def test_event_stays_on_the_grid_and_never_reaches_the_bottom_of_the_soil():
         ({"erodible_depth": 1.0}, "erodible_depth must be at least the thickness of the release"),
         ({"roughness": -1.0}, "roughness must be >= 0 m"),
         ({"slopes": (40.0, 95.0, 2.0)}, "slopes must be three angles"),
+        ({"offset": (0.6, 0.0)}, "offset must be two numbers in [-0.5, 0.5], got (0.6, 0.0)"),
         ({"width": float("nan")}, "width must be > 0 m, got nan"),
     ],
 )
 def test_refusals(wrong, words):
-    with pytest.raises(InputError, match=words.replace("(", r"\(")):
+    with pytest.raises(InputError, match=re.escape(words)):
         tsing_shan_valley(**wrong)

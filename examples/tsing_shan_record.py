@@ -1,0 +1,207 @@
+"""What is kept of a run of `tsing_shan.py`, and what is measured on it."""
+
+import numpy as np
+
+LOOK = 0.5
+"""Time between two looks at the particles [s]; times since the front left erodible ground are known to that."""
+
+TIMES = (0.0, 32.0, 66.0, 100.0, 160.0, 250.0, 400.0)
+"""Of the figures of Pastor et al. (2022), where 32 and 33 s, and 100 and 150 s, name the same plots; 17 has 160 [s]."""
+
+SINCE = (0.0, 4.0, 8.0, 16.0, 32.0, 128.0)
+"""Times since the front left erodible ground [s]; from 0 to 128 it is as long as from 32 to 160 in figure 17."""
+
+PECLET_TIME = 40.0
+"""Of the map of Péclet numbers, figure 18 [s]."""
+
+FRONT_SHARE = 0.99
+"""The front is as far as this part of the volume went at most: a stray particle is no front."""
+
+DEPOSIT = 0.1
+"""Least depth that counts as deposit [m]."""
+
+MEASURES = {
+    "final": ("final volume [m3]", "{:.0f}"),
+    "eroded": ("eroded [m3]", "{:.0f}"),
+    "outflow": ("outflow over the edges [m3]", "{:.0f}"),
+    "residual": ("residual of the balance [m3]", "{:.1e}"),
+    "deepest": ("deepest erosion [m]", "{:.2f}"),
+    "soil left": ("least soil left where there was any [m]", "{:.2f}"),
+    "run-out": ("run-out of the front from the release [m]", "{:.1f}"),
+    "beyond": ("  of it beyond erodible ground, to a node [m]", "{:.0f}"),
+    "farthest": ("run-out of the farthest particle [m]", "{:.1f}"),
+    "centre": ("run-out of the centre of mass [m]", "{:.1f}"),
+    "angle": ("travel angle, crown to front [deg]", "{:.1f}"),
+    "mean deposit": ("mean deposit beyond erodible ground [m]", "{:.3f}"),
+    "area": ("area of that deposit [m2]", "{:.0f}"),
+    "passing": ("the front leaves erodible ground at [s]", "{:.1f}"),
+    "peclet": ("Pe_b of what erodes then, median by volume", "{:.3g}"),
+    "peclet 5": ("  exceeded by 95 % of it", "{:.3g}"),
+    "peclet 40": ("Pe_b of what erodes at 40 s, median", "{:.3g}"),
+    "eroding 40": ("  share of the volume that erodes at 40 s", "{:.3f}"),
+    "still": ("at rest since [s]", "{:.1f}"),
+}
+"""Words and format of each measure. Distances are in plan, from the centre of the release; the front is where
+99 % of the volume lies behind; deposit counts nodes with at least 0.1 m."""
+
+
+class Record:
+    """A run: what lay there before, where particles were, and their columns at some times.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        Before the run.
+
+    Attributes
+    ----------
+    times, x, y
+        Of every look [s, m]; arrays of shape (looks,) and (looks, particles).
+    snapshots : dict
+        For every time of `TIMES` and `PECLET_TIME` and every (``"since"``, time) of `SINCE`, what `snapshot` returns.
+    passing : float or None
+        Time of the look that first saw a particle beyond erodible ground [s].
+    marked : int or None
+        The particle whose column is shown: of those that erode then, the one in the middle of their distances.
+    measures : dict
+        Values of `MEASURES`.
+    """
+
+    def __init__(self, grid):
+        self.shape, self.dx = grid.shape, grid.dx
+        self.corner = np.array(grid.xy_of_lower_left)
+        names = ("topographic__elevation", "soil__depth", "debris_flow__release_depth")
+        self.elevation, self.soil, self.release = (grid.at_node[name].reshape(grid.shape).copy() for name in names)
+        self.node_x, self.node_y = grid.x_of_node.reshape(grid.shape), grid.y_of_node.reshape(grid.shape)
+        self.centre = np.array([np.average(axis, weights=self.release) for axis in (self.node_x, self.node_y)])
+        self.times, self.x, self.y, self.snapshots = [], [], [], {}
+        self.passing = self.marked = None
+
+    def follow(self, flow, duration):
+        """Run `flow` to the end, looking on."""
+        flow.run_one_step(1e-6)  # takes the release
+        self.look(flow, 0.0)
+        self.snapshots[0.0] = self.snapshot(flow)
+        self.still = np.nan
+        ticks = np.arange(1, int(duration / LOOK) + 1) * LOOK
+        for time in ticks:
+            wanted = [t for t in (*TIMES, PECLET_TIME) if t == time]
+            since = [s for s in SINCE if self.passing is not None and self.passing + s == time]
+            if flow.at_rest and not wanted and not since and time < duration:
+                continue  # what lies only consolidates
+            flow.run_one_step(time - flow.elapsed_time)
+            if flow.at_rest and np.isnan(self.still):
+                self.still = time
+            self.look(flow, time)
+            if self.passing is None and not self.on_soil(flow.particles).all():
+                self.passing, since = time, [0.0]
+            if wanted or since:
+                now = self.snapshot(flow)
+                self.snapshots |= dict.fromkeys(wanted, now) | {("since", s): now for s in since}
+                if self.marked is None and self.passing is not None:
+                    self.marked = self.mark(now["particles"])
+        self.maps, self.end = flow.maps, self.snapshot(flow)
+        self.budget = flow.budget
+        self.measures = self.measure()
+
+    def look(self, flow, time):
+        """Keep where particles are."""
+        now = flow.particles
+        self.times.append(time)
+        self.x.append(now.x.values)
+        self.y.append(now.y.values)
+
+    def snapshot(self, flow):
+        """Return particles, pressures of the columns and the depth of all that lies and moves."""
+        depth, here = flow.grid.at_node["debris_flow__depth"], flow.grid.at_node["debris_flow__basal_peclet_number"]
+        return {
+            "time": round(flow.elapsed_time, 3), "particles": flow.particles,
+            "columns": flow.columns["excess_pore_pressure"].values.astype(np.float32),
+            "depth": depth.reshape(self.shape).copy(), "peclet": here.reshape(self.shape).copy(),
+        }  # fmt: skip
+
+    def marked_column(self, key):
+        """Return pressure over height [Pa] of the marked particle in a snapshot, and its liquefaction pressure [Pa]."""
+        now = self.snapshots[key]
+        at = np.searchsorted(now["particles"].particle.values, self.marked)
+        return now["columns"][at], float(now["particles"].liquefaction_pressure[at])
+
+    def on_soil(self, particles):
+        """Return whether the node nearest to each particle had soil."""
+        column = np.rint((particles.x.values - self.corner[0]) / self.dx).astype(int)
+        row = np.rint((particles.y.values - self.corner[1]) / self.dx).astype(int)
+        row, column = np.clip(row, 0, self.shape[0] - 1), np.clip(column, 0, self.shape[1] - 1)
+        return self.soil[row, column] > 0.0
+
+    def distance(self, x, y):
+        """Return the plan distance from the centre of the release [m]."""
+        return np.hypot(x - self.centre[0], y - self.centre[1])
+
+    def mark(self, particles):
+        """Return the particle in the middle of what erodes, by distance."""
+        eroding = np.flatnonzero(particles.entrainment_rate.values > 0.0)
+        if eroding.size == 0:
+            return None
+        far = self.distance(particles.x.values[eroding], particles.y.values[eroding])
+        return int(particles.particle[eroding[np.argsort(far)[eroding.size // 2]]])
+
+    # ---- measures ----
+
+    def measure(self):
+        """Return `MEASURES` of the end of the run."""
+        end = self.end["particles"]
+        volume, far = end.volume.values, self.distance(end.x.values, end.y.values)
+        front = quantile(far, volume, FRONT_SHARE)
+        deposit = self.maps.debris_flow__deposit_depth.values
+        bare = self.soil == 0.0
+        beyond = bare & (deposit >= DEPOSIT)
+        crossed = bare & (self.maps.debris_flow__max_depth.values > 0.0)
+        line = self.distance(self.node_x, self.node_y)[crossed].min(initial=np.inf)
+        eroded = self.maps.debris_flow__eroded_depth.values
+        passing, forty = (self.peclet(self.snapshots.get(key)) for key in (("since", 0.0), PECLET_TIME))
+        return {
+            "final": self.budget["moving"] + self.budget["deposited"], "eroded": self.budget["eroded"],
+            "outflow": self.budget["outflow"], "residual": self.budget["residual"], "deepest": eroded.max(),
+            "soil left": (self.soil - self.release - eroded)[eroded > 0.0].min(initial=np.inf),
+            "run-out": front, "beyond": front - line, "farthest": far.max(), "centre": np.average(far, weights=volume),
+            "angle": self.travel_angle(end, front), "passing": np.nan if self.passing is None else self.passing,
+            "mean deposit": deposit[beyond].mean() if beyond.any() else np.nan, "area": beyond.sum() * self.dx**2,
+            "peclet": passing[0], "peclet 5": passing[1], "peclet 40": forty[0], "eroding 40": forty[2],
+            "still": self.still,
+        }  # fmt: skip
+
+    def travel_angle(self, end, front):
+        """Return the angle of the line from the crown, the highest node released, to the front [deg]."""
+        crown = np.argmax(np.where(self.release > 0.0, self.elevation, -np.inf))
+        far = self.distance(end.x.values, end.y.values)
+        at = np.argmin(abs(far - front))
+        fall = self.elevation.ravel()[crown] - end.z.values[at]
+        along = np.hypot(self.node_x.ravel()[crown] - end.x.values[at], self.node_y.ravel()[crown] - end.y.values[at])
+        return np.degrees(np.arctan2(fall, along))
+
+    @staticmethod
+    def peclet(snapshot):
+        """Return median and 5 % quantile, by volume, of the basal Péclet number of what erodes, and its share."""
+        if snapshot is None:
+            return np.nan, np.nan, np.nan
+        p = snapshot["particles"]
+        eroding = p.entrainment_rate.values > 0.0
+        if not eroding.any():
+            return np.nan, np.nan, 0.0
+        number, volume = p.basal_peclet_number.values[eroding], p.volume.values[eroding]
+        return quantile(number, volume, 0.5), quantile(number, volume, 0.05), volume.sum() / p.volume.values.sum()
+
+
+def first_difference(one, other):
+    """Return the time of the first look at which two runs differ in any bit of any position [s]; infinite if none."""
+    for time, *places in zip(one.times, one.x, other.x, one.y, other.y, strict=False):
+        if not (np.array_equal(*places[:2]) and np.array_equal(*places[2:])):
+            return time
+    return np.inf
+
+
+def quantile(values, weights, share):
+    """Return the value below which this share of the weights lies."""
+    order = np.argsort(values)
+    part = np.cumsum(weights[order])
+    return float(values[order][min(np.searchsorted(part, share * part[-1]), values.size - 1)])
