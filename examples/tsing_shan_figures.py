@@ -58,9 +58,9 @@ def draw_flow(records, c_v):
                 when = f"{key[1]:g} s after the front left erodible ground ({when})"
             panel.set_title(f"{model}, {when}", fontsize="small", loc="left", pad=2.0)
             panel.set(xlim=(west, east), ylim=(south, north), aspect="equal")
-    figure.colorbar(dots, ax=axes, label="depth [m]; red: end of erodible ground; grey: elevation every 50 m",
-                    location="bottom", shrink=0.5, aspect=50, extend="max")  # fmt: skip
-    figure.suptitle(f"Particles, $c_v$ = {c_v:g} m² s⁻¹: Pastor et al. (2022), figures 14 and 16; axes in m")
+    bar = figure.colorbar(dots, ax=axes, location="top", shrink=0.5, aspect=50, extend="max")
+    bar.set_label("depth [m]; red: end of erodible ground; grey: elevation every 50 m; axes in m")
+    figure.suptitle(f"Particles, $c_v$ = {c_v:g} m² s⁻¹: Pastor et al. (2022), figures 14 and 16")
     return figure
 
 
