@@ -73,11 +73,15 @@ def draw_ground(panel, record):
         panel.contour(x, y, record.soil > 0.0, [0.5], colors="tab:red", linewidths=0.8)
 
 
+ISOLINES = (0.1, 0.5, 1.0, 1.5, 2.0, 3.0)
+"""Of depth, on the deposit [m]."""
+
+
 def draw_maps_of(records):
     """Return figures 15, 18 to 20 and 22: erosion, deposit, pressure at the base and Péclet number."""
     some = next(iter(records.values()))
     relief = xr.DataArray(some.elevation, {"y": some.node_y[:, 0], "x": some.node_x[0]}, ("y", "x"))
-    layers = []
+    layers, isolines = [], {}
     for c_v in dict.fromkeys(value for _, value in records):
         pair = {model: record for (model, value), record in records.items() if value == c_v}
         shown = {
@@ -86,6 +90,7 @@ def draw_maps_of(records):
         }
         for words, (values, label) in shown.items():
             layers.append(Layer(titled(values, words, c_v), label, "viridis_r"))
+        isolines |= titled(shown["deposit"][0], "deposit", c_v)
         pressure = {m: 1e-3 * r.maps.debris_flow__basal_excess_pore_pressure for m, r in pair.items()}
         largest = max(float(abs(values).max()) for values in pressure.values())
         if largest > 0.01:  # else all of it has gone
@@ -102,7 +107,14 @@ def draw_maps_of(records):
     extent = (x.min() - 30.0, x.max() + 30.0, y.min() - 30.0, y.max() + 30.0)
     lowest = round(some.elevation[some.soil > 0.0].min())
     figure = draw_maps(layers, relief, contours=(lowest,), extent=extent)
-    figure.suptitle("Pastor et al. (2022), figures 15, 18 to 20 and 22; dashed: where erodible ground ends")
+    for panel in figure.axes:
+        depth = isolines.get(panel.get_title())
+        if depth is not None and depth.max() > ISOLINES[0]:
+            panel.contour(depth.x, depth.y, depth, ISOLINES, colors="black", linewidths=0.4)
+    figure.suptitle(
+        "Pastor et al. (2022), figures 15, 18 to 20 and 22; dashed: where erodible ground ends; lines on the deposit: "
+        f"{', '.join(f'{z:g}' for z in ISOLINES)} m"
+    )
     return figure
 
 
