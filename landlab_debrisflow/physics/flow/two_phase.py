@@ -71,7 +71,7 @@ class TwoPhase:
         )
         n, mixture = sums.thickness.size, state.mixture
         computed = cells.computed[:n]
-        across = Across(np.empty(n), mixture.cross_term, np.empty(n), np.zeros((3, n)))
+        across = Across(np.zeros(n), mixture.cross_term, np.zeros(n), np.zeros((3, n)))
         for targets, sources in (parts, parts[::-1]):
             sum_over_neighbours(targets, moving, shock_viscosity, sums, threads)
             sum_across(targets, sources, crossing, across, threads)
