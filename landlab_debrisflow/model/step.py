@@ -37,6 +37,10 @@ NO_SOURCE = np.zeros(1)
 """Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
 
+NOT_ASKED = np.zeros(1)
+"""What friction laws get for the depth eroded [m]: to look it up takes time."""
+
+
 def advance(sim, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     friction_and_kick(sim, 0.5 * dt)
@@ -113,11 +117,12 @@ def _take_up(
         entrainment_rate[i] = rate
         dilution[i] = 1.0
         if granted[i] > 0.0:
-            whole, soil, was = before / share[i], granted[i], density[i]
+            soil = granted[i]
             granted[i] = own_part * soil
             volume[i] = before + granted[i]
             dilution[i] = before / volume[i]
             if porosity[i] != soil_porosity:
+                whole, was = before / share[i], density[i]
                 porosity[i] = (porosity[i] * whole + soil_porosity * soil) / (whole + soil)
                 density[i] = (1.0 - porosity[i]) * solid_density + porosity[i] * bearing_density
                 if own_part == 1.0:
@@ -276,8 +281,9 @@ def base(sim, which: slice, kind: str, pressure=None) -> BasalState:
         thickness, density, material.bearing_density, pressure, speed, normal_gravity, stress,
     )  # fmt: skip
     parameters = sim.parameters[kind]
+    eroded_depth = sim.bed.eroded_in_event(sim.node[which]) if kind == "erosion" else NOT_ASKED
     here = (values if values.size == 1 else values[sim.node[which]] for values in parameters)
     return BasalState(
         depth, thickness, speed, normal_gravity, stress, p.liquefaction_pressure[which], pressure, density,
-        sim.bed.eroded_in_event(sim.node[which]), material.gravity, material.basal_slip_ratio, type(parameters)(*here),
+        eroded_depth, material.gravity, material.basal_slip_ratio, type(parameters)(*here),
     )  # fmt: skip

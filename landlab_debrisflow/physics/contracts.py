@@ -21,7 +21,7 @@ class BasalState(NamedTuple):
     liquefaction_pressure: Array  # (n,) rho' g thickness cos(theta), static gravity [Pa]
     excess_pore_pressure: Array  # (n,) at the base [Pa]
     density: Array  # (n,) mixture [kg m-3]
-    eroded_depth: Array  # (n,) vertical, taken from the bed in this event [m]
+    eroded_depth: Array  # (n,) vertical, taken from the bed in this event, for erosion laws; else (1,) [m]
     gravity: float  # [m s-2]
     slip_ratio: float  # velocity at the base over the mean [-]
     parameters: Any  # NamedTuple of those of the law's parameters that may vary in space, here: (n,) or (1,), SI
