@@ -27,7 +27,7 @@ DRY = 1e-10  # cells thinner than this share of the greatest depth at the start 
 
 
 @_compiled
-def _limited(below, above):
+def limited(below, above):
     """Monotonised central slope of two differences: 0 at an extremum, never beyond a neighbour."""
     if below * above <= 0.0:
         return 0.0
@@ -72,12 +72,12 @@ def _line(line, slopes, out, n, dx, g, pull, mu, dry):
     """
     h, u, v, level = line[0], line[1], line[2], line[4]
     for i in range(1, n + 3):
-        slopes[0, i] = _limited(h[i] - h[i - 1], h[i + 1] - h[i])
-        slopes[3, i] = _limited(level[i] - level[i - 1], level[i + 1] - level[i])
+        slopes[0, i] = limited(h[i] - h[i - 1], h[i + 1] - h[i])
+        slopes[3, i] = limited(level[i] - level[i - 1], level[i + 1] - level[i])
         slopes[1, i] = slopes[2, i] = 0.0
         if min(h[i - 1], h[i], h[i + 1]) > dry:  # a dry cell has no velocity to compare with
-            slopes[1, i] = _limited(u[i] - u[i - 1], u[i + 1] - u[i])
-            slopes[2, i] = _limited(v[i] - v[i - 1], v[i + 1] - v[i])
+            slopes[1, i] = limited(u[i] - u[i - 1], u[i + 1] - u[i])
+            slopes[2, i] = limited(v[i] - v[i - 1], v[i + 1] - v[i])
         # z at the edges is h + z less h; its difference pushes on the mean depth of the edges, h[i]
         out[4, i] = g * h[i] * (slopes[0, i] - slopes[3, i])
     fastest = 0.0

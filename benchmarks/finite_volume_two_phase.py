@@ -34,18 +34,10 @@ import numba
 import numpy as np
 
 from benchmarks.exact import GRAVITY
+from benchmarks.finite_volume import limited
 
 _compiled = numba.njit(cache=True, error_model="numpy")
 DRY = 1e-10  # a phase thinner than this share of the greatest depth at the start has no velocity
-
-
-@_compiled
-def _limited(below, above):
-    """Monotonised central slope of two differences: 0 at an extremum, never beyond a neighbour."""
-    if below * above <= 0.0:
-        return 0.0
-    size = min(2.0 * abs(below), 2.0 * abs(above), 0.5 * abs(below + above))
-    return math.copysign(size, below)
 
 
 @_compiled
@@ -102,7 +94,7 @@ def _rates(state, rate, dx, g, pull, ratio, dry, line, slopes, faces, edge):
     for i in range(1, n + 3):
         for m in range(4):
             compared = m < 2 or min(line[m - 2, i - 1], line[m - 2, i], line[m - 2, i + 1]) > dry
-            slopes[m, i] = _limited(line[m, i] - line[m, i - 1], line[m, i + 1] - line[m, i]) if compared else 0.0
+            slopes[m, i] = limited(line[m, i] - line[m, i - 1], line[m, i + 1] - line[m, i]) if compared else 0.0
     fastest = 0.0
     for i in range(1, n + 2):
         for m in range(4):

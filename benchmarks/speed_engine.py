@@ -18,7 +18,7 @@ from landlab_debrisflow.demo import MATERIAL
 from landlab_debrisflow.model import footprint, release, simulation, sleep, step
 from landlab_debrisflow.physics.flow import one_phase
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.summation import Moving, Sums, _copy_neighbourhood, _pack, sum_over_neighbours
+from landlab_debrisflow.spatial.summation import Moving, Sums, _pack, copy_neighbourhood, sum_over_neighbours
 from landlab_debrisflow.terrain import bed
 from landlab_debrisflow.terrains import tsing_shan_valley
 
@@ -121,7 +121,7 @@ def pairs(cells, moving):
     n = moving.x.size
     places, packed = np.empty((3, n + 16), np.int32), np.empty((10, n + 16), np.float32)
     quantum = cells.size / 2.0**23
-    _pack(cells.order, *moving[:6], *moving[7:], quantum, places, packed)
+    _pack(cells.order, *moving[:6], *moving[7:11], quantum, places, packed)
     most = np.empty((3, n + 32), np.int32), np.empty((10, n + 32), np.float32)
     found = _count(cells.columns, cells.start, cells.reach, cells.box, cells.window, places, packed, *most)
     return found[0] / n, found[1] / n
@@ -133,7 +133,7 @@ def _count(columns, start, reach, box, window, places, packed, where, what):
     for cell in range(start.size - 1):
         if start[cell] == start[cell + 1]:
             continue
-        m = _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
+        m = copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
         computed += m * (start[cell + 1] - start[cell])
         for k in range(start[cell], start[cell + 1]):
             for j in range(m):

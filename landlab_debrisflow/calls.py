@@ -88,7 +88,8 @@ class Calls:
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
         sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
-        shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in NOW + PEAKS + PHASES * (sim.mixture is not None)}
+        names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
+        shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in names}
         self._footprint = Footprint(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)
         soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
         self.ledger.watch_soil(bed.nodes.core, soil)
@@ -96,7 +97,7 @@ class Calls:
         if failing.size:
             sim.release(failing, depth)
         self._cover()
-        self._footprint.record(sim.particles, sim.own_density, sim.time)
+        self._record()
 
     def _cover(self):
         """Keep the rows of the grid that the next step may change."""
@@ -113,7 +114,7 @@ class Calls:
             looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
             self._cover()
             sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
-            self._footprint.record(sim.particles, sim.own_density, sim.time)
+            self._record()
             for observer, look in zip(watching, looks, strict=True):
                 if sim.time >= look or sim.idle:
                     self._show()
@@ -122,7 +123,12 @@ class Calls:
     def _follow(self):
         sim = self._simulation
         self._cover()
-        self._footprint.follow(sim.particles, sim.own_density, sim.time, sim.survey.fastest)
+        if self._footprint.is_due(sim.time, sim.survey.fastest):
+            self._record()
+
+    def _record(self):
+        sim = self._simulation
+        self._footprint.record(sim.particles, sim.matter.density(sim.particles), sim.time)
 
     def _settle(self):
         elevation, bed = self._ground.elevation, self._simulation.bed

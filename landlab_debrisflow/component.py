@@ -176,7 +176,8 @@ class DebrisFlow(Component):
     @property
     def columns(self):
         """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
-        sim, c_v = self._simulation, self._physics.material.coefficient_of_consolidation
+        sim = self._simulation
+        c_v = sim.matter.coefficient_of_consolidation(sim.particles, slice(None))
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self.elapsed_time)
 
     @property

@@ -25,7 +25,7 @@ def check_duration(value, name: str = "dt") -> float:
 def add_fields(component) -> None:
     """Add what a component writes, and its release, to its grid where they are missing."""
     grid = component.grid
-    if hasattr(component._physics.flow, "drag_coefficient"):
+    if component._physics.two_phases:
         for field in NODE_FIELDS:
             if field.intent == "out" and field.optional and field.name not in grid.at_node:
                 grid.add_zeros(field.name, at="node", units=field.unit)
@@ -110,7 +110,7 @@ def check_parameters(grid, laws) -> None:
 def check_phases(physics) -> None:
     """Refuse materials in which the two phases of a flow law cannot be told apart."""
     material = physics.material
-    if not hasattr(physics.flow, "drag_coefficient"):
+    if not physics.two_phases:
         return
     for name, allowed in (("water_density", "> 0"), ("porosity", "> 0"), ("water_table_ratio", "1")):
         value = getattr(material, name)

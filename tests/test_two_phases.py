@@ -69,6 +69,22 @@ def test_each_phase_is_in_balance_when_it_has_settled(valley):
         assert terms["deposited"] > terms["released"] and terms["moving"] == 0.0
 
 
+def test_columns_consolidate_as_the_drag_says(slope):
+    """K k_w = 2.5e5 Pa * 1e-3 m/s / (1000 kg/m3 * 9.81 m/s2) = 0.0255 m2/s, whatever the material says."""
+    conductivity, c_v = 1e-3, 2.5e5 * 1e-3 / 9810.0
+    flow = DebrisFlow(slope, flow={"law": "two_phase", "hydraulic_conductivity": conductivity}, numerics=FEW)
+    flow.run_one_step(4.0)
+    p, columns = flow.particles, flow.columns
+    grains = (p.phase == 0).values
+    # n^2 over n^2: rounding
+    np.testing.assert_allclose(columns.consolidation_time[grains], p.thickness[grains] ** 2 / c_v, rtol=1e-13)
+    eroding = grains & (p.entrainment_rate > 0.0).values
+    # both of the step before: thickness has changed by some per cent since
+    expected = (p.entrainment_rate * p.thickness**2 / p.depth / c_v)[eroding]
+    np.testing.assert_allclose(p.basal_peclet_number[eroding], expected, rtol=0.1)
+    assert eroding.sum() > 50
+
+
 def test_one_phase_has_a_budget_by_phase_too(valley):
     flow = DebrisFlow(valley, material={"bed_porosity": 0.5}, numerics=FEW)
     flow.run_one_step(4.0)

@@ -2,17 +2,9 @@
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import kernel
 from ..physics.contracts import WATER
-
-
-@inner
-def _along(i, push, ground, cosine, gravity):
-    """Return the acceleration by gravity and thrust along the bed [m s-2]."""
-    c = cosine[i]
-    nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
-    across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
-    return push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
+from .motion import along_bed
 
 
 @kernel
@@ -31,7 +23,7 @@ def kick_both(
     moves, received = np.empty((n, 6)), np.zeros((n, 3))  # velocity and acceleration without friction; what drag gives
     for i in range(n):
         moves[i, 0], moves[i, 1], moves[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]
-        moves[i, 3], moves[i, 4], moves[i, 5] = _along(i, push, ground, cosine, gravity)
+        moves[i, 3], moves[i, 4], moves[i, 5] = along_bed(i, push, ground, cosine, gravity)
     for k in range(of.size):
         i = of[k]
         u, v, w, ax, ay, az, taken = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0  # of the water around
@@ -141,17 +133,20 @@ def pull(push, ground, cosine, gravity):
     """Return the size of the acceleration along the bed, shape (n,) [m s-2]."""
     pull = np.empty(cosine.size)
     for i in range(cosine.size):
-        ax, ay, az = _along(i, push, ground, cosine, gravity)
+        ax, ay, az = along_bed(i, push, ground, cosine, gravity)
         pull[i] = np.sqrt(ax * ax + ay * ay + az * az)
     return pull
 
 
 @kernel
-def share_soil(of, count, index, weight, granted, share, volume, velocity, exponent):
-    """Share what water there is in the soil among the partners, in place; v goes like V^-`exponent`."""
+def share_soil(of, count, index, weight, granted, water, volume, velocity, exponent):
+    """Share the water of the soil among the partners, in place; v goes like V^-`exponent`.
+
+    `granted` is what grains took of their own [m3], `water` how much there is of it over that in the soil [-].
+    """
     taken = np.zeros(volume.size)
     for k in range(of.size):
-        soil = share * granted[of[k]]
+        soil = water * granted[of[k]]
         if soil > 0.0:
             soil /= np.sum(weight[k, : count[k]])
             for s in range(count[k]):

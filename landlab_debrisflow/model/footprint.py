@@ -67,12 +67,11 @@ class Footprint:
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
         self._passed, self._then = 0.0, time  # way of the fastest since the last look [m]; when it was last counted [s]
 
-    def follow(self, particles: Particles, density, time: float, fastest: float) -> None:
-        """Record where something, at most at speed `fastest` [m s-1], may have got on since the last look."""
+    def is_due(self, time: float, fastest: float) -> bool:
+        """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last look."""
         self._passed += fastest * (time - self._then)
         self._then = time
-        if self._passed > LOOK * min(self._nodes.dx, self._nodes.dy):
-            self.record(particles, density, time)
+        return self._passed > LOOK * min(self._nodes.dx, self._nodes.dy)
 
     def record(self, particles: Particles, density, time: float) -> None:
         """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""

@@ -201,10 +201,10 @@ class Inflow:
         fall = np.einsum("in,in->n", towards, sim.ground[1:3, held])
         sim.particles.velocity[:, held] = velocity / np.sqrt(1.0 + fall**2) * np.array([*towards, fall])
 
-    def hold_thickness(self, p, phases) -> None:
-        """Give the particles in the strips the thickness they entered with; `phases` are those of the simulation."""
+    def hold_thickness(self, p, parts) -> None:
+        """Give the particles in the strips the thickness they entered with; `parts` are those of the matter."""
         held = self.held(p)
-        part = np.array([part for _, part in phases])[p.phase[held]]
+        part = np.array([part for _, part in parts])[p.phase[held]]
         p.share[held] = part
         thickness = part * self._thickness[p.inflow_row[held]]
         p.own_thickness[held], p.gradient_term[held] = thickness, 1.0
@@ -249,7 +249,7 @@ class Inflow:
         )  # fmt: skip
         least = THICKNESS_RANGE * source.hydrograph.largest_thickness
         length = _smoothing_length(volume, thickness, least)
-        for phase, part in sim.phases:
+        for phase, part in sim.matter.parts:
             borne = load if phase == MIXTURE else np.zeros(count)
             new = p.append(
                 count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * volume,
@@ -264,7 +264,7 @@ class Inflow:
     def _start_columns(self, sim, new, load):
         p, material, nothing = sim.particles, sim.physics.material, np.zeros(load.size)
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
-        c_v = np.array([material.coefficient_of_consolidation])
+        c_v = sim.matter.coefficient_of_consolidation(p, new)
         forcing = ColumnForcing(
             p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),
             np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,

@@ -47,7 +47,7 @@ class Ledger:
         whole, material = self.budget(simulation), simulation.physics.material
         parts = {name: (1.0 - material.porosity) * whole[name] for name in ("released", "inflow")}
         parts["eroded"] = (1.0 - material.soil_porosity) * whole["eroded"]
-        parts["moving"] = float(simulation.solid_volume.sum())
+        parts["moving"] = float(simulation.matter.solid_volume(simulation.particles).sum())
         parts["deposited"], parts["outflow"] = simulation.settled_solid, simulation.outflow.solid
         phases = {"solid": parts, "water": {name: whole[name] - part for name, part in parts.items()}}
         for terms in phases.values():

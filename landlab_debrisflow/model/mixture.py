@@ -2,15 +2,16 @@
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
 is dragged along. All is exchanged between grains and their partners among the water (`spatial.across.find_partners`),
-with weights that sum to 1, so what one gives the other gets, to the last digit.
+with weights that sum to 1, so what one gives the other gets, to the last digit. `Single` is the same for one phase.
 """
 
 import numpy as np
 
 from ..core.jit import kernel
-from ..physics.contracts import WATER
+from ..physics.contracts import MIXTURE, WATER
 from ..spatial.across import find_partners
 from .coupling import kick_both, make_whole, pull, share_soil
+from .timestep import NOT_STIFF
 
 STEPS_BETWEEN_LOOKS = 16
 """Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
@@ -36,12 +37,34 @@ class Mixture:
         With a flow law of two phases.
     """
 
+    sleeps = False
+    """It would save 1 to 2 %, and partners would have to follow."""
+
     def __init__(self, physics):
         self.law, self.material, self.column = physics.flow, physics.material, physics.column
-        self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
+        porosity = self.material.porosity
+        self.parts = ((MIXTURE, 1.0 - porosity), (WATER, porosity))
+        self.own_part = 1.0 - self.material.soil_porosity
         self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
         self.drainage = None  # [s-1]
+        self.forget()
+
+    def forget(self) -> None:
+        """Find everything anew: the particles are others."""
+        self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
         self._steps = 0
+
+    def density(self, p):
+        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+        return np.where(p.phase == WATER, self.material.water_density, self.material.solid_density)
+
+    def solid_volume(self, p):
+        """Return the volume of the grains in each particle, shape (n,) [m3]."""
+        return p.volume * (p.phase != WATER)
+
+    def coefficient_of_consolidation(self, p, which: slice):
+        """Return that of the columns of some particles [m2 s-1]: the drag between phases is that within a column."""
+        return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
 
     def found(self, p, cells) -> None:
         """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
@@ -79,26 +102,27 @@ class Mixture:
             material.gravity, rest_speed, dt,
         )  # fmt: skip
 
-    def held(self, sim, yield_stress, drag):
-        """Return which grains friction would hold at rest, and which water drag, shape (n,)."""
+    def held(self, sim, which: slice, yield_stress, drag):
+        """Return which grains friction would hold at rest, and which water drag; `which` are all."""
         p, velocity = sim.particles, np.zeros((3, sim.particles.count))
         self.kick(sim, velocity, yield_stress, drag, 0.0, 1.0)
-        pulled = pull(p.thrust, sim.ground, sim.cosine, self.material.gravity)
-        seeping = pulled * self.material.water_density * p.porosity * p.thickness
+        seeping = pull(p.thrust, sim.ground, sim.cosine, self.material.gravity)
+        seeping *= self.material.water_density * p.porosity * p.thickness
         return np.where(p.phase == WATER, seeping <= sim.rest_speed * self.coupling, ~np.any(velocity, axis=0))
 
-    def takes_soil(self, p):
-        """Return which particles the bed may give soil to: grains with water around to take its part."""
-        takes = np.zeros(p.count, bool)
+    def refuse_soil(self, rate) -> None:
+        """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""
+        takes = np.zeros(rate.size, bool)
         takes[self.partners.of[self.partners.count > 0]] = True
-        return takes
+        rate[~takes] = 0.0
 
-    def take_up(self, sim, granted) -> None:
-        """Give water its part of the soil that the grains took, of volume `granted`, shape (n,) [m3]."""
-        p, material = sim.particles, self.material
-        if granted.any():
-            exponent = 1.0 - material.basal_slip_ratio
-            share_soil(*self.partners, granted, material.soil_porosity, p.volume, p.velocity, exponent)
+    def take_up(self, sim) -> None:
+        """Give water its part of the soil of which the grains took theirs; from here on the flow changes porosity."""
+        p, slip_ratio = sim.particles, self.material.basal_slip_ratio
+        if sim.granted.any():
+            water = 1.0 / self.own_part - 1.0  # over the grains in the soil
+            share_soil(*self.partners, sim.granted, water, p.volume, p.velocity, 1.0 - slip_ratio)
+        p.porosity_before[:] = p.porosity
 
     def force(self, sim, forced, dt: float):
         """Return the forcing of the columns with what two phases make of it.
@@ -107,15 +131,15 @@ class Mixture:
         relative motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
         """
         p = sim.particles
+        if dt == 0.0:
+            return forced
         gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
         gain[sim.inflow.held(p)] = 0.0
         gain[p.phase == WATER] = 0.0
-        c_v = self.law.coefficient_of_consolidation(p.porosity, self.material)
-        source = gain / dt if dt > 0.0 else np.zeros(1)
-        return forced._replace(porosity_source=source, coefficient_of_consolidation=c_v)
+        return forced._replace(porosity_source=gain / dt)
 
-    def follow_mean(self, sim, source, dt: float) -> None:
-        """Follow the depth mean of the pore pressure through a step with a source [Pa s-1]: thrust depends on it."""
+    def follow(self, sim, forced, dt: float) -> None:
+        """Follow the depth mean of the pore pressure through a step with a source: thrust depends on it."""
         p = sim.particles
         if self._steps % STEPS_BETWEEN_LOOKS == 0:
             profile = sim.columns_now()
@@ -125,8 +149,8 @@ class Mixture:
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.column.stores_pressure else 0.0
         _follow(
-            p.phase, gained, source, weight, p.thickness, sim.cosine, p.liquefaction_pressure, self.drainage,
-            p.mean_excess_pore_pressure,
+            p.phase, gained, forced.porosity_source, weight, p.thickness, sim.cosine, p.liquefaction_pressure,
+            self.drainage, p.mean_excess_pore_pressure,
         )  # fmt: skip
         self._steps += 1
 
@@ -137,7 +161,7 @@ class Mixture:
         of a velocity in a step of `dt` seconds, and drainage what is reached of a pressure.
         """
         if not self.column.stores_pressure or sim.particles.count == 0:
-            return np.zeros(1)
+            return NOT_STIFF
         p, material = sim.particles, self.material
         n = p.porosity
         lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
@@ -156,7 +180,9 @@ def _mix(phase, share, solid_density, water_density, porosity, density):
     for i in range(phase.size):
         share[i] = min(max(share[i], LEAST), 1.0 - LEAST)
         porosity[i] = share[i] if phase[i] == WATER else 1.0 - share[i]
-        density[i] = solid_density + porosity[i] * (water_density - solid_density)
+        # water presses on no grains: with its own density there is nothing that could be liquefied
+        mixed = solid_density + porosity[i] * (water_density - solid_density)
+        density[i] = water_density if phase[i] == WATER else mixed
 
 
 @kernel

@@ -16,6 +16,15 @@ neighbours need not be done again: their error is of this order."""
 CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are open boundaries
 
 
+@inner
+def along_bed(i, push, ground, cosine, gravity):
+    """Return the acceleration by gravity and thrust along the bed [m s-2]."""
+    c = cosine[i]
+    nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+    across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
+    return push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
+
+
 @kernel
 def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest_speed, dt):
     """Accelerate along the bed for `dt` seconds, friction included, in place.
@@ -37,10 +46,7 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
         A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1].
     """
     for i in range(mass.size):
-        c = cosine[i]
-        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
-        across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
-        ax, ay, az = push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
+        ax, ay, az = along_bed(i, push, ground, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
         if speed == 0.0:

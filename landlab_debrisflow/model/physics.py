@@ -45,6 +45,11 @@ class Physics:
     column: ColumnLaw
     material: Material
 
+    @property
+    def two_phases(self) -> bool:
+        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
+        return hasattr(self.flow, "drag_coefficient")
+
 
 def build_physics(flow=None, friction=None, erosion=None, column=None, material=None) -> Physics:
     """Build the bundle; each argument is a law, a name, a mapping of plain values, or None for the default.

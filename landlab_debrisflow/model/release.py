@@ -34,7 +34,7 @@ def release_particles(sim, nodes, depth) -> slice:
     each = volume / count
     normal = here / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
     least, first = THICKNESS_RANGE * normal.max(), sim.particles.awake
-    for phase, part in sim.phases:
+    for phase, part in sim.matter.parts:
         sim.particles.append(
             count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * each, released_volume=part * each,
             depth=here, thickness=normal, own_thickness=part * normal, least_thickness=part * least,

@@ -7,7 +7,6 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.start import initial_profile
-from ..physics.contracts import MIXTURE, WATER
 from ..terrain.bed import Bed
 from . import loading, sleep, step
 from .inflow import Inflow
@@ -18,6 +17,7 @@ from .outflow import Outflow
 from .particles import Particles
 from .physics import Physics
 from .release import release_particles
+from .single import Single
 from .timestep import Pace
 
 log = logging.getLogger("landlab_debrisflow")
@@ -42,7 +42,7 @@ class Simulation:
     def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
         self.particles = Particles(physics.column.levels)
-        self.mixture = Mixture(physics) if hasattr(physics.flow, "drag_coefficient") else None
+        self.matter = Mixture(physics) if physics.two_phases else Single(physics)
         self.time = 0.0
         self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
         self._peak_energy, self._arrested = 0.0, False
@@ -117,16 +117,8 @@ class Simulation:
         for _ in range(sweeps):
             step.interact(self)
         step.check(self)
-        p.porosity_before[:] = p.porosity
+        self.matter.take_up(self)  # nothing; and what the porosity is now, it is not by the flow
         self._changed = False
-
-    @property
-    def phases(self):
-        """What of a volume goes into which particles: phase and part."""
-        if self.mixture is None:
-            return ((MIXTURE, 1.0),)
-        porosity = self.physics.material.porosity
-        return ((MIXTURE, 1.0 - porosity), (WATER, porosity))
 
     @property
     def idle(self) -> bool:
@@ -165,7 +157,7 @@ class Simulation:
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
             self._steps += 1
-            if self.mixture is None and self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
+            if self.matter.sleeps and self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
                 sleep.fall_asleep(self)
             self._look_for_rest()
             if after_step is not None:
@@ -225,20 +217,6 @@ class Simulation:
             p.entrainment_rate[:] = 0.0
             self._arrested = True
 
-    @property
-    def own_density(self):
-        """Density of what each particle is of, shape (n,) [kg m-3]."""
-        p, material = self.particles, self.physics.material
-        if self.mixture is None:
-            return p.density
-        return np.where(p.phase == WATER, material.water_density, material.solid_density)
-
-    @property
-    def solid_volume(self):
-        """Volume of the grains in each particle, shape (n,) [m3]."""
-        p = self.particles
-        return p.volume * (1.0 - p.porosity if self.mixture is None else p.phase != WATER)
-
     def warn_of_walls(self) -> None:
         """Log how much ran against closed or NODATA nodes since the last warning."""
         p = self.particles
@@ -281,7 +259,7 @@ class Simulation:
             Depth laid on each [m].
         """
         p = self.particles
-        self.settled_solid += float(self.solid_volume.sum())
+        self.settled_solid += float(self.matter.solid_volume(p).sum())
         laid = self.bed.lay_down(p.x, p.y, p.spread, p.volume)
         p.keep(np.zeros(p.count, bool))
         self._arrested = False
@@ -296,4 +274,5 @@ class Simulation:
         """Go back to a snapshot."""
         self.particles, self.outflow, self._pace, self.inflow.rows_entered, kept = snapshot
         vars(self).update(kept)
+        self.matter.forget()
         self._changed = True

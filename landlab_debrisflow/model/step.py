@@ -12,7 +12,6 @@ from ..core.jit import kernel
 from ..physics.contracts import (
     BASE_BY_EROSION,
     BASE_PRESCRIBED,
-    WATER,
     BasalState,
     ColumnForcing,
     ColumnState,
@@ -22,8 +21,8 @@ from ..physics.contracts import (
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import loading, sleep
-from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, kick, stop_at_walls
-from .timestep import NOT_STIFF, survey, viscous_share
+from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, stop_at_walls
+from .timestep import survey, viscous_share
 from .walls import mirror
 
 STEPS_TO_SLEEP = 4
@@ -60,15 +59,11 @@ def advance(sim, dt: float) -> None:
 
 def friction_and_kick(sim, dt: float) -> None:
     """Gravity along the bed, thrust and basal resistance, taken implicitly."""
-    p, material, nodes = sim.particles, sim.physics.material, sim.bed.nodes
+    p, nodes = sim.particles, sim.bed.nodes
     m = p.awake
     yield_stress, drag = np.empty(m), np.empty(m)
     sim.physics.friction.basal_resistance(base(sim, slice(m), "friction"), yield_stress, drag)
-    if sim.mixture is None:
-        mass, g = p.density[:m] * p.thickness[:m], material.gravity
-        kick(p.velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, g, sim.rest_speed, dt)
-    else:
-        sim.mixture.kick(sim, p.velocity, yield_stress, drag, sim.rest_speed, dt)
+    sim.matter.kick(sim, p.velocity, yield_stress, drag, sim.rest_speed, dt)
     if sim.walled:
         stop_at_walls(
             m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
@@ -82,22 +77,18 @@ def entrain(sim, dt: float):
     rate, wanted, dilution = np.zeros(m), np.empty(m), np.empty(m)
     sim.physics.erosion.entrainment_rate(base(sim, slice(m), "erosion"), rate)
     rate[sim.inflow.held(p)] = 0.0
-    if sim.mixture is not None:
-        rate[~sim.mixture.takes_soil(p)] = 0.0
+    sim.matter.refuse_soil(rate)
     np.divide(rate * p.volume[:m], p.depth[:m] * p.share[:m], out=wanted)
     wanted *= dt
     sim.granted, sim.granted_ratio = sim.bed.erode(p.x[:m], p.y[:m], p.spread[:m], wanted)
-    own_part = 1.0
-    if sim.mixture is not None:
-        sim.mixture.take_up(sim, sim.granted)
-        own_part -= material.soil_porosity
     _take_up(
-        sim.granted, own_part, dt, sim.time, material.coefficient_of_consolidation, material.basal_slip_ratio,
+        sim.granted, sim.matter.own_part, dt, sim.time, sim.matter.coefficient_of_consolidation(p, slice(m)),
+        material.basal_slip_ratio,
         material.soil_porosity, material.solid_density, material.bearing_density, p.depth, p.thickness, p.share,
         sim.cosine, p.volume, p.porosity, p.density, p.entrainment_rate, p.first_erosion_time, p.basal_peclet_number,
         dilution,
     )  # fmt: skip
-    p.porosity_before[:] = p.porosity
+    sim.matter.take_up(sim)
     return dilution
 
 
@@ -130,7 +121,8 @@ def _take_up(
             if slip_ratio > 0.0:
                 dilution[i] **= 1.0 - slip_ratio
             # as `column.peclet.basal_peclet_number`, without its arrays: this is done in every step
-            basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient_of_consolidation
+            coefficient = coefficient_of_consolidation[min(i, coefficient_of_consolidation.size - 1)]
+            basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient
             if np.isnan(first_erosion_time[i]):
                 first_erosion_time[i] = time
 
@@ -150,7 +142,7 @@ def move(sim, dt: float, dilution) -> None:
         raise SimulationError("velocity", int(p.identity[place]), sim.time, float(p.velocity[:, place].sum()))
     gone = np.flatnonzero(left >= 0)
     if gone.size:
-        sim.outflow.count(left[gone], p.volume[gone], sim.solid_volume[gone])
+        sim.outflow.count(left[gone], p.volume[gone], sim.matter.solid_volume(p)[gone])
         support = 2.0 * p.smoothing_length
         disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
         stay = np.ones(p.count, bool)
@@ -196,28 +188,21 @@ def interact(sim) -> None:
     sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
-    sim.inflow.hold_thickness(p, sim.phases)
-    if sim.mixture is None:
-        p.thickness[:] = p.own_thickness
-    else:
-        sim.mixture.found(p, parts)
+    sim.inflow.hold_thickness(p, sim.matter.parts)
+    sim.matter.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
-    p.liquefaction_pressure[p.phase == WATER] = 0.0
 
 
 def consolidate(sim, dt: float) -> None:
     """Advance the pore-pressure columns with what the flow did to them."""
     p = sim.particles
     awake = slice(p.awake)
-    forced = forcing(sim, awake, sim.granted, sim.granted_ratio)
-    if sim.mixture is not None:
-        forced = sim.mixture.force(sim, forced, dt)
+    forced = sim.matter.force(sim, forcing(sim, awake, sim.granted, sim.granted_ratio), dt)
     sim.physics.column.advance(columns(p, awake), forced, dt, p.basal_excess_pore_pressure[awake])
-    if sim.mixture is not None:
-        sim.mixture.follow_mean(sim, forced.porosity_source, dt)
+    sim.matter.follow(sim, forced, dt)
 
 
 def check(sim, dt: float = 0.0) -> None:
@@ -226,7 +211,7 @@ def check(sim, dt: float = 0.0) -> None:
     sim.survey = survey(
         p, sim.computed, sim.cosine, sim.physics.material.gravity,
         sim.numerics.courant_number * viscous_share(sim.numerics.shock_viscosity), min(nodes.dx, nodes.dy),
-        NOT_STIFF if sim.mixture is None else sim.mixture.celerity_squared(sim, dt),
+        sim.matter.celerity_squared(sim, dt),
     )  # fmt: skip
     if (place := sim.survey.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
@@ -251,23 +236,16 @@ def forcing(sim, which: slice, granted, granted_ratio) -> ColumnForcing:
         bases = np.where(drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
     return ColumnForcing(
         p.volume[which], p.thickness[which], load, granted, bed_pressure, bases,
-        NO_SOURCE, np.array([material.coefficient_of_consolidation]),
+        NO_SOURCE, sim.matter.coefficient_of_consolidation(p, which),
         material.bearing_density / material.buoyant_density, True,
     )  # fmt: skip
 
 
 def held(sim, which: slice, pressure):
     """Return which particles friction would hold at rest under some basal excess pore pressure, shape (n,) [Pa]."""
-    p, physics = sim.particles, sim.physics
-    n = pressure.size
-    yield_stress, drag, velocity = np.empty(n), np.empty(n), np.zeros((3, n))
-    physics.friction.basal_resistance(base(sim, which, "friction", pressure), yield_stress, drag)
-    if sim.mixture is not None:
-        return sim.mixture.held(sim, yield_stress, drag)
-    thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
-    mass = p.density[which] * p.thickness[which]
-    kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, physics.material.gravity, 0.0, 1.0)
-    return ~np.any(velocity, axis=0)
+    yield_stress, drag = np.empty((2, pressure.size))
+    sim.physics.friction.basal_resistance(base(sim, which, "friction", pressure), yield_stress, drag)
+    return sim.matter.held(sim, which, yield_stress, drag)
 
 
 def base(sim, which: slice, kind: str, pressure=None) -> BasalState:

@@ -26,8 +26,8 @@ def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
     return xr.Dataset(data, {"particle": particles.identity[order]}, {"elapsed_time [s]": time})
 
 
-def columns_dataset(profile, particles, coefficient_of_consolidation: float, time: float) -> xr.Dataset:
-    """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa]."""
+def columns_dataset(profile, particles, coefficient_of_consolidation, time: float) -> xr.Dataset:
+    """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
     p, grown = particles, particles.volume / particles.released_volume

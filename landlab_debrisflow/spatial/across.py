@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
 from .cells import Cells, over_cells
-from .summation import _LANES, _NORM, _PLACES_PER_CELL, _SLOPE, _copy_neighbourhood
+from .summation import LANES, NORM, PLACES_PER_CELL, SLOPE, copy_neighbourhood
 
 MOST_PARTNERS = 32
 """Room for the partners of a particle; there are some 6, and the rest counts for those beyond."""
@@ -65,32 +65,32 @@ def cells_of(cells: Cells, belongs) -> Cells:
     return cells._replace(order=cells.order[here], start=before[cells.start])
 
 
-def sum_across(targets: Cells, sources: Cells, crossing: Crossing, out: Across, threads: int = 1) -> None:
-    """Sum over the other phase.
+def sum_across(one: Cells, other: Cells, crossing: Crossing, out: Across, threads: int = 1) -> None:
+    """Sum each of two phases over the other.
 
     Parameters
     ----------
-    targets, sources : Cells
-        Those summed for and over, made by `cells_of` of the same cells.
+    one, other : Cells
+        Of the phases, made by `cells_of` of the same cells.
     crossing : Crossing
     out : Across
-        Written, the force added to, for targets that are less than its size, where cells are awake.
+        Written, the force added to, for particles below its size, where cells are awake.
     threads : int
 
     Notes
     -----
     f_i = - sum_j V_j [s_i grad W(l_i) + s_j grad W(l_j)]: V_i f_i and V_j f_j are equal and opposite.
     """
-    quantum = targets.size / _PLACES_PER_CELL
-    count = targets.order.size
-    to = np.empty((3, count), np.int32), np.empty((5, count), np.float32)
-    of = np.empty((3, sources.order.size + _LANES), np.int32), np.empty((5, sources.order.size + _LANES), np.float32)
-    for cells, packed in ((targets, to), (sources, of)):
-        _pack(cells.order, *crossing, quantum, *packed)
-    over_cells(
-        _sum, targets, threads, targets.columns, targets.order, targets.start, sources.start, targets.reach,
-        targets.box, targets.window, targets.awake, *to, *of, quantum, *out,
-    )  # fmt: skip
+    quantum, packed = one.size / PLACES_PER_CELL, []
+    for cells in (one, other):
+        room = cells.order.size + LANES
+        packed.append((np.empty((3, room), np.int32), np.empty((5, room), np.float32)))
+        _pack(cells.order, *crossing, quantum, *packed[-1])
+    for targets, sources, to, of in ((one, other, *packed), (other, one, *packed[::-1])):
+        over_cells(
+            _sum, targets, threads, targets.columns, targets.order, targets.start, sources.start, targets.reach,
+            targets.box, targets.window, targets.awake, *to, *of, quantum, *out,
+        )  # fmt: skip
 
 
 @kernel
@@ -104,7 +104,7 @@ def _pack(order, x, y, z, volume, length, strength, carried, quantum, places, pa
         places[_Z, k] = np.int32(np.int64((z[i] - z0) * per_metre))
         l2 = length[i] * length[i]
         packed[_INVERSE, k] = 0.5 * quantum / length[i]
-        packed[_REACH, k] = volume[i] * (5.0 * _NORM) / (l2 * l2)
+        packed[_REACH, k] = volume[i] * (5.0 * NORM) / (l2 * l2)
         packed[_STRENGTH, k], packed[_VOLUME, k], packed[_CARRIED, k] = strength[i], volume[i], carried[i]
 
 
@@ -113,12 +113,12 @@ def _sum(
     first, last, columns, order, start, source_start, reach, box, window, awake, places, packed, source_places,
     source_packed, quantum, thickness, cross_term, mean, force,
 ):  # fmt: skip
-    room = source_places.shape[1] + _LANES
+    room = source_places.shape[1] + LANES
     where, what = np.empty((3, room), np.int32), np.empty((5, room), np.float32)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
             continue
-        m = _copy_neighbourhood(
+        m = copy_neighbourhood(
             cell, columns, source_start, reach, box, window, source_places, source_packed, where, what
         )
         for k in range(start[cell], start[cell + 1]):
@@ -150,8 +150,8 @@ def _sum(
             force[1, i] += ay * quantum
             force[2, i] += az * quantum
             # own = 5 norm / l^4
-            thickness[i] = total * np.sqrt(own * (_NORM / 5.0))
-            cross_term[i] = (10.0 * change - total) * _SLOPE / packed[_VOLUME, k]
+            thickness[i] = total * np.sqrt(own * (NORM / 5.0))
+            cross_term[i] = (10.0 * change - total) * SLOPE / packed[_VOLUME, k]
             mean[i] = carried / total if total > _ZERO else _ZERO
 
 

@@ -34,10 +34,10 @@ plain Wendland sum it comes out 0.67 % too deep on square and hexagonal lattices
 LEAST_GRADIENT_TERM = 0.4
 """Floor of the grad-h term: it vanishes for a particle without neighbours, whose thickness is undefined."""
 
-_NORM = 7.0 / (4.0 * np.pi)
-_SLOPE = _NORM / SMOOTHING_RATIO**2
-_PLACES_PER_CELL = 2.0**23  # +-2^31 of them are 256 cells: far beyond any window
-_LANES = 16  # floats in the widest vector register
+NORM = 7.0 / (4.0 * np.pi)
+SLOPE = NORM / SMOOTHING_RATIO**2
+PLACES_PER_CELL = 2.0**23  # +-2^31 of them are 256 cells: far beyond any window
+LANES = 16  # floats in the widest vector register
 _X, _Y, _Z = 0, 1, 2  # rows of what is packed as whole numbers
 _U, _V, _W, _INVERSE, _REACH, _STRENGTH, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)  # and as floats
 
@@ -100,8 +100,8 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
     length was set: one pass per time step is enough. The strength has Omega of the pass before.
     """
     n = moving.x.size
-    places, packed = np.empty((3, n + _LANES), np.int32), np.empty((10, n + _LANES), np.float32)
-    quantum = cells.size / _PLACES_PER_CELL
+    places, packed = np.empty((3, n + LANES), np.int32), np.empty((10, n + LANES), np.float32)
+    quantum = cells.size / PLACES_PER_CELL
     _pack(cells.order, *moving[:6], *moving[7:11], quantum, places, packed)
     over_cells(
         _sum, cells, threads, cells.columns, cells.order, cells.start, cells.reach, cells.box, cells.window,
@@ -129,7 +129,7 @@ def plain_thickness(volume, smoothing_length, sums: Sums):
     """
     per_area = volume / smoothing_length**2
     before = SMOOTHING_RATIO**2 * per_area  # Newton: thickness = before - (before - S)/Omega
-    return before - (before - sums.thickness) * sums.gradient_term + (1.0 - SELF_WEIGHT) * _NORM * per_area
+    return before - (before - sums.thickness) * sums.gradient_term + (1.0 - SELF_WEIGHT) * NORM * per_area
 
 
 @kernel
@@ -146,7 +146,7 @@ def _pack(
         packed[_U, k], packed[_V, k], packed[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
         l2 = length[i] * length[i]
         packed[_INVERSE, k] = 0.5 * quantum / length[i]
-        packed[_REACH, k] = volume[i] * (5.0 * _NORM) / (l2 * l2)
+        packed[_REACH, k] = volume[i] * (5.0 * NORM) / (l2 * l2)
         packed[_STRENGTH, k], packed[_CELERITY, k] = strength[i], celerity[i]
         thinness = 1.0 / thickness[i]
         packed[_THINNESS, k], packed[_VOLUME, k] = thinness, volume[i]
@@ -154,7 +154,7 @@ def _pack(
 
 
 @inner
-def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what):
+def copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what):
     """Copy the particles that may act on a cell into the scratch; return their number, rounded up to whole vectors."""
     rows = (start.size - 1) // columns
     row, column, w, m = cell // columns, cell % columns, window[cell], 0
@@ -171,7 +171,7 @@ def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed
         if low >= 0:  # a row of cells is one stretch of sorted particles; whole vectors of it, the rest is overwritten
             first, here = _U64(start[low]), _U64(m)
             count = start[high + 1] - start[low]
-            whole = _U64(count + _LANES - 1) // _U64(_LANES) * _U64(_LANES)
+            whole = _U64(count + LANES - 1) // _U64(LANES) * _U64(LANES)
             for v in range(where.shape[0]):
                 for k in range(whole):
                     where[v, here + k] = places[v, first + k]
@@ -179,11 +179,11 @@ def _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed
                 for k in range(whole):
                     what[v, here + k] = packed[v, first + k]
             m += count
-    for k in range(m, m + _LANES):  # fill up with what weighs nothing
+    for k in range(m, m + LANES):  # fill up with what weighs nothing
         where[_X, k], where[_Y, k], where[_Z, k] = 0, 0, 0
         for v in range(what.shape[0]):
             what[v, k] = _ZERO
-    return (m + _LANES - 1) // _LANES * _LANES
+    return (m + LANES - 1) // LANES * LANES
 
 
 @approximate_kernel
@@ -191,12 +191,12 @@ def _sum(
     first, last, columns, order, start, reach, box, window, awake, places, packed, quantum, viscosity,
     volumes, lengths, longest, inertia, thickness, gradient_term, next_length, acceleration, thickening,
 ):  # fmt: skip
-    where, what = np.empty((3, order.size + 2 * _LANES), np.int32), np.empty((10, order.size + 2 * _LANES), np.float32)
+    where, what = np.empty((3, order.size + 2 * LANES), np.int32), np.empty((10, order.size + 2 * LANES), np.float32)
     quarter = _F(0.25 * viscosity)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
             continue
-        m = _copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
+        m = copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
         for k in range(start[cell], start[cell + 1]):
             i = order[k]
             if i >= thickness.size:
@@ -240,12 +240,12 @@ def _sum(
             # the slope l/(2h) dS/dl of the sum has no l left
             mass = total + (SELF_WEIGHT - 1.0) * volume
             per_area = 1.0 / (length * length)
-            thick = mass * _NORM * per_area
+            thick = mass * NORM * per_area
             if length >= longest[i]:
                 h, omega = thick, 1.0
             else:
                 h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume * per_area
-                omega = max(LEAST_GRADIENT_TERM, 1.0 - (mass - 10.0 * change) * _SLOPE / volume)
+                omega = max(LEAST_GRADIENT_TERM, 1.0 - (mass - 10.0 * change) * SLOPE / volume)
                 h -= min(max((h - thick) / omega, -h), 0.5 * h)
             thickness[i], gradient_term[i] = h, omega
             next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))

@@ -83,7 +83,7 @@ def test_what_grains_lose_water_gains():
     assert np.all(abs(pushes.sum(axis=1)) <= 2e-8 * abs(pushes).sum(axis=1))  # measured 2e-9
     before, none = masses(p) * p.velocity, np.zeros(p.count)
     p.thrust[:] = 0.0
-    sim.mixture.kick(sim, p.velocity, none, none, 0.0, 0.05)
+    sim.matter.kick(sim, p.velocity, none, none, 0.0, 0.05)
     gained = masses(p) * p.velocity - before
     assert abs(gained).sum() > 1e-3 * abs(before).sum()
     assert np.all(abs(gained.sum(axis=1)) <= 1e-14 * abs(before).sum())
@@ -142,7 +142,7 @@ def test_the_decay_does_not_know_the_step():
         p.thrust[:], p.porosity[:], none = 0.0, N, np.zeros(p.count)
         p.velocity[0] = np.where(p.phase == WATER, 1.0, 0.0)
         for _ in range(parts):
-            sim.mixture.kick(sim, p.velocity, none, none, 0.0, 0.3 / parts)
+            sim.matter.kick(sim, p.velocity, none, none, 0.0, 0.3 / parts)
         middle = abs(p.x - p.x.mean()) < 6.0
         found.append(p.velocity[0, middle & (p.phase == WATER)] - p.velocity[0, middle & (p.phase != WATER)])
     exact = math.exp(-0.3 * rate(1.0))

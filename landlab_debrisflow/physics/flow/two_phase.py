@@ -7,9 +7,6 @@ from ...spatial.across import Across, Crossing, cells_of, sum_across
 from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 
-LEAST_PART = 1e-6
-"""Least part of the thickness that a phase is taken to have where it is divided by."""
-
 
 @declared
 class TwoPhase:
@@ -60,11 +57,13 @@ class TwoPhase:
         """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
         water = state.phase == WATER
         parts = cells_of(cells, ~water), cells_of(cells, water)
-        within, shared, density = self._strengths(state, water)
-        celerity = np.sqrt(state.gravity * state.cos_slope * state.thickness / state.share)
+        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / state.share
+        density = np.where(water, state.material.water_density, state.material.solid_density)
+        within, shared = self._strengths(state, water, normal_gravity, thickness)
         moving = Moving(
             state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
-            within / density, celerity, state.thickness, state.thickening, np.ones(density.size),
+            within / density, np.sqrt(normal_gravity * thickness), state.thickness, state.thickening,
+            np.ones(density.size),
         )  # fmt: skip
         crossing = Crossing(
             state.x, state.y, state.z, state.volume, state.smoothing_length, shared, state.mean_pressure
@@ -72,9 +71,9 @@ class TwoPhase:
         n, mixture = sums.thickness.size, state.mixture
         computed = cells.computed[:n]
         across = Across(np.zeros(n), mixture.cross_term, np.zeros(n), np.zeros((3, n)))
-        for targets, sources in (parts, parts[::-1]):
-            sum_over_neighbours(targets, moving, shock_viscosity, sums, threads)
-            sum_across(targets, sources, crossing, across, threads)
+        for phase in parts:
+            sum_over_neighbours(phase, moving, shock_viscosity, sums, threads)
+        sum_across(*parts, crossing, across, threads)
         np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
         own = plain_thickness(state.volume[:n], state.smoothing_length[:n], sums)
         np.divide(own, own + across.thickness, out=mixture.share, where=computed)
@@ -82,16 +81,13 @@ class TwoPhase:
         return parts
 
     @staticmethod
-    def _strengths(state: FlowState, water):
-        """Return thrust over own thickness squared and Omega, that over total thickness squared [N m-3], and density.
+    def _strengths(state: FlowState, water, normal_gravity, thickness):
+        """Return thrust over own thickness squared and Omega, and that over total thickness squared [N m-3].
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
         """
-        material, share = state.material, np.maximum(state.share, LEAST_PART)
-        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / state.share
-        pressure = state.mean_pressure / thickness
+        material, share, pressure = state.material, state.share, state.mean_pressure / thickness
         shared = 0.5 * material.water_density * normal_gravity + pressure
         grains = 0.5 * (material.solid_density - material.water_density) * normal_gravity / share - pressure / share**2
         within = shared * (1.0 - state.cross_term) + np.where(water, 0.0, grains)
-        density = np.where(water, material.water_density, material.solid_density)
-        return within / state.gradient_term, shared, density
+        return within / state.gradient_term, shared
