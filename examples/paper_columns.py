@@ -94,7 +94,7 @@ def main(output=None, levels=11):
     console.print(error_table(errors, levels), highlight=False, markup=False)
     console.print(reading_table(), highlight=False, markup=False)
     if output is not None:
-        save_figure(draw(sys.modules[__name__], level, fronts, profiles, errors), output)
+        save_figure(draw(sys.modules[__name__], level, fronts, profiles, errors), output, dpi=80)
         console.print(f"Wrote {output}", highlight=False, soft_wrap=True)
     return errors
 

@@ -79,9 +79,9 @@ def test_columns_consolidate_as_the_drag_says(slope):
     # n^2 over n^2: rounding
     np.testing.assert_allclose(columns.consolidation_time[grains], p.thickness[grains] ** 2 / c_v, rtol=1e-13)
     eroding = grains & (p.entrainment_rate > 0.0).values
-    # both of the step before: thickness has changed by some per cent since
+    # the thickness has changed by up to a sixth since; with the material's coefficient it would be 64 times as much
     expected = (p.entrainment_rate * p.thickness**2 / p.depth / c_v)[eroding]
-    np.testing.assert_allclose(p.basal_peclet_number[eroding], expected, rtol=0.1)
+    np.testing.assert_allclose(p.basal_peclet_number[eroding], expected, rtol=0.5)
     assert eroding.sum() > 50
 
 
