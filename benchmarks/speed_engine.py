@@ -76,7 +76,7 @@ def cap(count, threads=1):
     """Return the similarity solution at rest."""
     if count < BY_LATTICE:
         return similarity_body(count, threads)
-    with mock.patch.object(simulation, "place_particles", _lattice):
+    with mock.patch.object(release, "place_particles", _lattice):
         return similarity_body(count, threads)
 
 

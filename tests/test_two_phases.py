@@ -51,6 +51,8 @@ def test_phases_have_fields_of_their_own(slope):
         assert way * area == pytest.approx(float((p.volume * speed)[p.phase == k].sum()), rel=1e-12)
     assert "debris_flow__solid_depth" in flow.maps and flow.maps["debris_flow__water_speed"].attrs["units"] == "m/s"
     assert p.porosity.min() > 0.0 and p.porosity.max() < 1.0
+    assert not p.liquefaction_pressure[p.phase == 1].any() and not p.basal_excess_pore_pressure[p.phase == 1].any()
+    assert p.basal_excess_pore_pressure[p.phase == 0].all()  # it is grains that have columns
 
 
 def test_one_phase_does_not_have_them(slope):
@@ -110,6 +112,12 @@ def test_a_hydrograph_brings_both(slope):
     assert phases["water"]["inflow"] == pytest.approx(0.4 * flow.budget["inflow"], rel=1e-14)
     assert max(abs(terms["residual"]) for terms in phases.values()) < 1e-12 * flow.budget["inflow"]
     assert flow.budget["inflow"] > 200.0
+
+
+def test_when_all_has_left_all_is_over(slope):
+    flow = DebrisFlow(slope, flow="two_phase", erosion="none", numerics={"particle_count": 1})
+    flow.run_one_step(60.0)  # a grain and its water, which leave in the same step
+    assert flow.at_rest and flow.budget["outflow"] == pytest.approx(flow.budget["released"], rel=1e-15)
 
 
 class Stop:
