@@ -33,7 +33,7 @@ class Ground:
         self.parameters = None  # by kind, as `Simulation.on` wants them
         self._seen = None  # elevation and status as the last call left them
         self._surface = None  # of that elevation
-        self._eroded = np.zeros(grid.number_of_nodes)  # in this event, before the present call [m]
+        self._eroded = None  # in this event before the present call, over nodes [m]; None: nothing
         self.elevation = self.soil = self.status = self.bed = None
 
     @property
@@ -82,7 +82,7 @@ class Ground:
             pore_pressure = BedPressure(nodes, pressure, loading, drainage_time, time)
             ratios = pore_pressure.ratio
         if new_event:
-            self._eroded = np.zeros(grid.number_of_nodes)
+            self._eroded = None
         drained = None if self._drained is None else self._drained > 0.0
         eroded_depth = grid.at_node[OUTPUT_PREFIX + "eroded_depth"]
         self.bed = Bed(
@@ -104,7 +104,10 @@ class Ground:
     def remember(self, nodes: slice, time: float) -> None:
         """Note how the call leaves the elevation and what it eroded; only drainage changes more than `nodes`."""
         self._seen[0][nodes] = self.elevation[nodes]
-        self._eroded[nodes] = self.bed.eroded_in_event(nodes)
+        if self._eroded is None:
+            self._eroded = self.bed.taken
+        else:
+            self._eroded[nodes] += self.bed.taken[nodes]
         if self._loaded:
             self.bed.pore_pressure.finish(time, nodes)
 

@@ -35,8 +35,12 @@ PEAKS = (
 PHASES = ("solid_depth", "solid_speed", "water_speed")
 """Shown besides, of grains and water, if they move by themselves."""
 
-AMOUNTS, TOWARDS = 9, 4
-"""What is summed at every node, and towards which faces of closed nodes if there are any: east, west, north, south."""
+VOLUME, WAY, PRESSURE, LIQUEFACTION, PECLET, IMPACT, SURFACE, GRAINS, GRAIN_WAY, TOWARDS = range(10)
+"""What is summed at every node, times volume: speed, what columns tell of grains, impact pressure, height of the
+surface over the lowest bed; the volume of grains, and their speed."""
+
+FACES = 4
+"""From `TOWARDS` on, if there are closed nodes: impact towards faces in the east, west, north, south."""
 
 
 class Footprint:
@@ -62,7 +66,7 @@ class Footprint:
         self._walled = bool(np.any(status == CLOSED))
         self._now, self._peaks = [fields[name] for name in NOW], [fields[name] for name in PEAKS]
         self._phases = [fields[name] for name in PHASES if name in fields]
-        self._sums = np.zeros((AMOUNTS + TOWARDS * self._walled, nodes.core.size))
+        self._sums = np.zeros((nodes.core.size, TOWARDS + FACES * self._walled))
         self._scratch = np.empty(nodes.core.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
         self._passed, self._then = 0.0, time  # way of the fastest since the last look [m]; when it was last counted [s]
@@ -81,7 +85,7 @@ class Footprint:
         if p.count == 0:
             self._under = self._under[:0]
             return
-        values = np.empty((self._sums.shape[0], p.count))
+        values = np.empty((p.count, self._sums.shape[1]))
         _weigh(
             self._walled, p.volume, p.velocity, p.basal_excess_pore_pressure, p.liquefaction_pressure,
             p.basal_peclet_number, np.broadcast_to(density, p.count), p.z, p.lowest_z, p.depth, p.phase, values,
@@ -95,7 +99,7 @@ class Footprint:
 
     def _show_phases(self, at):
         for field in self._phases[:1]:
-            whole, way, grains, grain_way = self._sums[[0, 1, 7, 8]][:, at]
+            whole, way, grains, grain_way = self._sums[at][:, [VOLUME, WAY, GRAINS, GRAIN_WAY]].T
             field[at] = grains / self._nodes.area
             self._phases[1][at] = np.divide(grain_way, grains, out=np.zeros(at.size), where=grains > 0.0)
             water = whole - grains
@@ -113,16 +117,17 @@ class Footprint:
 def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values):
     """Write what is to be averaged over the volume at the nodes, times volume."""
     for i in range(volume.size):
-        m, u, v = volume[i], velocity[0, i], velocity[1, i]
+        m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        values[0, i], values[1, i] = m, m * np.sqrt(speed2)
         grains = m if phase[i] != WATER else 0.0  # it is they that have pore pressure
-        values[2, i], values[3, i], values[4, i] = grains * pressure[i], grains * liquefaction[i], grains * peclet[i]
-        values[7, i], values[8, i] = grains, grains * np.sqrt(speed2)
-        values[5, i], values[6, i] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
+        to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
+        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction[i]
+        to[PECLET] = grains * peclet[i]
+        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
         if walled:
-            values[9, i], values[10, i] = m * density[i] * max(u, 0.0) ** 2, m * density[i] * min(u, 0.0) ** 2
-            values[11, i], values[12, i] = m * density[i] * max(v, 0.0) ** 2, m * density[i] * min(v, 0.0) ** 2
+            momentum = m * density[i]
+            to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
+            to[TOWARDS + 2], to[TOWARDS + 3] = momentum * max(v, 0.0) ** 2, momentum * min(v, 0.0) ** 2
 
 
 @kernel
@@ -131,7 +136,7 @@ def _strike(at, sums, least, columns, status, max_impact, max_run_up):
     rows = status.size // columns
     for k in range(at.size):
         n = at[k]
-        if not sums[0, n] > least:
+        if not sums[n, VOLUME] > least:
             continue
         r, c = n // columns, n % columns
         for side in range(4):
@@ -143,8 +148,8 @@ def _strike(at, sums, least, columns, status, max_impact, max_run_up):
             if 0 <= beside_r < rows and 0 <= beside_c < columns:
                 wall = beside_r * columns + beside_c
                 if status[wall] == CLOSED:
-                    max_impact[wall] = max(max_impact[wall], sums[AMOUNTS + side, n] / sums[0, n])
-                    max_run_up[wall] = max(max_run_up[wall], sums[6, n] / sums[0, n])
+                    max_impact[wall] = max(max_impact[wall], sums[n, TOWARDS + side] / sums[n, VOLUME])
+                    max_run_up[wall] = max(max_run_up[wall], sums[n, SURFACE] / sums[n, VOLUME])
 
 
 @kernel
@@ -154,18 +159,18 @@ def _record(
 ):  # fmt: skip
     for k in range(at.size):
         n = at[k]
-        volume = sums[0, n]
-        depth[n], speed[n] = volume / area, sums[1, n] / volume
-        if sums[7, n] > 0.0:
-            pressure[n], peclet[n] = sums[2, n] / sums[7, n], sums[4, n] / sums[7, n]
+        volume = sums[n, VOLUME]
+        depth[n], speed[n] = volume / area, sums[n, WAY] / volume
+        if sums[n, GRAINS] > 0.0:
+            pressure[n], peclet[n] = sums[n, PRESSURE] / sums[n, GRAINS], sums[n, PECLET] / sums[n, GRAINS]
         max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
         max_peclet[n] = max(max_peclet[n], peclet[n])
-        if sums[3, n] > 0.0:
-            max_ratio[n] = max(max_ratio[n], min(1.0, sums[2, n] / sums[3, n]))
+        if sums[n, LIQUEFACTION] > 0.0:
+            max_ratio[n] = max(max_ratio[n], min(1.0, sums[n, PRESSURE] / sums[n, LIQUEFACTION]))
         if depth[n] > arrival_depth:
-            max_impact[n] = max(max_impact[n], sums[5, n] / volume)
-            max_run_up[n] = max(max_run_up[n], sums[6, n] / volume)
+            max_impact[n] = max(max_impact[n], sums[n, IMPACT] / volume)
+            max_run_up[n] = max(max_run_up[n], sums[n, SURFACE] / volume)
             if arrival[n] < 0.0:
                 arrival[n] = time
-        for v in range(sums.shape[0]):
-            sums[v, n] = 0.0
+        for v in range(sums.shape[1]):
+            sums[n, v] = 0.0

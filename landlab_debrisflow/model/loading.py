@@ -13,7 +13,7 @@ def press(sim, dt: float | None = None) -> None:
     # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
     weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
     weight[p.phase == WATER] = 0.0
-    force = np.array([weight * p.density, weight * (p.density - material.bearing_density)])
+    force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)
     if dt is None:
         bed.stand(p.x, p.y, p.spread, force, sim.time)
     else:

@@ -49,10 +49,10 @@ def scatter(nodes: Nodes, x, y, spread, values, sums, touched):
     ----------
     x, y, spread : ndarray, shape (n,)
         Position and half-width of the tent [m].
-    values : ndarray, shape (k, n)
-        Amounts; the first row must be > 0 where a particle counts.
-    sums : ndarray, shape (k, nodes)
-        Zero on entry; the amounts are added.
+    values : ndarray, shape (n, k)
+        Amounts; the first must be > 0 where a particle counts.
+    sums : ndarray, shape (nodes, k)
+        Zero on entry; the amounts are added. Those of a node lie together: on a wide raster few pages are touched.
     touched : ndarray of int, shape (nodes,)
         Scratch for the list of nodes reached.
 
@@ -91,13 +91,13 @@ def _scatter(core, columns, dx, dy, x, y, spread, values, sums, touched):
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
     found = 0
     for i in range(x.size):
-        if values[0, i] <= 0.0:
+        if values[i, 0] <= 0.0:
             continue
         for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
             node = index[k]
-            if sums[0, node] == 0.0:
+            if sums[node, 0] == 0.0:
                 touched[found] = node
                 found += 1
-            for v in range(values.shape[0]):
-                sums[v, node] += weight[k] * values[v, i]
+            for v in range(values.shape[1]):
+                sums[node, v] += weight[k] * values[i, v]
     return found

@@ -34,7 +34,7 @@ class Bed:
     pore_pressure : BedPressure, optional
         Of which `pressure_ratio` then is the ratio, and which is told what lies on the bed.
     earlier : ndarray, shape (nodes,), optional
-        Depth eroded in calls before this one that belong to the same event [m].
+        Depth eroded in calls before this one that belong to the same event [m]; None: there were none.
     """
 
     def __init__(
@@ -44,10 +44,10 @@ class Bed:
         self.nodes, self.surface, self.elevation, self.soil = nodes, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
         self.drained, self.pore_pressure = drained, pore_pressure
-        self._earlier = np.zeros(elevation.size) if earlier is None else earlier
+        self._earlier = earlier
         self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
-        self._taken = np.zeros(elevation.size)  # depth eroded in this call [m]
-        self._demand = np.zeros((1, elevation.size))
+        self.taken = np.zeros(elevation.size)  # depth eroded in this call [m]
+        self._demand = np.zeros((elevation.size, 1))
         self._share = np.empty(elevation.size)
         self._touched = np.empty(elevation.size, np.int64)
 
@@ -74,7 +74,7 @@ class Bed:
         nodes = self.nodes
         count = _erode(
             nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._before, self.pressure_ratio,
-            self._demand[0], self._share, self._touched, self._taken, self.soil, self.elevation,
+            self._demand[:, 0], self._share, self._touched, self.taken, self.soil, self.elevation,
             self.eroded_depth, granted, ratio,
         )  # fmt: skip
         at = self._touched[:count]
@@ -83,13 +83,13 @@ class Bed:
 
     def eroded_in_event(self, nodes):
         """Return the depth eroded at some nodes since the event began [m]."""
-        return self._earlier[nodes] + self._taken[nodes]
+        return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
     def depth_of(self, x, y, spread, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""
-        at = scatter(self.nodes, x, y, spread, volume[None, :], self._demand, self._touched).copy()
-        depth = self._demand[0, at] / self.nodes.area
-        self._demand[0, at] = 0.0
+        at = scatter(self.nodes, x, y, spread, volume[:, None], self._demand, self._touched).copy()
+        depth = self._demand[at, 0] / self.nodes.area
+        self._demand[at, 0] = 0.0
         return at, depth
 
     def lay_down(self, x, y, spread, volume):

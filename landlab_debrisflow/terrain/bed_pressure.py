@@ -39,7 +39,7 @@ class BedPressure:
         self._load = np.zeros(count)  # [Pa]
         self._age = np.zeros(count)  # time to which `pressure` was brought, since the start [s]
         self._under = np.zeros(0, np.int64)  # nodes with a load
-        self._sums, self._scratch = np.zeros((2, count)), np.empty(count, np.int64)
+        self._sums, self._scratch = np.zeros((count, 2)), np.empty(count, np.int64)
 
     def carry(self, x, y, spread, force, time: float, dt: float) -> None:
         """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
@@ -48,7 +48,7 @@ class BedPressure:
         ----------
         x, y, spread : ndarray, shape (n,)
             Position and tent half-width of each particle [m].
-        force : ndarray, shape (2, n)
+        force : ndarray, shape (n, 2)
             What it presses on the bed with, slope-normal stress times map area: all, and less what pore water
             bears [N].
         """
@@ -89,13 +89,13 @@ def _respond(left, at, sums, area, loading, drainage_time, age, dt, ages, load, 
     gained = loading * (-np.expm1(-part) / part if part > 0.0 else 1.0)
     for k in range(left.size + at.size):
         n = left[k] if k < left.size else at[k - left.size]
-        if k < left.size and sums[0, n] > 0.0:
+        if k < left.size and sums[n, 0] > 0.0:
             continue
         idle = age - dt - ages[n]  # under the same load since it was last looked at
         if idle > 0.0:
             pressure[n] *= np.exp(-idle / drainage_time)
-        now, liquefied = sums[0, n] / area, sums[1, n] / area
+        now, liquefied = sums[n, 0] / area, sums[n, 1] / area
         pressure[n] = max(0.0, pressure[n] * kept + gained * (now - load[n]))
         load[n], ages[n] = now, age
         ratio[n] = min(1.0, pressure[n] / liquefied) if liquefied > 0.0 else 0.0
-        sums[0, n], sums[1, n] = 0.0, 0.0
+        sums[n, 0], sums[n, 1] = 0.0, 0.0

@@ -25,10 +25,10 @@ class Surface:
 
     def __init__(self, elevation, spacing, invalid=None):
         self.dx, self.dy = map(float, spacing)
-        values = np.array(elevation, float)
-        if invalid is not None and invalid.any():
-            values = _fill(values, invalid)
-        self.values = np.pad(values, 1, mode="reflect", reflect_type="odd")  # linear beyond the edge
+        rows, columns = elevation.shape
+        self.values = np.empty((rows + 2, columns + 2))
+        self.values[1:-1, 1:-1] = elevation if invalid is None or not invalid.any() else _fill(elevation, invalid)
+        self._extend()
 
     def move_to(self, nodes, elevation):
         """Set the elevation [m] of nodes given by their flat index."""
@@ -68,7 +68,7 @@ def _fill(values, invalid):
 
     What lies beyond is set to the mean of the valid nodes; nothing ever reads it.
     """
-    values, valid = values.copy(), ~invalid
+    values, valid = np.array(values, float), ~invalid
     values[invalid] = values[valid].mean() if valid.any() else 0.0
     for _ in range(3):
         z, v = np.pad(values, 2), np.pad(valid, 2)

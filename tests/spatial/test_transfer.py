@@ -25,9 +25,10 @@ def particles():
 
 
 def add(nodes, particles, values):
-    sums = np.zeros((values.shape[0], ROWS * COLUMNS))
-    at = scatter(nodes, *particles, values, sums, np.empty(ROWS * COLUMNS, np.int64))
-    return at.copy(), sums
+    """Return the nodes reached and the sums, shape (k, nodes), of values, shape (k, n)."""
+    sums = np.zeros((ROWS * COLUMNS, values.shape[0]))
+    at = scatter(nodes, *particles, values.T, sums, np.empty(ROWS * COLUMNS, np.int64))
+    return at.copy(), sums.T
 
 
 def test_amounts_are_conserved_and_only_core_nodes_get_any(nodes, particles):
@@ -50,7 +51,7 @@ def test_particles_without_volume_do_not_count(nodes, particles):
 def test_the_tent_is_as_wide_as_the_particle_within_limits(spread):
     core = np.ones((21, 21), bool)
     nodes, centre = Nodes(core.ravel(), 21, 1.0, 1.0), np.array([10.0])
-    sums = np.zeros((1, 441))
+    sums = np.zeros((441, 1))
     scatter(nodes, centre, centre, np.array([spread]), np.ones((1, 1)), sums, np.empty(441, np.int64))
     half_width = min(max(spread, 1.0), WIDEST)
     tent = np.maximum(0.0, 1.0 - abs(np.arange(21) - 10.0) / half_width)

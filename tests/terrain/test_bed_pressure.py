@@ -29,7 +29,7 @@ class OnOneNode:
         """Let `dt` seconds pass in which the load on a node becomes `load` times the one above; return its pressure."""
         row, column = divmod(node, SHAPE[1])
         x, y = np.array([column * SPACING]), np.array([row * SPACING])
-        force = load * SPACING**2 * np.array([[LOAD], [LIQUEFACTION]])
+        force = load * SPACING**2 * np.array([[LOAD, LIQUEFACTION]])
         self.time += dt
         if stand:
             self.bed.stand(x, y, np.array([SPACING]), force, self.time)

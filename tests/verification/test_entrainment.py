@@ -113,7 +113,7 @@ def test_by_hand():
     volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(4)]
     out[1][:] = np.nan
     step._take_up(
-        1.0 * one, 1.0, 0.5, 7.0, 4e-4, 0.5, 0.2, 2650.0, 1000.0, 2.0 * one, 1.6 * one, one, 0.8 * one,
+        1.0 * one, 1.0, 0.5, 7.0, 4e-4 * one, 0.5, 0.2, 2650.0, 1000.0, 2.0 * one, 1.6 * one, one, 0.8 * one,
         volume, porosity, density, *out,
     )  # fmt: skip
     rate, first, peclet, dilution = (float(values[0]) for values in out)

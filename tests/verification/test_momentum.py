@@ -23,18 +23,19 @@ class Sums:
     """
 
     def __init__(self, flow, monkeypatch):
-        self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, step.kick
+        matter = flow._simulation.matter
+        self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, matter.kick
 
-        def watched(velocity, push, ground, cosine, *rest):
-            p, dt = flow._simulation.particles, rest[-1]
+        def watched(sim, velocity, yield_stress, drag, rest_speed, dt):
+            p, ground, cosine = sim.particles, sim.ground, sim.cosine
             normal = cosine * np.array([-ground[1], -ground[2], np.ones(cosine.size)])
-            across = ((push + np.array([[0.0], [0.0], [-G]])) * normal).sum(axis=0)
-            self.thrust += dt * (p.volume * push).sum(axis=1)
+            across = ((p.thrust + np.array([[0.0], [0.0], [-G]])) * normal).sum(axis=0)
+            self.thrust += dt * (p.volume * p.thrust).sum(axis=1)
             self.bed -= dt * (p.volume * (np.array([[0.0], [0.0], [G]]) + across * normal)).sum(axis=1)
             self.sizes += dt * float((p.volume * G * cosine * p.thickness * 2.33 / p.smoothing_length).sum())
-            kick(velocity, push, ground, cosine, *rest)
+            kick(sim, velocity, yield_stress, drag, rest_speed, dt)
 
-        monkeypatch.setattr(step, "kick", watched)
+        monkeypatch.setattr(matter, "kick", watched)
 
     @property
     def rounding(self):
