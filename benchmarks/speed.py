@@ -170,7 +170,8 @@ class Report:
         )
         for name, (a, b, ratio) in times.items():
             made.add_row(f"CPU s of the {name}", f"{a:.3f}", f"{b:.3f}", f"{ratio:.2f}")
-            self.aim(f"CPU of the {name}, 2000 x 2000 over 200 x 200", ratio, most=1.2)
+            if name != grids.SYSTEM_APART:  # it tells why, and is not what was to be reached
+                self.aim(f"CPU of the {name}, 2000 x 2000 over 200 x 200", ratio, most=1.2)
         self.tables.append(made)
 
     def of_the_peer(self, python, radii):
