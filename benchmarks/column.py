@@ -9,6 +9,7 @@ a case, median of five; the schemes take turns, so that their ratios are of one 
 Writes docs/column.png and benchmarks/column.txt.
 """
 
+import argparse
 import statistics
 import time
 from itertools import pairwise
@@ -223,4 +224,5 @@ def draw(worst, dear) -> None:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     main()

@@ -11,6 +11,7 @@ Writes benchmarks/flow_stability.txt and, if all cases are run, docs/flow_stabil
 length of the step.
 """
 
+import argparse
 import math
 import sys
 from pathlib import Path
@@ -176,4 +177,6 @@ def main(words):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("words", nargs="*", help="of the names of cases; by default all are run and written down")
+    main(parser.parse_args().words)

@@ -9,8 +9,8 @@ particles of each phase, weighted with the area A = V/h of its own thickness h:
 the reference at 2000 cells taken linearly between their centres. Also writes docs/two_phase.png.
 """
 
+import argparse
 import math
-import sys
 import time as clock
 from dataclasses import dataclass
 from functools import lru_cache
@@ -167,4 +167,6 @@ def main(counts=COUNTS) -> None:
 
 
 if __name__ == "__main__":
-    main(tuple(int(a) for a in sys.argv[1:]) or COUNTS)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("counts", nargs="*", type=int, default=COUNTS, help="numbers of particles of each phase")
+    main(tuple(parser.parse_args().counts))
