@@ -104,12 +104,12 @@ class Ground:
     def remember(self, nodes: slice, time: float) -> None:
         """Note how the call leaves the elevation and what it eroded; only drainage changes more than `nodes`."""
         self._seen[0][nodes] = self.elevation[nodes]
+        if self._loaded:
+            self.bed.pore_pressure.finish(time, nodes)
         if self._eroded is None:
             self._eroded = self.bed.taken
         else:
             self._eroded[nodes] += self.bed.taken[nodes]
-        if self._loaded:
-            self.bed.pore_pressure.finish(time, nodes)
 
     def forget(self) -> None:
         """Read everything anew at the next call."""

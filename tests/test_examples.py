@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from landlab import RasterModelGrid
+from landlab.io import esri_ascii
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import InputError, cli, demo
@@ -118,20 +120,45 @@ def test_a_dam_shields_the_buildings(tmp_path, capsys):
 # ---- S-1000 ----
 
 
-@pytest.fixture(scope="module")
-def s1000():
-    module = load("s1000")
-    try:
-        module.find_data()
-    except InputError as error:
-        pytest.skip(f"the S-1000 rasters are not part of the project: {error}")
-    return module
+def write_rasters(folder):
+    """Write rasters like those of S-1000: scar, channel and fan in a valley; return what left and came [m3]."""
+    grid = RasterModelGrid((50, 25), xy_spacing=10.0)
+    x, y = grid.x_of_node, grid.y_of_node
+    scar = (abs(x - 120.0) < 25.0) & (abs(y - 430.0) < 25.0)
+    fan = (abs(x - 120.0) < 15.0) & (abs(y - 130.0) < 45.0)
+    fan = fan * (1.0 + (y - 85.0) / 90.0)  # thicker uphill [m]
+    channel = -0.5 * ((abs(x - 120.0) < 15.0) & (y > 175.0) & (y < 405.0))
+    gone = x > 215.0
+    rasters = {
+        "pre_runout_DEM": np.maximum(0.0, 0.6 * (y - 150.0)) + 0.2 * abs(x - 120.0),
+        "landslide_depth": np.where(scar, -2.0, 0.0),
+        "DEM_of_Difference": np.where(scar, -2.0, fan + channel),
+    }
+    for name, values in rasters.items():
+        grid.add_field(name, np.where(gone, -9999.0, values), at="node")
+        with open(folder / f"{name}.asc", "w") as stream:
+            esri_ascii.dump(grid, stream, at="node", name=name)
+    return float(200.0 * scar.sum()), float(-100.0 * channel.sum()), float(100.0 * fan.sum())
 
 
-def test_s1000_shortened(s1000, tmp_path, capsys):
-    shown = s1000.main(particles=80, output_dir=tmp_path, quick=True)
+def test_s1000_runs_on_rasters_of_another_event(tmp_path, capsys):
+    (tmp_path / "s1000").mkdir()
+    released, lowered, raised = write_rasters(tmp_path / "s1000")
+    example = load("s1000")
+    shown = example.main(tmp_path, particles=80, output_dir=tmp_path, quick=True)
     seen = shown["observed"]
-    assert_allclose([seen["released"], seen["lowered outside"], seen["raised"]], [22481, 5126, 22543], atol=1.0)
+    assert_allclose(
+        [seen["released"], seen["lowered outside"], seen["raised"], seen["net"]],
+        [released, lowered, raised, raised - lowered - released], rtol=1e-12,
+    )  # fmt: skip
+    check_shown(shown)
+    assert "CUT SHORT" in capsys.readouterr().out
+    check_written(tmp_path, example.SOIL_DEPTH)
+
+
+def check_shown(shown):
+    """Check what holds for every event."""
+    seen = shown["observed"]
     assert_allclose(
         [seen[key] for key in ("csi", "csi outside", "correlation", "run-out error")], [1, 1, 1, 0], atol=1e-12
     )
@@ -141,21 +168,36 @@ def test_s1000_shortened(s1000, tmp_path, capsys):
         assert ours["eroded outside"] > 0.0 and ours["lowered outside"] > 0.0
         assert 0.0 < ours["csi outside"] < 1.0
     assert shown["Voellmy"]["eroded"] < shown["Coulomb"]["eroded"]  # drag shortens the way in the same time
-    baseline = shown["spread evenly"]
-    assert_allclose(baseline["raised"] - baseline["lowered outside"] + baseline["net"], baseline["raised"], atol=1.0)
-    assert_allclose(
-        [baseline["csi"], baseline["csi outside"], baseline["correlation"]], [0.478, 0.432, -0.11], atol=0.05
-    )
-    told = capsys.readouterr().out
-    assert "CUT SHORT" in told and "±.02" in told and "not rerun" in told
-    with xr.open_dataset(tmp_path / "s1000.nc") as stored:
+    spread = shown["spread evenly"]
+    assert_allclose(spread["raised"] - spread["lowered outside"] + spread["net"], spread["raised"], atol=1.0)
+
+
+def check_written(folder, soil_depth):
+    with xr.open_dataset(folder / "s1000.nc") as stored:
         assert stored.elevation_change.dims == ("run", "y", "x")
         moving_aside = stored.elevation_change.where(stored.source == 0)
-        assert float(moving_aside.min()) >= -s1000.SOIL_DEPTH - 1e-9  # it never digs below the soil
-    assert (tmp_path / "s1000.png").stat().st_size > 10_000
+        assert float(moving_aside.min()) >= -soil_depth - 1e-9  # it never digs below the soil
+    assert (folder / "s1000.png").stat().st_size > 10_000
 
 
-def test_s1000_parameters_are_those_written_down_before_scoring(s1000):
+def test_s1000_shortened(tmp_path, capsys):
+    example = load("s1000")
+    try:
+        example.find_data()
+    except InputError as error:
+        pytest.skip(f"the S-1000 rasters are not part of the project: {error}")
+    shown = example.main(particles=80, output_dir=tmp_path, quick=True)
+    seen, spread = shown["observed"], shown["spread evenly"]
+    assert_allclose([seen["released"], seen["lowered outside"], seen["raised"]], [22481, 5126, 22543], atol=1.0)
+    check_shown(shown)
+    assert_allclose([spread["csi"], spread["csi outside"], spread["correlation"]], [0.478, 0.432, -0.11], atol=0.05)
+    told = capsys.readouterr().out
+    assert "CUT SHORT" in told and "±.02" in told and "not rerun" in told
+    check_written(tmp_path, example.SOIL_DEPTH)
+
+
+def test_s1000_parameters_are_those_written_down_before_scoring():
+    s1000 = load("s1000")
     apparent = (990.0 / 1990.0) * np.tan(np.radians(s1000.BASAL_FRICTION_ANGLE)) * (1.0 - s1000.PRESSURE_RATIO)
     assert_allclose(apparent, 0.21, atol=0.005)
     assert (s1000.GROWTH_RATE, s1000.TURBULENT_COEFFICIENT, s1000.SOIL_DEPTH) == (1e-3, 500.0, 1.2)

@@ -99,7 +99,7 @@ class Footprint:
 
     def _show_phases(self, at):
         for field in self._phases[:1]:
-            whole, way, grains, grain_way = self._sums[at][:, [VOLUME, WAY, GRAINS, GRAIN_WAY]].T
+            whole, way, grains, grain_way = self._sums[at].T[[VOLUME, WAY, GRAINS, GRAIN_WAY]]
             field[at] = grains / self._nodes.area
             self._phases[1][at] = np.divide(grain_way, grains, out=np.zeros(at.size), where=grains > 0.0)
             water = whole - grains
