@@ -145,6 +145,8 @@ def test_s1000_runs_on_rasters_of_another_event(tmp_path, capsys):
     (tmp_path / "s1000").mkdir()
     released, lowered, raised = write_rasters(tmp_path / "s1000")
     example = load("s1000")
+    soil = example.build_grid(tmp_path / "s1000").at_node["soil__depth"]
+    assert soil.min() == example.SOIL_DEPTH and soil.max() == 2.0  # there is as much as fails
     shown = example.main(tmp_path, particles=80, output_dir=tmp_path, quick=True)
     seen = shown["observed"]
     assert_allclose(
