@@ -12,6 +12,7 @@ of kernel radius, 20 (radius/5 m)^-1.5 particles per kernel radius, explicit fri
 cap hardly leaves rest: 2.1 m/s after 5 s instead of 9.4).
 """
 
+import argparse
 import json
 import math
 import subprocess
@@ -55,6 +56,18 @@ com1DFA.com1DFAMain(main, cfgInfo=pathlib.Path(task["settings"]))
 
 END = 5.0  # [s]
 RHO = 200.0
+
+
+def interpreter(path: str) -> str:
+    """Return the path of an interpreter that has com1DFA: looked at before anything runs, for `argparse`."""
+    try:
+        found = subprocess.run([path, "-c", "import avaframe.com1DFA"], capture_output=True, text=True)
+        why = "" if found.returncode == 0 else (found.stderr.strip().splitlines() or ["it failed"])[-1]
+    except OSError as error:
+        why = str(error)
+    if why:
+        raise argparse.ArgumentTypeError(f"no interpreter with avaframe==2.1: {path} ({why})")
+    return path
 
 
 def settings(radius, friction_angle, placing) -> str:

@@ -151,7 +151,7 @@ def draw(results, path) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="few particles only; writes nothing")
-    parser.add_argument("--peer", metavar="PYTHON", help="an interpreter with avaframe==2.1")
+    parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     options = parser.parse_args()
     console = Console(record=True, width=190)
 

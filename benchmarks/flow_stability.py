@@ -179,4 +179,7 @@ def main(words):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("words", nargs="*", help="of the names of cases; by default all are run and written down")
-    main(parser.parse_args().words)
+    words, names = parser.parse_args().words, [name for name, _ in cases()]
+    if words and not any(word in name for word in words for name in names):
+        parser.error(f"no case has {' or '.join(words)} in its name; there are: {'; '.join(names)}")
+    main(words)

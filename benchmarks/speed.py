@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks import com1dfa
 from benchmarks import speed_engine as engine
 from benchmarks import speed_grids as grids
 from benchmarks import speed_machine as machine
@@ -261,7 +262,7 @@ def draw(curves, path) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="few particles only; writes nothing")
-    parser.add_argument("--peer", metavar="PYTHON", help="an interpreter with avaframe==2.1")
+    parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     options = parser.parse_args()
     most = 10_000 if options.quick else 1_000_000
     console = Console(record=True, width=180)
