@@ -87,7 +87,7 @@ class Calls:
         bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
-        sim.on(bed, ground.status, ground.parameters, changed or failing.size > 0)
+        sim.on(bed, ground.status, ground.parameters, changed)
         names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
         shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in names}
         self._footprint = Footprint(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)

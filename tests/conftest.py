@@ -49,6 +49,7 @@ def every_call_balances(monkeypatch):
     def checked(calls, duration, stop_at_rest):
         flow = calls.flow
         z, core = flow.grid.at_node["topographic__elevation"], flow.grid.core_nodes
+        failing = flow.grid.at_node["debris_flow__release_depth"][core] > 0.0  # it may come back to where it was
         before, ground = flow.budget, z[core].copy()
         run(calls, duration, stop_at_rest)
         after, area = flow.budget, flow.grid.dx * flow.grid.dy
@@ -56,7 +57,7 @@ def every_call_balances(monkeypatch):
         gain = {name: after[name] - before[name] for name in after}
         rise = np.sum(z[core] - ground) * area
         # an elevation is rounded to eps |z| where it changes: in the release, by erosion and in the deposit
-        rounding = 3.0 * np.finfo(float).eps * np.linalg.norm(ground[z[core] != ground]) * area
+        rounding = 3.0 * np.finfo(float).eps * np.linalg.norm(ground[failing | (z[core] != ground)]) * area
         # what has been laid down, in this call or before, is measured in the elevation, too
         known[flow] = known.get(flow, 0.0) + rounding
         assert abs(after["residual"]) <= tolerance + known[flow]

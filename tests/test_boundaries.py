@@ -122,7 +122,8 @@ def test_a_neighbour_that_leaves_wakes_those_asleep():
     p.velocity[:] = 0.0
     p.velocity[0, np.argmax(p.x)] = 30.0
     sim._find_everything(8)
-    p.still_steps[:], sim._arrested = 1000, False
+    p.still_steps[:] = 1000
+    sim.set_free()
     sim.advance(0.01)
     assert p.count == 99 and sim.outflow.total
     after = p.thickness.copy()

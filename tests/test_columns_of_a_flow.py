@@ -49,7 +49,7 @@ def over_a_screen(first, last, angle, speed, drained=True):
         },
     )  # fmt: skip
     place(flow)
-    flow._simulation._arrested = False
+    flow._simulation.set_free()
     flow._simulation.particles.velocity[[0, 2]] = np.array([[speed], [-SLOPE * speed]]) / np.hypot(1.0, SLOPE)
     return flow
 

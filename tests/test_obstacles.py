@@ -20,7 +20,7 @@ def field(grid, name):
 def thrown(grid, velocity, **numerics):
     """Let what is to fail move without friction, all of it at one velocity; films count, too."""
     flow = place(DebrisFlow(grid, **dry_block(0.0, arrival_depth=1e-5, **numerics)))
-    flow._simulation._arrested = False
+    flow._simulation.set_free()
     flow._simulation.particles.velocity[:2] = np.array(velocity, float)[:, None]
     return flow
 

@@ -33,7 +33,7 @@ def thrown(wall, towards, slope=SLOPE, **numerics):
     release_slab(grid, (75.0, 80.0), 13.0, 1.5, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(0.2, particle_count=100, **numerics)))
     simulation = flow._simulation
-    simulation._arrested = False
+    simulation.set_free()
     simulation.particles.velocity[:] = SPEED * np.array([[*towards, -slope]]).T
     return flow
 

@@ -66,7 +66,7 @@ def kick_both(
                 slow = 0.0
             slow /= 1.0 + compliance * drag[i]
             factor = slow / speed
-            if slow < rest_speed and slow * slow < us * us + vs * vs + ws * ws:
+            if slow < rest_speed[min(i, rest_speed.size - 1)] and slow * slow < us * us + vs * vs + ws * ws:
                 share = part * (dt - response)  # what of the pull on the water has reached the grains
                 ex, ey, ez = dt * bx + share * (ax - bx), dt * by + share * (ay - by), dt * bz + share * (az - bz)
                 if ex * ex + ey * ey + ez * ez <= grip * grip:
@@ -98,9 +98,10 @@ def kick_both(
         was = np.sqrt(velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
         factor = 1.0 / (1.0 + dt * manning[min(i, manning.size - 1)] * was)
         speed = factor * np.sqrt(u * u + v * v + w * w)
-        if speed < rest_speed and speed < was:
+        slowest = rest_speed[min(i, rest_speed.size - 1)]
+        if speed < slowest and speed < was:
             seepage = np.sqrt(ax * ax + ay * ay + az * az) * water_density * porosity[i] * thickness[i]
-            if seepage <= rest_speed * coupling[i]:  # what drag would leave of its speed if the grains rest
+            if seepage <= slowest * coupling[i]:  # what drag would leave of its speed if the grains rest
                 factor = 0.0
         velocity[0, i], velocity[1, i], velocity[2, i] = factor * u, factor * v, factor * w
 

@@ -17,7 +17,7 @@ from ..physics.column.start import initial_profile
 from ..physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing, ColumnState
 from ..spatial.summation import SMOOTHING_RATIO
 from .hydrograph import Hydrograph, Integral
-from .release import THICKNESS_RANGE
+from .placing import THICKNESS_RANGE
 
 FREE = -1
 """Number of the row of a particle that flows by itself."""

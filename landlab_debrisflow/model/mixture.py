@@ -82,7 +82,7 @@ class Mixture:
             self._found_for, self._found = p.roll, 0
         self._found += 1
 
-    def kick(self, sim, velocity, yield_stress, drag, rest_speed: float, dt: float) -> None:
+    def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
 
         Parameters
@@ -105,10 +105,10 @@ class Mixture:
     def held(self, sim, which: slice, yield_stress, drag):
         """Return which grains friction would hold at rest, and which water drag; `which` are all."""
         p, velocity = sim.particles, np.zeros((3, sim.particles.count))
-        self.kick(sim, velocity, yield_stress, drag, 0.0, 1.0)
+        self.kick(sim, velocity, yield_stress, drag, np.zeros(1), 1.0)
         seeping = pull(p.thrust, sim.ground, sim.cosine, self.material.gravity)
         seeping *= self.material.water_density * p.porosity * p.thickness
-        return np.where(p.phase == WATER, seeping <= sim.rest_speed * self.coupling, ~np.any(velocity, axis=0))
+        return np.where(p.phase == WATER, seeping <= p.rest_speed * self.coupling, ~np.any(velocity, axis=0))
 
     def refuse_soil(self, rate) -> None:
         """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""

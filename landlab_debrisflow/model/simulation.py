@@ -1,7 +1,7 @@
 """The event: clock, loop, release, rest and settling."""
 
 import logging
-from copy import copy
+from copy import copy, deepcopy
 
 import numpy as np
 
@@ -13,17 +13,16 @@ from .inflow import Inflow
 from .mixture import Mixture
 from .motion import CLOSED
 from .numerics import Numerics
+from .origins import Origins
 from .outflow import Outflow
 from .particles import Particles
 from .physics import Physics
 from .release import release_particles
+from .rest import Rest
 from .single import Single
 from .timestep import Pace
 
 log = logging.getLogger("landlab_debrisflow")
-
-MOST_UNHELD = 0.5
-"""Part of the volume that may lie where friction does not hold it when all is stopped."""
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -42,11 +41,11 @@ class Simulation:
     def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
         self.particles = Particles(physics.column.levels)
+        self.origins = Origins()
         self.matter = Mixture(physics) if physics.two_phases else Single(physics)
         self.time = 0.0
         self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
-        self._peak_energy, self._arrested = 0.0, False
-        self.rest_speed = 0.0  # see motion.kick [m s-1]
+        self.rest = Rest()
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = self.parameters = None
         self.walled = False  # whether there are closed nodes
@@ -74,6 +73,8 @@ class Simulation:
         self.bed, self.status, self.parameters = bed, status, parameters
         self.walled = bool(np.any(status == CLOSED))
         self._changed |= changed
+        if changed:
+            self.rest.set_free(self.particles)
         loading.press(self)
 
     def extent(self) -> tuple[float, float]:
@@ -104,7 +105,7 @@ class Simulation:
         )  # fmt: skip
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         step.consolidate(self, 0.0)
-        self._peak_energy, self._arrested = 0.0, False
+        self.rest.look(p)
         self._pace.restart()
 
     def _find_everything(self, sweeps: int = 1) -> None:
@@ -123,7 +124,7 @@ class Simulation:
     @property
     def idle(self) -> bool:
         """Whether nothing moves now (also when there is nothing)."""
-        return self.particles.count == 0 or self._arrested
+        return self.particles.count == 0 or self.rest.all
 
     @property
     def at_rest(self) -> bool:
@@ -159,7 +160,7 @@ class Simulation:
             self._steps += 1
             if self.matter.sleeps and self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
                 sleep.fall_asleep(self)
-            self._look_for_rest()
+            self.rest.judge(self)
             if after_step is not None:
                 after_step()
         if not stop_at_rest and self.time < end:
@@ -172,16 +173,15 @@ class Simulation:
         if self.idle and self.time < end:
             self._pass_time(max(self.time, min(end, self.inflow.next_time)))
             if self.inflow.enter(self, self.time):
-                self._changed, self._arrested, self._peak_energy = True, False, 0.0
+                self._changed = True
+                self.rest.look(self.particles)
                 self._wake()
                 self.inflow.hold(self, self.time)
 
     def _wake(self) -> None:
-        """Find everything anew if terrain or particles have changed, and let move what lay still."""
+        """Find everything anew if terrain or particles have changed."""
         if self._changed and self.particles.count:
             self._find_everything()
-            if self._arrested:
-                self._arrested, self._peak_energy = False, 0.0
 
     def _pass_time(self, end: float) -> None:
         """Let time pass for what is at rest: its pore pressure still drains."""
@@ -197,25 +197,13 @@ class Simulation:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
 
-    def _look_for_rest(self) -> None:
-        """Stop everything once the kinetic energy is a negligible part of its peak, and friction holds most of it.
+    def held(self, which: slice, pressure):
+        """Return which particles friction would hold at rest under some basal excess pore pressure [Pa], shape (n,)."""
+        return step.held(self, which, pressure)
 
-        Without this, remnants on slopes above their apparent friction angle creep for ever. But where most could
-        not stay, the flow is only turning, as on a counter-slope.
-        """
-        p, rest_energy, survey = self.particles, self.numerics.rest_energy, self.survey
-        if p.count == 0:
-            return
-        self._peak_energy = max(self._peak_energy, survey.energy)
-        self.rest_speed = np.sqrt(rest_energy * self._peak_energy / p.volume.sum())
-        if survey.energy > rest_energy * self._peak_energy or self.inflow.held(p).size:
-            return
-        awake = slice(p.awake)
-        stays = step.held(self, awake, p.basal_excess_pore_pressure[awake])
-        if p.volume[awake][~stays].sum() <= MOST_UNHELD * p.volume.sum():
-            p.velocity[:] = 0.0
-            p.entrainment_rate[:] = 0.0
-            self._arrested = True
+    def set_free(self) -> None:
+        """Let what was arrested move again."""
+        self.rest.set_free(self.particles)
 
     def warn_of_walls(self) -> None:
         """Log how much ran against closed or NODATA nodes since the last warning."""
@@ -234,7 +222,13 @@ class Simulation:
         still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
         if not still.any():
             return np.empty(0, np.int64), np.empty(0)
-        return self.bed.depth_of(p.x[still], p.y[still], p.spread[still], p.volume[still])
+        x, y, spread, volume, origin = p.x[still], p.y[still], p.spread[still], p.volume[still], p.origin[still]
+        back = self.origins.unmoved(origin, x, y, 0.5 * spread, self.bed.nodes.core)
+        nodes, depth = self.bed.depth_of(x, y, spread, (1.0 - back) * volume)
+        returning = back > 0.0
+        old, given = self.origins.returned(origin[returning], (back * volume)[returning])
+        every, place = np.unique(np.concatenate([nodes, old]), return_inverse=True)
+        return every, np.bincount(place, np.concatenate([depth, given / self.bed.nodes.area]), every.size)
 
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
@@ -260,14 +254,16 @@ class Simulation:
         """
         p = self.particles
         self.settled_solid += float(self.matter.solid_volume(p).sum())
-        laid = self.bed.lay_down(p.x, p.y, p.spread, p.volume)
+        nodes, depth = self.resting_depth()
+        self.bed.lay_down(nodes, depth)
         p.keep(np.zeros(p.count, bool))
-        self._arrested = False
-        return laid
+        self.origins, self.rest = Origins(), Rest()
+        return nodes, depth
 
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
-        kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps", "settled_solid")}
+        kept = {name: getattr(self, name) for name in ("time", "_steps", "settled_solid")}
+        kept |= {"origins": copy(self.origins), "rest": deepcopy(self.rest)}
         return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
 
     def restore(self, snapshot) -> None:

@@ -9,6 +9,9 @@ from ..physics.contracts import MIXTURE
 from .motion import kick
 from .timestep import NOT_STIFF
 
+NEVER = np.zeros(1)
+"""Speed below which particles come to rest if only friction itself is asked [m s-1]."""
+
 
 class Single:
     """The one phase of a simulation.
@@ -47,7 +50,7 @@ class Single:
         """Note what the sums over neighbours found, and write the thickness of the whole."""
         p.thickness[:] = p.own_thickness
 
-    def kick(self, sim, velocity, yield_stress, drag, rest_speed: float, dt: float) -> None:
+    def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `motion.kick`."""
         p, m = sim.particles, sim.particles.awake
         mass = p.density[:m] * p.thickness[:m]
@@ -58,7 +61,7 @@ class Single:
         p, velocity = sim.particles, np.zeros((3, yield_stress.size))
         thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
         mass = p.density[which] * p.thickness[which]
-        kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, self._gravity, 0.0, 1.0)
+        kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, self._gravity, NEVER, 1.0)
         return ~np.any(velocity, axis=0)
 
     def refuse_soil(self, rate) -> None:

@@ -67,7 +67,7 @@ def fall_asleep(sim) -> None:
     last = p.awake
     first = last - places.size
     _exchange(sim, places[places < first], np.setdiff1d(np.arange(first, last), places))
-    held = _held(sim, slice(first, last))
+    held = _held(sim, slice(first, last)) | (p.arrested[first:last] > 0)
     # held ones last
     free, place = first + np.flatnonzero(~held), first + np.arange(held.size)
     middle = first + free.size

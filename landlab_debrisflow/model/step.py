@@ -63,7 +63,9 @@ def friction_and_kick(sim, dt: float) -> None:
     m = p.awake
     yield_stress, drag = np.empty(m), np.empty(m)
     sim.physics.friction.basal_resistance(base(sim, slice(m), "friction"), yield_stress, drag)
-    sim.matter.kick(sim, p.velocity, yield_stress, drag, sim.rest_speed, dt)
+    sim.matter.kick(sim, p.velocity, yield_stress, drag, p.rest_speed[:m], dt)
+    if sim.rest.any:
+        p.velocity[:, :m][:, p.arrested[:m] > 0] = 0.0
     if sim.walled:
         stop_at_walls(
             m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall

@@ -92,14 +92,12 @@ class Bed:
         self._demand[at, 0] = 0.0
         return at, depth
 
-    def lay_down(self, x, y, spread, volume):
-        """Add the particles' volume [m3] to elevation and soil; return the nodes and the depth added [m]."""
-        at, depth = self.depth_of(x, y, spread, volume)
-        self.elevation[at] += depth
+    def lay_down(self, nodes, depth):
+        """Add a depth [m] to elevation and soil of some nodes, none of them twice."""
+        self.elevation[nodes] += depth
         if self.soil is not None:
-            self.soil[at] += depth
-        self.surface.move_to(at, self.elevation[at])
-        return at, depth
+            self.soil[nodes] += depth
+        self.surface.move_to(nodes, self.elevation[nodes])
 
 
 @kernel

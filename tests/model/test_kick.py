@@ -14,7 +14,18 @@ def kicked(velocity, yield_stress, drag, mass, dt=0.1):
     ground[1] = -1.0
     state = np.array(velocity, float)[:, None]
     one = np.ones(1)
-    kick(state, np.zeros((3, 1)), ground, one / np.sqrt(2.0), yield_stress * one, drag * one, mass * one, G, 0.0, dt)
+    kick(
+        state,
+        np.zeros((3, 1)),
+        ground,
+        one / np.sqrt(2.0),
+        yield_stress * one,
+        drag * one,
+        mass * one,
+        G,
+        np.zeros(1),
+        dt,
+    )
     return state[:, 0]
 
 

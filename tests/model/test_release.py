@@ -1,5 +1,6 @@
 """A failing depth becomes particles: all of the volume, in equal parts, where it failed, evenly spread."""
 
+import logging
 import math
 
 import numpy as np
@@ -82,3 +83,131 @@ def test_the_same_release_gives_the_same_particles():
         release_slab(grid, (47.5, 47.5), 20.0, 1.0)
         positions.append(place(DebrisFlow(grid, **dry_block(5.0, particle_count=100))).particles)
     assert positions[0].identical(positions[1])
+
+
+# ---- what stays where it is ----
+
+
+def uneven(grid, rng):
+    """Return a depth that differs from cell to cell, on a square in the middle."""
+    inside = (abs(grid.x_of_node - 97.0) < 40.0) & (abs(grid.y_of_node - 97.0) < 40.0)
+    return np.where(inside, rng.uniform(0.1, 2.0, grid.number_of_nodes), 0.0)
+
+
+@pytest.mark.parametrize("kind", ["slab", "mound", "uneven"])
+@pytest.mark.parametrize("count", [1, 30, 1000])
+def test_what_never_moved_gives_back_just_what_it_took(kind, count):
+    grid = inclined((40, 40), 5.0, 0.1, soil=4.0)
+    r2 = (grid.x_of_node - 97.0) ** 2 + (grid.y_of_node - 97.0) ** 2
+    depth = {
+        "slab": 1.5 * (r2 < 40.0**2), "mound": 3.0 * np.exp(-r2 / 20.0**2) * (r2 < 60.0**2),
+        "uneven": uneven(grid, np.random.default_rng(count)),
+    }[kind]  # fmt: skip
+    release(grid, depth)
+    before, soil = grid.at_node["topographic__elevation"].copy(), grid.at_node["soil__depth"].copy()
+    flow = DebrisFlow(grid, **dry_block(0.9, particle_count=count, settle=True))
+    assert flow.run_until_rest(30.0) is True
+    # an elevation of 20 m is rounded twice; a particle's parts of its cells are known to 1e-12 of it
+    np.testing.assert_allclose(grid.at_node["topographic__elevation"], before, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(grid.at_node["soil__depth"], soil, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(grid.at_node["debris_flow__deposit_depth"], depth, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("count", [50, 400, 2000])
+def test_cells_of_which_nothing_moved_are_as_before_though_others_of_the_release_slid_away(count):
+    grid = inclined((40, 60), 5.0, 0.4)
+    x = grid.x_of_node
+    release_slab(grid, (100.0, 97.0), 40.0, 1.5)
+    depth, before = (grid.at_node["debris_flow__release_depth"].copy(), grid.at_node["topographic__elevation"].copy())
+    grid.add_field("friction__angle", np.where(x > 120.0, 10.0, 40.0), at="node")
+    keywords = dry_block(1.0, particle_count=count, settle=True)
+    keywords["friction"]["basal_friction_angle"] = "friction__angle"
+    flow = DebrisFlow(grid, **keywords)
+    assert flow.run_until_rest(300.0) is True
+    change = grid.at_node["topographic__elevation"] - before
+    spacing = np.sqrt(np.count_nonzero(depth) * 25.0 / count)
+    kept = (depth > 0.0) & (x < 120.0 - 5.0 - spacing)  # a particle stands for what is half a spacing around it
+    assert np.any(change[(depth > 0.0) & (x > 120.0)] < -1.4)
+    # asked for: the larger of 5 cm and a hundredth of the thickness
+    assert np.abs(change[kept]).max() < 1e-11
+
+
+def test_a_body_that_settles_a_little_keeps_its_shape():
+    grid = inclined((40, 40), 5.0, 0.1)
+    release(grid, uneven(grid, np.random.default_rng(3)))
+    depth, before = (grid.at_node["debris_flow__release_depth"].copy(), grid.at_node["topographic__elevation"].copy())
+    flow = place(DebrisFlow(grid, **dry_block(0.9, particle_count=500)))
+    p = flow._simulation.particles
+    p.x += 0.01 * np.random.default_rng(4).normal(size=p.x.size)  # the spacing is 3.6 m
+    flow._simulation.set_free()
+    flow.run_until_rest(60.0)
+    flow.settle()
+    # what was spread over the tents is a hundredth of the way in spacings, of a depth of 2 m
+    assert np.abs(grid.at_node["topographic__elevation"] - before)[depth > 0.0].max() < 0.02
+
+
+# ---- a second release ----
+
+
+@pytest.mark.parametrize("second", [0.02, 0.1, 1.0])
+def test_a_small_release_takes_the_particle_volume_of_what_moves(second):
+    grid = inclined((30, 100), 5.0, 0.5)
+    release_slab(grid, (60.0, 72.0), 22.0, 2.0)
+    flow = place(DebrisFlow(grid, **dry_block(0.2, particle_count=300)))
+    there = float(flow.particles.volume[0])
+    grid.at_node["debris_flow__release_depth"][[15 * 100 + 40, 5 * 100 + 70, 5 * 100 + 71]] = second
+    step = flow._simulation.survey.longest_step
+    flow.run_one_step(1e-9)
+    new = flow.particles.volume.values[300:]
+    volume = second * 25.0
+    assert new.size == max(1, round(volume / there)) + max(1, round(2.0 * volume / there))
+    assert new.sum() == pytest.approx(3.0 * volume, rel=1e-14)
+    assert flow._simulation.survey.longest_step > 0.5 * step  # with 2000 particles of its own it was 0.02 of it
+
+
+def test_a_large_release_beside_a_remnant_has_its_own_number():
+    grid = inclined((30, 100), 5.0, 0.5)
+    grid.at_node["debris_flow__release_depth"] = np.zeros(3000)
+    grid.at_node["debris_flow__release_depth"][15 * 100 + 60] = 1e-3
+    flow = place(DebrisFlow(grid, **dry_block(0.2, particle_count=200)))
+    release_slab(grid, (60.0, 72.0), 22.0, 2.0)
+    flow.run_one_step(1e-9)
+    assert flow.particles.sizes["particle"] == 400
+
+
+# ---- pits ----
+
+
+def pit_warnings(caplog, grid, **keywords):
+    """Return what is said of pits when a release fails."""
+    with caplog.at_level(logging.WARNING, "landlab_debrisflow"):
+        flow = DebrisFlow(grid, **(dry_block(0.9, particle_count=20) | keywords))
+        for _ in range(3):
+            flow.run_one_step(0.01)
+    return [r.getMessage() for r in caplog.records if "a pit that they cannot leave" in r.getMessage()]
+
+
+def test_a_box_that_is_dug_out_is_said_once_with_its_volume(caplog):
+    grid = inclined((30, 60), 1.0, 0.4)
+    release_slab(grid, (20.0, 15.0), 5.1, 2.0)
+    said = pit_warnings(caplog, grid)
+    assert len(said) == 1
+    # eleven rows; from the lip, 2 m above the lowest base and 0.4 m below its ground: 1.6, 1.2, 0.8, 0.4 m of depth
+    assert said[0].startswith("44 of the 242 m3 released lie below the lowest ground beside their scar")
+
+
+@pytest.mark.parametrize("kind", ["on top", "thin", "tapered", "between walls"])
+def test_no_pit_is_seen_where_there_is_none(caplog, kind):
+    grid = inclined((30, 60), 1.0, 0.4)
+    if kind == "on top":
+        release_slab(grid, (20.0, 15.0), 5.1, 2.0, on_top=True)
+    elif kind == "thin":
+        release_slab(grid, (20.0, 15.0), 5.1, 0.39)
+    elif kind == "tapered":
+        x = grid.x_of_node
+        release(grid, 0.35 * np.clip(np.minimum(x - 10.0, 26.0 - x), 0.0, 5.0) * (abs(grid.y_of_node - 15.0) < 5.0))
+    else:
+        release_slab(grid, (20.0, 15.0), 5.1, 2.0)
+        beside = (abs(grid.x_of_node - 20.0) < 6.1) & (abs(grid.y_of_node - 15.0) < 6.1)
+        grid.status_at_node[beside & (grid.at_node["debris_flow__release_depth"] == 0.0)] = grid.BC_NODE_IS_CLOSED
+    assert pit_warnings(caplog, grid) == []

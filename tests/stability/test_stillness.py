@@ -56,7 +56,7 @@ def test_friction_never_reverses_a_body_thrown_uphill(degrees, courant):
     release_cap(grid, (200.0, 35.0), (25.0, 25.0), 2e-3, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(mu, particle_count=100, rest_energy=0.0, courant_number=courant)))
     simulation = flow._simulation
-    simulation._arrested = False
+    simulation.set_free()
     simulation.particles.velocity[:] = speed * np.array([[-math.cos(angle)], [0.0], [math.sin(angle)]])
     stop = speed / (G * (mu * math.cos(angle) + math.sin(angle)))
     start = flow.particles.x.values

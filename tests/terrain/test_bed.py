@@ -83,7 +83,7 @@ def test_boundary_nodes_are_left_alone(crowd):
     bed = make_bed(1.0)
     before = bed.elevation.copy()
     bed.erode(*crowd, np.full(40, 0.1))
-    bed.lay_down(*crowd, np.full(40, 0.1))
+    bed.lay_down(*bed.depth_of(*crowd, np.full(40, 0.1)))
     rim = ~bed.nodes.core
     np.testing.assert_array_equal(bed.elevation[rim], before[rim])
     assert np.all(bed.soil[rim] == 1.0)
@@ -94,7 +94,8 @@ def test_what_is_laid_down_is_all_there(crowd, soil):
     bed = make_bed(soil)
     before = bed.elevation.copy()
     volume = np.random.default_rng(4).uniform(0.1, 1.0, 40)
-    nodes, depth = bed.lay_down(*crowd, volume)
+    nodes, depth = bed.depth_of(*crowd, volume)
+    bed.lay_down(nodes, depth)
     assert depth.sum() * AREA == pytest.approx(volume.sum(), rel=1e-14)
     np.testing.assert_allclose((bed.elevation - before)[nodes], depth, rtol=0, atol=3e-14)  # last digits of 100 m
     if soil is not None:

@@ -34,7 +34,8 @@ def through_the_dip(mu, speed, duration):
     release_cap(grid, (MIDDLE - 50.0, 30.0), (12.0, 12.0), 1e-4, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(mu, particle_count=60)))
     simulation = flow._simulation
-    p, simulation._arrested = simulation.particles, False
+    p = simulation.particles
+    simulation.set_free()
     phi = np.arcsin((p.x - MIDDLE) / RADIUS)
     p.velocity[[0, 2]] = np.sqrt(speed_squared(phi, mu, speed)) * np.array([np.cos(phi), np.sin(phi)])
     flow.run_one_step(duration)

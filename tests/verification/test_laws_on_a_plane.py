@@ -55,7 +55,7 @@ def speed(flow):
 
 def throw(flow, velocity, slope):
     flow._simulation.particles.velocity[:, 0] = velocity * np.array([math.cos(slope), 0.0, -math.sin(slope)])
-    flow._simulation._arrested = False
+    flow._simulation.set_free()
 
 
 def terminal_speed(law, thickness, material, ratio=RATIO):
@@ -116,7 +116,7 @@ def test_what_is_liquefied_falls_freely(law):
 def test_what_its_strength_holds_never_moves(law, dt):
     flow = lone(law, GENTLE)
     for _ in range(3):
-        flow._simulation._arrested = False  # let every step decide anew
+        flow._simulation.set_free()  # let every step decide anew
         flow.run_one_step(dt)
     assert flow.at_rest and not flow._simulation.particles.velocity.any()
 

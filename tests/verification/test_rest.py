@@ -19,11 +19,11 @@ def test_a_slab_below_its_friction_angle_stays_for_every_step(step):
     grid = inclined((15, 40), 10.0, math.tan(ANGLE))
     release_slab(grid, (100.0, 70.0), 35.0, 0.1, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(MU, particle_count=200, rest_energy=0.0)))
-    flow._simulation._arrested = False  # let every step decide anew
+    flow._simulation.set_free()  # let every step decide anew
     start = flow.particles
     for _ in range(5):
         flow.run_one_step(step)
-        flow._simulation._arrested = False
+        flow._simulation.set_free()
     # held by max(0, ...), not by a small number: to the last bit
     assert flow.particles.x.identical(start.x) and flow.particles.y.identical(start.y)
     assert not flow._simulation.particles.velocity.any()
@@ -36,7 +36,7 @@ def sliding():
     release_cap(grid, (100.0, 70.0), (50.0, 50.0), 2e-3, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(MU, particle_count=300, rest_energy=0.0)))
     simulation = flow._simulation
-    simulation._arrested = False
+    simulation.set_free()
     simulation.particles.velocity[:] = SPEED * np.array([[math.cos(ANGLE)], [0.0], [-math.sin(ANGLE)]])
     return flow
 

@@ -28,7 +28,8 @@ def two_phase(**law):
 
 def awaken(flow):
     """Let everything be found anew, as after a change of terrain."""
-    flow._simulation._changed, flow._simulation._arrested = True, False
+    flow._simulation._changed = True
+    flow._simulation.set_free()
     return flow._simulation.particles
 
 
@@ -83,7 +84,7 @@ def test_what_grains_lose_water_gains():
     assert np.all(abs(pushes.sum(axis=1)) <= 2e-8 * abs(pushes).sum(axis=1))  # measured 2e-9
     before, none = masses(p) * p.velocity, np.zeros(p.count)
     p.thrust[:] = 0.0
-    sim.matter.kick(sim, p.velocity, none, none, 0.0, 0.05)
+    sim.matter.kick(sim, p.velocity, none, none, np.zeros(1), 0.05)
     gained = masses(p) * p.velocity - before
     assert abs(gained).sum() > 1e-3 * abs(before).sum()
     assert np.all(abs(gained.sum(axis=1)) <= 1e-14 * abs(before).sum())
@@ -106,7 +107,7 @@ def slab(degrees, conductivity, friction_angle, spacing=0.6, length=24.0):
             "numerics": {"particle_count": count, "settle": False, "rest_energy": 0.0},
         },
     )  # fmt: skip
-    flow._simulation._arrested = False
+    flow._simulation.set_free()
     return flow, angle
 
 
@@ -142,7 +143,7 @@ def test_the_decay_does_not_know_the_step():
         p.thrust[:], p.porosity[:], none = 0.0, N, np.zeros(p.count)
         p.velocity[0] = np.where(p.phase == WATER, 1.0, 0.0)
         for _ in range(parts):
-            sim.matter.kick(sim, p.velocity, none, none, 0.0, 0.3 / parts)
+            sim.matter.kick(sim, p.velocity, none, none, np.zeros(1), 0.3 / parts)
         middle = abs(p.x - p.x.mean()) < 6.0
         found.append(p.velocity[0, middle & (p.phase == WATER)] - p.velocity[0, middle & (p.phase != WATER)])
     exact = math.exp(-0.3 * rate(1.0))
@@ -217,7 +218,7 @@ def basin(cells, across, spacing, column, per_cell=1, friction_angle=0.0, numeri
         grid, column=column, erosion="none", friction={"law": "coulomb", "basal_friction_angle": friction_angle},
         numerics=fine | (numerics or {}), **given,
     ))  # fmt: skip
-    flow._simulation._arrested = False
+    flow._simulation.set_free()
     return flow
 
 

@@ -1,0 +1,13 @@
+"""Any release runs: three thousand random ones, each site with its own volume and its own particles, where it failed."""
+
+import pytest
+
+from .release_fields import KINDS, examine
+
+NUMBER = 335
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_any_release(kind):
+    for seed in range(NUMBER):
+        examine(kind, seed)

@@ -1,0 +1,124 @@
+"""Rest is local: each body comes to rest by its own motion, and those that touch each other rest together."""
+
+import numpy as np
+import pytest
+
+from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow.model.rest import find_bodies
+
+from ..grids import dry_block, inclined, release
+
+FOOT = 300.0
+"""Where both slopes of `two_slopes` end [m]."""
+
+
+def two_slopes(slow=0.0, fast=0.0, flow="one_phase", laid=0.0):
+    """Return a flow on a grid with a gentle slope in the south, a steep one in the north, and a ridge between.
+
+    `slow` and `fast` are the depths that fail there [m]: some 10 m3 creep, 20 000 m3 rush. `laid` is another that
+    lies on the flat at the foot of the steep slope.
+    """
+    grid = inclined((61, 121), 5.0, 0.0)
+    x, y = grid.x_of_node, grid.y_of_node
+    z = np.where(y > 150.0, 0.7, 0.32) * np.maximum(0.0, FOOT - x) + 100.0 * np.exp(-(((y - 100.0) / 20.0) ** 2))
+    depth = slow * (np.hypot(x - 40.0, y - 40.0) < 7.0) + fast * (np.hypot(x - 60.0, y - 220.0) < 40.0)
+    depth += laid * (np.hypot(x - 450.0, y - 220.0) < 12.0)
+    grid.at_node["topographic__elevation"][:] = z + depth
+    release(grid, depth)
+    keywords = dry_block(0.3, particle_count=1 if fast == 0.0 else 400)
+    if flow == "two_phase":
+        keywords["material"] = {}
+        keywords["friction"] = {"law": "coulomb", "basal_friction_angle": 31.1}  # 0.3 of the weight, as the dry block
+    return DebrisFlow(grid, flow=flow, **keywords)
+
+
+def south(flow):
+    """Return the mean place along the slope [m] and speed [m/s] of what failed in the south."""
+    p = flow.particles
+    here = p.y.values < 100.0
+    return float(p.x.values[here].mean()), float(np.hypot(p.velocity_x, p.velocity_y).values[here].mean())
+
+
+def test_a_slow_slide_does_not_stop_because_a_large_one_did():
+    alone, beside = two_slopes(slow=1.0), two_slopes(slow=1.0, fast=6.0)
+    for flow in (alone, beside):
+        assert flow.run_until_rest(600.0) is True
+    # until 300 m on 0.32 it gains 0.02 g cos(theta), then loses 0.3 g: it comes to rest some 17 m beyond the foot
+    assert south(alone)[0] == pytest.approx(FOOT + 17.0, abs=3.0)
+    # steps differ, and a slide of one particle stops where steps end
+    assert south(beside)[0] == pytest.approx(south(alone)[0], abs=1.0)
+
+
+def test_a_large_slide_that_has_stopped_stays_so_while_a_slow_one_moves():
+    flow = two_slopes(slow=1.0, fast=6.0)
+    flow.run_one_step(40.0)
+    p = flow._simulation.particles
+    north = p.y > 150.0
+    assert not p.velocity[:, north].any() and np.all(p.arrested[north] == 1)
+    assert south(flow)[1] > 1.0 and not flow.at_rest
+    before = p.x[north].copy()
+    flow.run_one_step(1.0)
+    np.testing.assert_array_equal(flow._simulation.particles.x[flow._simulation.particles.y > 150.0], before)
+
+
+def test_what_lies_elsewhere_is_not_woken_by_a_release():
+    flow = two_slopes(fast=6.0)
+    flow.run_until_rest(200.0)
+    p = flow._simulation.particles
+    before = np.sort(p.x[p.y > 150.0])
+    flow.grid.at_node["debris_flow__release_depth"][15 * 121 + 8] = 1.0  # on the side of the ridge
+    flow.run_one_step(5.0)
+    p = flow._simulation.particles
+    assert south(flow)[1] > 0.5
+    np.testing.assert_array_equal(np.sort(p.x[p.y > 150.0]), before)
+
+
+def test_a_flow_sets_free_what_it_runs_into():
+    flow = two_slopes(laid=2.0)
+    assert flow.run_until_rest() is True
+    lying = flow._simulation.particles.count
+    flow.grid.at_node["debris_flow__release_depth"][:] = two_slopes(fast=6.0).grid.at_node["debris_flow__release_depth"]
+    was = float(flow.particles.x.mean())
+    flow.run_until_rest(200.0)
+    p = flow._simulation.particles
+    assert p.x[np.argsort(p.identity)[:lying]].mean() > was + 5.0
+
+
+def test_a_slow_slide_of_two_phases_does_not_stop_either():
+    alone, beside = two_slopes(slow=1.0, flow="two_phase"), two_slopes(slow=1.0, fast=6.0, flow="two_phase")
+    for flow in (alone, beside):
+        flow.run_one_step(45.0)
+    assert south(beside)[1] > 1.0
+    assert south(beside) == pytest.approx(south(alone), rel=0.02)  # steps differ
+
+
+def test_bodies_are_those_that_feel_each_other():
+    rng = np.random.default_rng(0)
+    for n in (1, 2, 30, 300):
+        x, y, z = rng.uniform(0.0, 30.0, (3, n)) * np.array([[1.0], [1.0], [0.1]])
+        support = rng.uniform(0.2, 2.0, n)
+        distance = np.sqrt(sum((a[:, None] - a) ** 2 for a in (x, y, z)))
+        linked = distance < np.maximum(support[:, None], support)
+        label = np.arange(n)
+        while True:  # the slow way: everybody takes the least number of those it feels
+            least = np.where(linked, label, n).min(axis=1)
+            if np.array_equal(least, label):
+                break
+            label = least
+        found = find_bodies(x, y, z, support)
+        np.testing.assert_array_equal(found, np.unique(label, return_inverse=True)[1])
+
+
+def test_the_peak_goes_with_the_particles_when_a_body_parts():
+    flow = two_slopes(fast=6.0)
+    flow.run_one_step(3.0)
+    simulation = flow._simulation
+    rest, p = simulation.rest, simulation.particles
+    rest.look(p)
+    whole = rest._peak.sum()
+    p.x[p.x > np.median(p.x)] += 1000.0
+    rest.look(p)
+    assert rest._peak.sum() == pytest.approx(whole, rel=1e-12)
+    parts = np.bincount(p.body, p.volume)
+    # by volume: within the volume of the few that had parted before
+    np.testing.assert_allclose(np.sort(rest._peak / whole), np.sort(parts / parts.sum()), atol=0.02)
