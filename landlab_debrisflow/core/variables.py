@@ -44,6 +44,8 @@ PARTICLE_VARIABLES = (
     Variable("least_thickness", "m", "thickness below which the smoothing length stays", written=False),
     Variable("smoothing_length", "m", "SPH smoothing length"),
     Variable("next_smoothing_length", "m", "SPH smoothing length of the next step", written=False),
+    Variable("usual_volume", "m3", "volume of a particle of its phase where sites are large enough", written=False),
+    Variable("usual_length", "m", "smoothing length of such a particle in the thickest of the release", written=False),
     Variable("gradient_term", "-", "grad-h term Omega of the SPH sums", initial=1.0, written=False),
     Variable("thickening", "m s-1", "-h div v of the flow", written=False),
     Variable("anchor", "m", "position when it last counted as changed", vector=True, written=False),

@@ -101,6 +101,7 @@ class Mixture:
             p.porosity, self.manning, p.thickness, p.volume, material.solid_density, material.water_density,
             material.gravity, rest_speed, dt,
         )  # fmt: skip
+        _hold_back(velocity, p.light)
 
     def held(self, sim, which: slice, yield_stress, drag):
         """Return which grains friction would hold at rest, and which water drag; `which` are all."""
@@ -167,6 +168,17 @@ class Mixture:
         lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
         x = dt * self.coupling / (p.thickness * n * n) * lightness
         return self.law.stiffness * lightness * _reached(x) * _reached(dt * self.drainage)
+
+
+def _hold_back(velocity, light) -> None:
+    """Let light particles be no faster than the fastest of the others, in place.
+
+    Drag is exchanged with the mean of the partners, in which what weighs next to nothing does not count.
+    """
+    if light.any():
+        speed = np.sqrt((velocity**2).sum(axis=0))
+        fastest = speed[~light].max(initial=0.0)
+        velocity[:, light] *= np.minimum(1.0, fastest / np.maximum(speed[light], 1e-300))
 
 
 def _reached(x):

@@ -84,7 +84,13 @@ def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
     one = np.zeros(count, np.int64)
     one[samples.group] = np.arange(samples.x.size)
     x[outside], y[outside] = samples.x[one[outside]], samples.y[one[outside]]
-    x, y = _relax(x, y, volume, site, _coarsened(samples, count, site), sites, surface)
+    several = np.flatnonzero(counts[site] > 1)  # one alone stands where it should
+    if several.size:
+        held_by = _coarsened(samples, count, site)
+        held_by = held_by.take(counts[held_by.group] > 1)
+        x[several], y[several] = _relax(
+            x[several], y[several], volume[several], site[several], held_by, sites, surface
+        )  # fmt: skip
     x, y, depth = _on_the_map(x, y, sites)
     particle, cell, part = _merged(samples, sites.of_cell.size)
     return Placed(x, y, depth, volume, site, particle, cell, part)
@@ -212,7 +218,8 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     for the samples best. Particles do not leave the failing cells of their site.
     """
     n, x0, y0 = x.size, sites.corner[1] * sites.spacing[0], sites.corner[0] * sites.spacing[1]
-    per_particle = np.bincount(site, volume) / np.bincount(site)  # volume of a particle of each site
+    per_particle = np.zeros(sites.volume.size)
+    per_particle[site] = volume
 
     def length_and_ground(px, py, of):
         ground = surface.sample(px + x0, py + y0)

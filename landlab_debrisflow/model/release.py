@@ -23,12 +23,14 @@ def release_particles(sim, nodes, depth) -> slice:
     raster, material = sim.bed.nodes, sim.physics.material
     sites = find_sites(nodes, depth, raster)
     _warn_of_pits(sim, sites, nodes, depth)
-    placed = place_particles(sites, share_particles(sites.volume, _particle_volume(sim, nodes, depth)), sim.bed.surface)
+    counts = share_particles(sites.volume, _particle_volume(sim, nodes, depth))
+    placed = place_particles(sites, counts, sim.bed.surface)
     ground = sim.bed.surface.sample(placed.x, placed.y)
     normal = placed.depth / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
     thickest = np.zeros(sites.volume.size)
     np.maximum.at(thickest, placed.site, normal)
     least, first = THICKNESS_RANGE * thickest[placed.site], sim.particles.awake
+    usual, deepest = _usual(sim, placed.volume, thickest)
     origin = sim.origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
     for phase, part in sim.matter.parts:
         sim.particles.append(
@@ -36,20 +38,30 @@ def release_particles(sim, nodes, depth) -> slice:
             released_volume=part * placed.volume, depth=placed.depth, thickness=normal, own_thickness=part * normal,
             least_thickness=part * least, porosity=material.porosity, density=material.density, origin=origin,
             smoothing_length=SMOOTHING_RATIO * np.sqrt(placed.volume / np.maximum(normal, least)),
+            usual_volume=part * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
     return slice(first, sim.particles.awake)
 
 
 def _particle_volume(sim, nodes, depth) -> float:
     """Return the volume of a particle that is aimed at [m3]: that of what is there already, if that is more."""
-    p, area = sim.particles, sim.bed.nodes.area
+    area = sim.bed.nodes.area
     wanted = depth.sum() * area / sim.numerics.count_for(nodes.size * area)
-    if p.count == 0:
-        return wanted
+    return max(wanted, float(np.median(_whole_volume(sim)))) if sim.particles.count else wanted
+
+
+def _whole_volume(sim):
+    """Return the volume of particles with that of the other phase around them, shape (n,) [m3]."""
     part = np.ones(2)  # by phase
     for phase, of_it in sim.matter.parts:
         part[phase] = of_it
-    return max(wanted, float(np.median(p.volume / part[p.phase])))
+    return sim.particles.volume / part[sim.particles.phase]
+
+
+def _usual(sim, volume, thickest):
+    """Return volume [m3] of the particles that most of the mass is in, and the largest thickness, old and new [m]."""
+    volume = np.concatenate([volume, _whole_volume(sim)])
+    return (volume**2).sum() / volume.sum(), max(thickest.max(), sim.particles.thickness.max(initial=0.0))
 
 
 def _warn_of_pits(sim, sites, nodes, depth) -> None:

@@ -175,7 +175,8 @@ def interact(sim) -> None:
     if p.count == 0:
         sim.computed = np.zeros(0, bool)
         return
-    longest = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness)
+    longest, light = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness), p.light
+    longest[light] = p.usual_length[light]
     mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
@@ -193,6 +194,7 @@ def interact(sim) -> None:
     sim.inflow.hold_thickness(p, sim.matter.parts)
     sim.matter.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
+    p.smoothing_length[light] = p.usual_length[light]
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity

@@ -128,18 +128,27 @@ def survey(
     waves, growth, across, energy, fastest, broken = _survey(
         p.awake, computed, cosine, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
         p.own_thickness, p.thickening, stiff, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
-        p.entrainment_rate, p.depth,
+        p.entrainment_rate, p.depth, p.light,
     )  # fmt: skip
     longest = min(courant_number / max(waves, 1e-300), GROWTH / max(growth, 1e-300), across)
     return Survey(longest, energy, fastest, broken)
 
 
+MOST_CONVERGENCE = 14.0 / 3.0
+"""Largest rate of thickening, over largest speed / smoothing length, of even flow [-]: two speeds, times the integral
+of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow thickens faster than that."""
+
+
 @kernel
 def _survey(
     count, computed, cosine, gravity, way, velocity, thrust, thickness, own_thickness, thickening, stiff,
-    smoothing_length, volume, pressure, entrainment_rate, depth,
+    smoothing_length, volume, pressure, entrainment_rate, depth, light,
 ):  # fmt: skip
     waves, growth, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
+    most = 0.0
+    for i in range(count):
+        most = max(most, velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
+    most = MOST_CONVERGENCE * np.sqrt(most)
     for i in range(count):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
@@ -148,12 +157,16 @@ def _survey(
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if computed[i]:
             fastest_wave = np.sqrt(celerity * celerity + stiff[min(i, stiff.size - 1)])
-            waves = max(waves, fastest_wave / smoothing_length[i] + max(thickening[i], 0.0) / own_thickness[i])
+            converging = max(thickening[i], 0.0) / own_thickness[i]
+            if light[i]:
+                converging = min(converging, most / smoothing_length[i])
+            waves = max(waves, fastest_wave / smoothing_length[i] + converging)
         # v dt + 1/2 a dt^2 within the way, also of those that wait: with the most that thrust and gravity, or friction,
         # can do, so that stopping is resolved to that way, too
         gain = gravity + np.sqrt(push2)
         across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
-        growth = max(growth, entrainment_rate[i] / depth[i])
+        if not light[i]:
+            growth = max(growth, entrainment_rate[i] / depth[i])
         energy += volume[i] * speed2
         fastest = max(fastest, speed + celerity)
     return waves, growth, across, energy, fastest, broken

@@ -1,4 +1,4 @@
-"""Any release runs: three thousand random ones, each site with its own volume and its own particles, where it failed."""
+"""Any release runs: three thousand random ones, each site with its own volume and particles, where it failed."""
 
 import pytest
 

@@ -193,8 +193,9 @@ def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
     after = momentum(flow)
     assert flow.budget["outflow"] == 0.0
     # What remains of all thrust is that of the images behind the wall, and points away from it: measured .69 of the
-    # momentum there was, and at most 3e-4 are left to the wall itself. Along it, too, 3e-4: what has come nearer than a quarter
-    # of its spacing has its image farther off, and then an image pulls along the wall otherwise than it is pulled
+    # momentum there was, and at most 3e-4 are left to the wall itself. Along it, too, 3e-4: what has come nearer than a
+    # quarter of its spacing has its image farther off, and then an image pulls along the wall otherwise than it is
+    # pulled
     assert impulse[0] <= 0.0 and sums.thrust[0] < -0.5 * before[0] and abs(sums.thrust[1]) < 5e-4 * before[0]
     np.testing.assert_allclose(after - before, impulse + sums.thrust, rtol=0, atol=1e-12 * before[0])
 

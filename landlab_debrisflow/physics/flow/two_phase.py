@@ -7,6 +7,9 @@ from ...spatial.across import Across, Crossing, cells_of, sum_across
 from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 
+MOST_CROSSED = 4.0
+"""Largest cross term that counts: flows show up to 2, and a particle of next to no mass beside others 1e15 [-]."""
+
 
 @declared
 class TwoPhase:
@@ -86,8 +89,12 @@ class TwoPhase:
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
         """
-        material, share, pressure = state.material, state.share, state.mean_pressure / thickness
+        material, share = state.material, state.share
+        # water has that of the grains around it, and bears no more of it than its own thickness lets it
+        grain_weight = (material.solid_density - material.water_density) * np.where(water, 1.0 - share, share)
+        bounds = -0.5 * material.water_density * normal_gravity, 0.5 * grain_weight * normal_gravity
+        pressure = np.clip(state.mean_pressure / thickness, *bounds)
         shared = 0.5 * material.water_density * normal_gravity + pressure
         grains = 0.5 * (material.solid_density - material.water_density) * normal_gravity / share - pressure / share**2
-        within = shared * (1.0 - state.cross_term) + np.where(water, 0.0, grains)
+        within = shared * (1.0 - np.clip(state.cross_term, -MOST_CROSSED, MOST_CROSSED)) + np.where(water, 0.0, grains)
         return within / state.gradient_term, shared
