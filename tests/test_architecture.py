@@ -1,6 +1,7 @@
 """The shape of the package: layers, file length, names (design, sections 1 to 3 and 6)."""
 
 import ast
+import importlib
 import pathlib
 
 import landlab
@@ -82,6 +83,15 @@ def test_only_what_stands_on_top_knows_landlab(module):
 def test_numba_is_named_in_one_place(module):
     named = any(name[0] == "numba" for name in imports(MODULES[module]))
     assert named == (module == "core/jit")
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_a_kernel_calls_no_kernel(module):
+    # the copies in the callers differ by rounding, and which one is called depends on the cache (core/jit.py)
+    known = vars(importlib.import_module(f"landlab_debrisflow.{module}".replace("/", ".").removesuffix(".__init__")))
+    kernels = {name: value.py_func for name, value in known.items() if hasattr(value, "py_func")}
+    calls = {name: set(function.__code__.co_names) & set(kernels) for name, function in kernels.items()}
+    assert {name: called for name, called in calls.items() if called} == {}
 
 
 @pytest.mark.parametrize("module", MODULES)
