@@ -3,6 +3,7 @@
 from typing import ClassVar
 
 from landlab import Component, RasterModelGrid
+from landlab.core.model_component import classproperty
 
 from . import inputs
 from .calls import Calls
@@ -83,6 +84,15 @@ class DebrisFlow(Component):
         entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
         self._simulation = Simulation(self._physics, self._numerics, entering)
         self._calls = Calls(self, self._simulation)
+
+    @classproperty
+    @classmethod
+    def input_var_names(cls):
+        """Names of the fields that are read if they are there, sorted; `wrap_as_bmi` lets these be set, no others.
+
+        Landlab's own list leaves out all that is optional.
+        """
+        return tuple(sorted(name for name, entry in cls._info.items() if "in" in entry["intent"]))
 
     # ---- what a user calls ----
 

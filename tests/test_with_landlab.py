@@ -4,10 +4,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
+from landlab import RasterModelGrid
 from landlab.bmi import wrap_as_bmi
 from landlab.components import DepthDependentDiffuser, FlowAccumulator, SpaceLargeScaleEroder
 
-from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow import DebrisFlow, InputError
 
 from .grids import COARSE, release_slab
 
@@ -153,10 +154,91 @@ def test_update_until_ends_where_it_should(bmi):
     assert bmi.get_current_time() == bmi._base.elapsed_time == 9.0
 
 
-def test_a_release_set_through_bmi_fails(bmi):
-    # Landlab's wrapper offers optional fields by pointer and index only, not in `set_value`
+def test_release_and_soil_set_through_bmi_are_those_of_the_next_step(bmi):
     bmi.update_until(90.0)
-    bmi.get_value_ptr("soil__depth")[:] += 0.01
-    bmi.set_value_at_indices("debris_flow__release_depth", [10 * 40 + 8], 0.01)
+    released = bmi._base.budget["released"]
+    soil, failing = np.full(800, 0.25), np.zeros(800)
+    failing[10 * 40 + 8] = 0.2
+    bmi.set_value("soil__depth", soil)
+    bmi.set_value("debris_flow__release_depth", failing)
+    assert bmi.get_value("debris_flow__release_depth", np.empty(800)).tolist() == failing.tolist()
     bmi.update()
-    assert bmi._base.budget["released"] == pytest.approx(225.25, rel=1e-14)
+    assert bmi._base.budget["released"] == pytest.approx(released + 0.2 * 25.0, rel=1e-14)
+    assert not bmi.get_value("debris_flow__release_depth", np.empty(800)).any()
+    assert 0.0 < bmi.get_value(SOIL, np.empty(800))[10 * 40 + 8] <= 0.05  # what failed is gone, and it erodes
+    bmi.set_value("debris_flow__release_depth", 2.0 * failing)
+    with pytest.raises(InputError, match=r"deeper than soil__depth .* node 408"):
+        bmi.update()
+
+
+def test_every_input_can_be_set_through_bmi():
+    def described(name):
+        kind = "int" if name == "mass__wasting_id" else "float"
+        return f"          {name}: {{constant: [{{value: 0, dtype: {kind}}}]}}\n"
+
+    given = ("mass__wasting_id", "bed__excess_pore_pressure_ratio", "bed__drained")
+    model = wrap_as_bmi(DebrisFlow)()
+    model.initialize(CONFIG + "".join(map(described, given)))
+    ids, ratio = np.zeros(800, int), np.full(800, 0.25)
+    ids[10 * 40 + 8] = 7
+    for name, values in zip(given, (ids, ratio, np.ones(800)), strict=True):
+        assert name in model.get_input_var_names()
+        model.set_value(name, values)
+        assert model.get_value(name, values.copy()).tolist() == values.tolist()
+    model.update()
+    assert model._base.budget["released"] == 25.0  # all the soil of one node
+    bed = model._base._simulation.bed
+    assert bed.pressure_ratio.tolist() == ratio.tolist() and bed.drained.all()
+
+
+def test_the_load_of_a_bed_can_be_set_through_bmi():
+    model = wrap_as_bmi(DebrisFlow)()
+    model.initialize(CONFIG.replace("{porosity: 0.35}", "{bed_loading_coefficient: 0.5}"))
+    model.set_value("bed__excess_pore_pressure", np.full(800, 500.0))
+    assert model.get_value("bed__excess_pore_pressure", np.empty(800)).tolist() == [500.0] * 800
+
+
+def climbing():
+    """Return a flow that slides down to x = 100 m and up again."""
+    grid = RasterModelGrid((20, 60), xy_spacing=5.0)
+    grid.add_field(Z, 0.4 * abs(grid.x_of_node - 100.0), at="node")
+    release_slab(grid, (30.0, 48.0), 8.0, 1.0)
+    friction = {"law": "coulomb", "basal_friction_angle": 5.0}
+    return DebrisFlow(grid, friction=friction, erosion="none", numerics=COARSE)
+
+
+@pytest.mark.parametrize("rate", [5.0, -5.0], ids=["uplift", "subsidence"])
+def test_what_moves_all_ground_is_no_run_up(rate):
+    highest = []
+    for shift in (1e-9, rate):  # in the reference the ground moves too, by nothing: then all sums are done anew
+        flow = climbing()
+        for _ in range(5):
+            flow.run_one_step(2.0)
+            flow.grid.at_node[Z] += shift
+        highest.append(flow.grid.at_node["debris_flow__max_run_up"].copy())
+    assert highest[0].max() > 15.0
+    assert abs(highest[1] - highest[0]).max() < 1e-6  # rounding of elevations, 1e-14, grown in 10 s
+
+
+MOVES = {
+    "tilted up": lambda x: 0.02 * x,
+    "tilted down": lambda x: -0.02 * x,
+    "raised where it has climbed": lambda x: 3.0 * (x > 120.0),
+    "lowered where it has climbed": lambda x: -3.0 * (x > 120.0),
+    "lowered where it was lowest": lambda x: -3.0 * (abs(x - 100.0) < 15.0),
+}
+
+
+@pytest.mark.parametrize("move", MOVES.values(), ids=MOVES)
+def test_ground_that_others_move_is_neither_rise_nor_fall(move):
+    flow = climbing()
+    flow.run_one_step(8.0)
+    p, highest = flow._simulation.particles, flow.grid.at_node["debris_flow__max_run_up"]
+    order, peak = np.argsort(p.identity), highest.copy()
+    before = (p.z - p.lowest_z)[order]
+    assert before.max() > 10.0
+    for _ in range(3):
+        flow.grid.at_node[Z] += move(flow.grid.x_of_node)
+        flow.run_one_step(1e-6)
+        assert (p.z - p.lowest_z)[np.argsort(p.identity)] == pytest.approx(before, abs=1e-3)  # at 1e-6 s x 15 m/s
+    assert (highest - peak).max() < 0.5  # of the depth, whose sums are done anew

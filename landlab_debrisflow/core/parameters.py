@@ -46,6 +46,9 @@ class NodeValues:
         self.values = values.copy()
         self.values.flags.writeable = False
 
+    def __reduce__(self):
+        return NodeValues, (self.values,)  # an array by itself would come out of a pickle writeable
+
     def __eq__(self, other):
         return isinstance(other, NodeValues) and np.array_equal(self.values, other.values)
 
@@ -99,6 +102,11 @@ def declared(cls):
         if hasattr(self, "_agree"):
             self._agree()
 
+    def state(self):
+        # without the SI numbers, once they were asked for: they follow from the rest, and their type has no module
+        return {name: value for name, value in vars(self).items() if name != "si"}
+
+    cls.__getstate__ = state
     cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
     cls.si = functools.cached_property(_in_si)  # the numbers in SI units, degrees as radians
     cls.si.__set_name__(cls, "si")

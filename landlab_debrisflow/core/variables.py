@@ -96,7 +96,8 @@ NODE_FIELDS = (
     NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
     NodeField(
         "mass__wasting_id", "inout", "-",
-        "integer or float id of each mass wasting area is assigned to all nodes representing the mass wasting area.",
+        "integer or float id of each mass wasting area is assigned                 "  # a continued line there
+        "to all nodes representing the mass wasting area.",
         True, int,
     ),
     NodeField(

@@ -160,10 +160,12 @@ NOWHERE = -1
 
 def find_ground(sim, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
-    p = sim.particles
+    p, before = sim.particles, sim.particles.z.copy()
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
     owed = sim.owed if dt > 0.0 else np.empty(0)
     follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
+    if dt == 0.0:  # nothing has moved but the ground: that is neither rise nor fall of the flow
+        p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)
     sim.node = sim.bed.nodes.nearest(p.x, p.y)
     count_still_steps(p.x, p.y, p.z, p.volume, p.smoothing_length, p.anchor, p.anchor_volume, p.still_steps)

@@ -7,6 +7,7 @@ window: how many cells away the farthest cell lies whose reach, or its own, span
 A cell sleeps while nothing in its window has changed: its sums would come out the same.
 """
 
+import os
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from itertools import pairwise
@@ -126,7 +127,8 @@ def _wake(columns, rows, size, order, start, reach, window, awake, computed):
 
 
 @lru_cache(maxsize=4)
-def _pool(threads: int) -> ThreadPoolExecutor:
+def _pool(process: int, threads: int) -> ThreadPoolExecutor:
+    """Return the threads of a process; a forked one inherits the object, but none of its threads."""
     return ThreadPoolExecutor(threads, thread_name_prefix="debrisflow")
 
 
@@ -142,5 +144,6 @@ def over_cells(function, cells: Cells, threads: int, *arguments):
         return
     parts = np.searchsorted(cells.start, np.linspace(0, cells.order.size, threads + 1))
     parts[0], parts[-1] = 0, count
-    for future in [_pool(threads).submit(function, int(a), int(b), *arguments) for a, b in pairwise(parts)]:
+    pool = _pool(os.getpid(), threads)
+    for future in [pool.submit(function, int(a), int(b), *arguments) for a, b in pairwise(parts)]:
         future.result()

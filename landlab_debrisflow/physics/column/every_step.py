@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import inner
 from ..contracts import BASE_BY_EROSION, BASE_PRESCRIBED
 from .scheme import OVERBURDEN, PROPORTIONAL
 
@@ -17,13 +17,13 @@ GROWTH_CAP = 1e9  # growth after which all is new
 PASSED_CAP = 1e9  # c_v dt / h^2 after which nothing is left
 
 
-@kernel
+@inner
 def eta_of(levels):
     """Return the depth below the surface over the thickness, at the levels."""
     return 1.0 - np.arange(levels) / (levels - 1)
 
 
-@kernel
+@inner
 def begin_step(columns, forcing, dt, scheme):
     """Load all columns and return what else the step does to them, shape (n, 3)."""
     # taken out of their tuples once: numba counts references at every access
@@ -52,7 +52,7 @@ def begin_step(columns, forcing, dt, scheme):
     return steps
 
 
-@kernel
+@inner
 def _contact(base, entrained, flux):
     """Return what a column stands on in a step."""
     if base == BASE_PRESCRIBED:
@@ -62,7 +62,7 @@ def _contact(base, entrained, flux):
     return IMPERMEABLE
 
 
-@kernel
+@inner
 def _over(part, whole, cap):
     """Return ``part / whole``, at most ``cap``, and 0 for nothing of nothing."""
     if part == 0.0:
@@ -70,7 +70,7 @@ def _over(part, whole, cap):
     return cap if part >= cap * whole else part / whole  # a NaN stays one
 
 
-@kernel
+@inner
 def _loading(volume, before, load, old_load, scheme):
     """Return what loading adds to the pressure, over eta, and what it multiplies it by."""
     if scheme.loading == OVERBURDEN:
@@ -85,7 +85,7 @@ def _loading(volume, before, load, old_load, scheme):
     return 0.0, 1.0
 
 
-@kernel
+@inner
 def _load(profile, i, eta, lift, scale, gain, held):
     """Add to one column what loading and a change of porosity do to it, the latter not where the base is held."""
     profile[i, 0] = scale * profile[i, 0] + lift + (0.0 if held else gain)
@@ -94,7 +94,7 @@ def _load(profile, i, eta, lift, scale, gain, held):
     profile[i, eta.size - 1] = 0.0
 
 
-@kernel
+@inner
 def end_step(columns, forcing, basal_pressure):
     """Hold all columns between suction and liquefaction, count what that takes off, and write the base."""
     profile, clipped, lower = columns.profile, columns.clipped, forcing.water_to_buoyant

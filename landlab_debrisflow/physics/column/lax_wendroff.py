@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import inner, kernel
 from .every_step import CONTACT, GROWTH, PASSED, PRESCRIBED, begin_step, end_step
 
 MOST_SUBSTEPS = 100_000
@@ -50,7 +50,7 @@ def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
     end_step(columns, forcing, basal_pressure)
 
 
-@kernel
+@inner
 def _take_substeps(profile, i, count, growth, passed, held, bed):
     """Advance one column in ``count`` sub-steps; the pressure of a base that is held goes to ``bed`` evenly."""
     cells, first = profile.shape[1] - 1, profile[i, 0]
@@ -65,7 +65,7 @@ def _take_substeps(profile, i, count, growth, passed, held, bed):
         profile[i, 0] = bed
 
 
-@kernel
+@inner
 def _advect(profile, i, grown):
     """Take one Lax-Wendroff step, with ``(A p_x)_x`` in its second-order term, in which a column grows by ``grown``."""
     cells = profile.shape[1] - 1
@@ -81,7 +81,7 @@ def _advect(profile, i, grown):
         below = here
 
 
-@kernel
+@inner
 def _diffuse(profile, i, number, held):
     """Take one explicit step of diffusion with the cell Fourier number ``number``; mirrored at a base not held."""
     below = profile[i, 0]

@@ -10,7 +10,7 @@ and leaves through the surface is what the content changes by, to rounding.
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import inner, kernel
 from .every_step import CONTACT, GROWTH, INFLOW, PASSED, PRESCRIBED, begin_step, end_step
 
 
@@ -45,7 +45,7 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
     end_step(columns, forcing, basal_pressure)
 
 
-@kernel
+@inner
 def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
     """Solve for one column at the end of the step, by the algorithm of Thomas from the base to the surface.
 
@@ -70,7 +70,7 @@ def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
         profile[i, k] += work[k] * profile[i, k + 1]
 
 
-@kernel
+@inner
 def _face(courant, diffusion):
     """Return how much of the level below a face acts on the one above, and the other way."""
     down = max(diffusion - 0.5 * courant, 0.0)
