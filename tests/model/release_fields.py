@@ -79,12 +79,31 @@ def slab(rng, x, y):
 KINDS = (mound, isolated_cells, ring, speckles, decades, slivers, towers, everywhere, slab)
 
 
+SPACINGS = ((5.0, 5.0), (5.0, 5.0), (0.5, 0.7), (1.0 / 3.0, 10.0), (17.3, 20.0))
+"""Node spacings (dx, dy) [m]."""
+
+_grids = {}
+
+
+def empty_grid(spacing, offset):
+    """Return a grid without fields and with open edges; each is made once, which takes longer than what is tested."""
+    key = spacing, offset
+    if key not in _grids:
+        _grids[key] = RasterModelGrid(SHAPE, xy_spacing=spacing, xy_of_lower_left=offset)
+    grid = _grids[key]
+    for name in list(grid.at_node):
+        grid.delete_field("node", name)
+    grid.status_at_node[:] = grid.BC_NODE_IS_CORE
+    grid.status_at_node[grid.perimeter_nodes] = grid.BC_NODE_IS_FIXED_VALUE
+    return grid
+
+
 def make(kind, seed):
     """Return a grid with a release of some kind, and numerics."""
     rng = np.random.default_rng([KINDS.index(kind), seed])
-    spacing = (5.0, 5.0) if rng.random() < 0.5 else (float(rng.uniform(0.5, 20.0)), float(rng.uniform(0.5, 20.0)))
+    spacing = SPACINGS[rng.integers(len(SPACINGS))]
     offset = (0.0, 0.0) if rng.random() < 0.5 else (587_312.7, 5_204_118.3)
-    grid = RasterModelGrid(SHAPE, xy_spacing=spacing, xy_of_lower_left=offset)
+    grid = empty_grid(spacing, offset)
     y, x = np.mgrid[0.0 : SHAPE[0], 0.0 : SHAPE[1]]
     slope = rng.uniform(-0.6, 0.6, 2)
     z = rng.choice([0.0, 2000.0]) + slope[0] * x * spacing[0] + slope[1] * y * spacing[1] + rng.normal(0, 0.1, SHAPE)
