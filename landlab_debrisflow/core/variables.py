@@ -58,6 +58,7 @@ PARTICLE_VARIABLES = (
     Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
     Variable("inflow_row", "-", "row of the inflow it still moves with, -1: flows by itself", "i8", -1, written=False),
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
+    Variable("counted_at_wall", "-", "1 once that was counted", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
 )
 

@@ -1,6 +1,5 @@
 """The event: clock, loop, release, rest and settling."""
 
-import logging
 from copy import copy
 
 import numpy as np
@@ -18,9 +17,8 @@ from .particles import Particles
 from .physics import Physics
 from .release import release_particles
 from .single import Single
+from .stopped import Stopped
 from .timestep import Pace
-
-log = logging.getLogger("landlab_debrisflow")
 
 MOST_UNHELD = 0.5
 """Part of the volume that may lie where friction does not hold it when all is stopped."""
@@ -45,6 +43,7 @@ class Simulation:
         self.matter = Mixture(physics) if physics.two_phases else Single(physics)
         self.time = 0.0
         self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
+        self.stopped = Stopped()
         self._peak_energy, self._arrested = 0.0, False
         self.rest_speed = 0.0  # see motion.kick [m s-1]
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
@@ -217,17 +216,6 @@ class Simulation:
             p.entrainment_rate[:] = 0.0
             self._arrested = True
 
-    def warn_of_walls(self) -> None:
-        """Log how much ran against closed or NODATA nodes since the last warning."""
-        p = self.particles
-        if volume := float(p.volume[p.touched_wall > 0].sum()):
-            log.warning(
-                "%.3g m3 ran against closed or NODATA nodes at %.4g s: obstacles, or the DEM is too small",
-                volume,
-                self.time,
-            )
-            p.touched_wall[:] = 0
-
     def resting_depth(self):
         """Return nodes and the depth of particles that lie still on them [m]."""
         p = self.particles
@@ -239,6 +227,8 @@ class Simulation:
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
         now = self.particles
+        if now.count == 0:  # also before there is a bed
+            return now.excess_pore_pressure
         self.particles = now.copy()  # looking must not change how a law keeps its columns
         try:
             none, every = np.zeros(now.count), slice(now.count)
@@ -268,6 +258,7 @@ class Simulation:
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
         kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps", "settled_solid")}
+        kept["stopped"] = copy(self.stopped)
         return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
 
     def restore(self, snapshot) -> None:
