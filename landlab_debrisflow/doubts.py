@@ -99,6 +99,7 @@ def about_coordinates(grid) -> Iterator[str]:
 
 # ---- names ----
 
+RELEASE = "debris_flow__release_depth"
 OUR_NAMES = tuple(field.name for field in NODE_FIELDS)
 UNSAID = {"debris", "flow", "landslide", "initial", "depth", "thickness", "height", "m"}
 """Words of a field's name that say nothing about which field is meant."""
@@ -111,14 +112,14 @@ def about_names(grid, physics) -> Iterator[str]:
     """Yield fields that look like inputs of ours which are missing; the release may come later."""
     laws = (physics.friction, physics.erosion)
     read = {getattr(law, f.name) for law in laws if dataclasses.is_dataclass(law) for f in dataclasses.fields(law)}
-    for field in NODE_FIELDS:
-        if "in" in field.intent and field.name not in grid.at_node and not field.name.startswith("debris_flow"):
-            for name in misnamed(grid, field.name):
-                if name not in read:
-                    yield (
-                        f"the grid has no field {field.name!r}, but one named {name!r}: was it meant? It is not read; "
-                        f"grid.add_field({field.name!r}, grid.at_node[{name!r}], at='node')"
-                    )
+    missing = [f.name for f in NODE_FIELDS if "in" in f.intent and f.name not in grid.at_node and f.name != RELEASE]
+    for name in sorted(set(grid.at_node) - set(OUR_NAMES) - read):
+        ours = max(missing, key=lambda ours: _likeness(name, ours), default="")
+        if name in misnamed(grid, ours):
+            yield (
+                f"the grid has no field {ours!r}, but one named {name!r}: was it meant? It is not read; "
+                f"grid.add_field({ours!r}, grid.at_node[{name!r}], at='node')"
+            )
 
 
 def misnamed(grid, ours: str) -> list[str]:
@@ -128,12 +129,10 @@ def misnamed(grid, ours: str) -> list[str]:
 
 
 def _likeness(name: str, ours: str) -> float:
-    one, other = (_core(n) for n in (name, ours))
-    return difflib.SequenceMatcher(None, one, other).ratio() if one and other else 0.0
-
-
-def _core(name: str) -> str:
-    return "_".join(word for word in name.lower().replace("-", "_").split("_") if word and word not in UNSAID)
+    """Return how alike two names are, as they are or without what is left unsaid, from 0 to 1."""
+    one, other = ([word for word in n.lower().replace("-", "_").split("_") if word] for n in (name, ours))
+    pairs = (one, other), tuple([word for word in n if word not in UNSAID] for n in (one, other))
+    return max((difflib.SequenceMatcher(None, *map("_".join, p)).ratio() for p in pairs if all(p)), default=0.0)
 
 
 # ---- release ----
@@ -141,9 +140,9 @@ def _core(name: str) -> str:
 
 def about_nothing(grid, soil) -> str:
     """Return what stands in the way of a release where none was found, as the end of a sentence."""
-    release, ids = "debris_flow__release_depth", "mass__wasting_id"
-    if names := misnamed(grid, release):
-        return f"; {names[0]!r} is not read: was it meant? grid.at_node[{release!r}][:] = grid.at_node[{names[0]!r}]"
+    if names := misnamed(grid, RELEASE):
+        return f"; {names[0]!r} is not read: was it meant? grid.at_node[{RELEASE!r}][:] = grid.at_node[{names[0]!r}]"
+    ids = "mass__wasting_id"
     marked = np.count_nonzero(grid.at_node[ids] > 0) if ids in grid.at_node else 0
     if marked and soil is None:
         return f"; {ids} > 0 at {marked} nodes lets the soil fail there, but the grid has no soil__depth: add it"
