@@ -89,7 +89,8 @@ class DebrisFlow(Component):
         with inputs.no_new_fields(grid):
             super().__init__(grid)
             inputs.check_boundaries(grid)
-            odd = [*doubts.about_coordinates(grid), *doubts.about_names(grid, self._physics)]
+            odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
+            odd += doubts.about_names(grid, self._physics)
             inputs.add_fields(self)
             entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
             self._simulation = Simulation(self._physics, self._numerics, entering)

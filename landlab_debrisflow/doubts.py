@@ -63,24 +63,18 @@ def _odd(field, values) -> str:
     return ""
 
 
-# ---- coordinates ----
+# ---- coordinates and elevations ----
 
 
 def about_coordinates(grid) -> Iterator[str]:
-    """Yield what is odd about the coordinates and elevations of the grid."""
-    used = grid.status_at_node != CLOSED
-    z = grid.at_node["topographic__elevation"][used]
-    z = z[np.isfinite(z)]
-    if np.any((z < LOWEST) | (z > HIGHEST)):
-        z = z[~is_fill(z)]  # refused when the ground is read
-    low, high = (float(z.min()), float(z.max())) if z.size else (0.0, 0.0)
-    corner = np.array(grid.xy_of_lower_left)
-    extent = np.array([grid.dx, grid.dy]) * (np.array(grid.shape[::-1]) - 1)
+    """Yield what is odd about the coordinates of the grid; what is upright in metres is ground in degrees or km."""
+    corner, spacing = np.array(grid.xy_of_lower_left), np.array([grid.dx, grid.dy])
+    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _ends(grid)
     on_globe = bool(np.all(np.abs([corner, corner + extent]) <= [[360.0, 90.0]] * 2))
-    small, far = max(grid.dx, grid.dy) < DEGREES_BELOW, bool(np.any(np.abs(corner) > 10.0 * extent))
-    upright = max(grid.dx, grid.dy) < 1.0 and low > LOWEST and high < HIGHEST and high - low > UPRIGHT * extent.max()
+    fine, far = spacing.max() < DEGREES_BELOW, bool(np.any(np.abs(corner) > 10.0 * extent))
+    upright = spacing.max() < 1.0 and high - low > UPRIGHT * extent.max() and low >= LOWEST and high <= HIGHEST
     named = any(str(unit).lower().startswith(("deg", "°")) for unit in grid.axis_units)
-    if named or (on_globe and (upright or (small and far))):
+    if named or (on_globe and (upright or (fine and far))):
         yield (
             f"the coordinates of the grid look like degrees (nodes every {grid.dx:.3g} from {corner[0]:g}, "
             f"{corner[1]:g}): all lengths are in m; project the DEM, for instance to UTM, before it is read"
@@ -90,11 +84,25 @@ def about_coordinates(grid) -> Iterator[str]:
             f"the ground falls by {high - low:.4g} m over {extent.max():.4g} m: are the coordinates of the grid in "
             "km? All lengths are in m"
         )
+
+
+def about_elevations(grid) -> Iterator[str]:
+    """Yield what is odd about the height of the ground."""
+    low, high = _ends(grid)
     if low < LOWEST or high > HIGHEST:
         yield (
             f"topographic__elevation goes from {low:g} to {high:g} m, which is nowhere on Earth: was it meant in "
             "another unit? All lengths are in m"
         )
+
+
+def _ends(grid) -> tuple[float, float]:
+    """Return the lowest and the highest elevation at nodes in use [m], without what is refused when it is read."""
+    z = grid.at_node["topographic__elevation"]
+    ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
+    if np.any((z < LOWEST) | (z > HIGHEST), where=ground):
+        ground &= ~is_fill(z)
+    return (float(z.min(where=ground, initial=np.inf)), float(z.max(where=ground, initial=-np.inf)))
 
 
 # ---- names ----
@@ -152,7 +160,7 @@ def about_nothing(grid, soil) -> str:
 
 
 def about_release(grid, nodes, depth) -> Iterator[str]:
-    """Yield the site that is most too deep for its width, if there is one; `depth` [m] fails at some nodes."""
+    """Yield which site is deepest for its width, if deeper than wide; `depth` [m] fails at some nodes."""
     if nodes.size == 0 or depth.max() <= min(grid.dx, grid.dy):
         return
     failing = np.zeros(grid.number_of_nodes)
@@ -169,7 +177,7 @@ def about_release(grid, nodes, depth) -> Iterator[str]:
             row, column = np.unravel_index(site.argmax(), site.shape)
             node = (box[0].start + row) * grid.number_of_node_columns + box[1].start + column
             deepest, narrow = site.max(), width
-    if worst > 1.0:
+    if worst > 1.0 and not any(about_coordinates(grid)):  # of which it would be the consequence
         yield (
             f"a release is deeper than it is wide, {written(round(float(deepest), 3))} m on {narrow:g} m around "
             f"{where(grid, node)}: was the depth meant in cm or mm? A flow of such a shape is not shallow"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow import DebrisFlow, doubts
 
 from .grids import COARSE, copy_fields, inclined, release_slab
 
@@ -120,6 +120,11 @@ def earth(corner, spacing, relief=1500.0, **keywords):
 def test_coordinates_in_degrees(built, corner, spacing, relief):
     messages = built(earth(corner, spacing, relief))
     assert len(messages) == 1 and "degrees" in messages[0] and "project the DEM" in messages[0]
+
+
+def test_what_follows_from_degrees_is_not_said_besides():
+    grid = earth((-121.5, 47.3), 1.0 / 3600.0)
+    assert list(doubts.about_release(grid, np.array([605]), np.array([3.0]))) == []
 
 
 @pytest.mark.parametrize("unit", ["degrees", "Degrees_east", "deg", "°"])
