@@ -265,6 +265,15 @@ def test_a_release_in_centimetres(said):
     assert "150 m on 15 m" in said(grid)[0]
 
 
+def test_deep_releases_are_doubted_once(valley, caplog):
+    flow = DebrisFlow(valley, numerics=COARSE)
+    for _ in range(3):
+        valley.at_node[SOIL][:] = 200.0
+        release_slab(valley, (30.0, 48.0), 8.0, 150.0)
+        flow.run_one_step(1e-6)
+    assert len([m for m in caplog.messages if "deeper than it is wide" in m]) == 1
+
+
 def test_a_release_just_as_deep_as_wide_is_not_doubted(said):
     grid = inclined((20, 60), 5.0, 0.5)
     depth = release_slab(grid, (30.0, 48.0), 8.0, 15.0)
