@@ -5,13 +5,14 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from . import inputs
+from . import doubts, inputs
 from .core.variables import OUTPUT_PREFIX
 from .ground import Ground
 from .inflow_inputs import check_lines, check_strips
 from .model.footprint import NOW, PEAKS, PHASES, Footprint
 from .model.journal import Journal
 from .model.ledger import Ledger
+from .reports import Reports
 from .spatial.transfer import REACH
 
 log = logging.getLogger("landlab_debrisflow")
@@ -33,7 +34,8 @@ class Calls:
         self.ledger = Ledger(grid.dx * grid.dy)
         self._ground = Ground(grid, simulation.physics)
         self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
-        self._said_nothing_to_do = False
+        self._said_nothing_to_do = self._said_deep = False
+        self._reports = Reports(flow, simulation)
 
     def run(self, duration: float, stop_at_rest: bool) -> None:
         """Run for `duration` seconds, or until rest."""
@@ -41,10 +43,10 @@ class Calls:
             self.begin()
             self._advance(duration, stop_at_rest)
             self.ledger.watch_soil(None, None)
-            self._simulation.warn_of_walls()
             if self._simulation.at_rest and self._simulation.numerics.settle:
                 self._settle()
             self._finish()
+            self._reports.tell(stop_at_rest)
 
     def settle(self) -> None:
         """Lay down what is at rest."""
@@ -76,13 +78,17 @@ class Calls:
         changed = ground.read()
         check_lines(grid, sim.inflow)
         failing, depth = inputs.read_release(grid, ground.soil) if take_release else (np.zeros(0, int), np.zeros(0))
+        for doubt in () if self._said_deep else doubts.about_release(grid, failing, depth):
+            log.warning("%s", doubt)
+            self._said_deep = True
         if failing.size:
             rows = failing // grid.number_of_node_columns
             self._undo.cover(rows.min(), rows.max() + 1)
             ground.fail(failing, depth)
             self.ledger.released += float(depth.sum() * grid.dx * grid.dy)
         elif sim.particles.count == 0 and sim.inflow.over and not self._said_nothing_to_do:
-            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving")
+            found = doubts.about_nothing(grid, ground.soil)
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
             self._said_nothing_to_do = True
         bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
         sim.inflow.aim(bed.surface)

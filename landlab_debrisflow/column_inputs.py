@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .core.errors import ParameterError
+from .core.hints import did_you_mean, give_number, same_word
 from .physics.column import ALE, Classical, ConstantRatio
 from .physics.column.start import initial_profile
 from .physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
@@ -88,7 +89,7 @@ def numbers(name: str, allowed: Number, value, when="", each="column") -> np.nda
     """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
     array = _array(value)
     if array is None or array.ndim > 1 or array.size == 0:
-        got = repr(value) if array is None else f"shape {array.shape}"
+        got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
         refuse(f"{name} must be one number or one per {each}, got {got}{when}; {allowed.remedy}")
     inside = (array >= allowed.low) & (array <= allowed.high) & np.isfinite(array)
     bad = np.flatnonzero(~inside | (allowed.open & (array == allowed.low)))
@@ -117,7 +118,7 @@ def _contacts(value, when="") -> np.ndarray:
     words = np.asarray(value, dtype=object)
     bad = [word for word in words.flat if not isinstance(word, str) or word not in BASE]
     if bad or words.ndim > 1 or words.size == 0:
-        got = repr(bad[0]) if bad else f"shape {words.shape}"
+        got = f"{bad[0]!r}{did_you_mean(bad[0], BASE)}" if bad else f"shape {words.shape}"
         refuse(f"base must be one of {', '.join(BASE)}, or one of these per column; got {got}{when}")
     return np.array([BASE[word] for word in words.flat], np.int8).reshape(words.shape)
 
@@ -160,8 +161,9 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     """
     times = _times(given["times"])
     for name, words in WORDS.items():
-        if not isinstance(given[name], str) or given[name] not in words:
-            refuse(f"{name} must be one of {', '.join(words)}; got {given[name]!r}")
+        if (word := same_word(given[name], words)) is None:
+            refuse(f"{name} must be one of {', '.join(words)}; got {given[name]!r}{did_you_mean(given[name], words)}")
+        given[name] = word
     if not isinstance(given["bounded"], bool):
         refuse(f"bounded must be true or false, got {given['bounded']!r}")
     for name in ("initial_layer_fraction", "step"):
@@ -258,7 +260,8 @@ def _profile_given(given):
     initial, levels = given["initial"], given["levels"]
     if isinstance(initial, str):
         if initial not in STARTS:
-            refuse(f"initial must be one of {', '.join(STARTS)} or an array over levels [Pa]; got {initial!r}")
+            hint = did_you_mean(initial, STARTS)
+            refuse(f"initial must be one of {', '.join(STARTS)} or an array over levels [Pa]; got {initial!r}{hint}")
         if initial != "zero":
             return None
     if given["initial_pressure"] is not None:

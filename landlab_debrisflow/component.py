@@ -1,11 +1,12 @@
 """The Landlab component: fields of the grid on one side, the model on the other."""
 
+import logging
 from typing import ClassVar
 
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
-from . import inputs
+from . import doubts, inputs, summary
 from .calls import Calls
 from .citation import PAPER
 from .core.variables import NODE_FIELDS
@@ -15,6 +16,8 @@ from .model.numerics import Numerics
 from .model.physics import build_declared, build_physics
 from .model.simulation import Simulation
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
+
+log = logging.getLogger("landlab_debrisflow")
 
 
 class DebrisFlow(Component):
@@ -29,21 +32,26 @@ class DebrisFlow(Component):
         With ``topographic__elevation`` [m]; give ``soil__depth`` [m] to let the bed erode and
         ``debris_flow__release_depth`` [m] to say what fails.
     friction, erosion, column, flow : law, str or mapping, optional
-        A law object, its name, or plain values: ``{"law": "voellmy", "turbulent_coefficient": 500.0}``.
+        A law object, its name in any case, or plain values: ``{"law": "voellmy", "turbulent_coefficient": 500.0}``.
     material : Material or mapping, optional
         Densities, porosity, consolidation, initial pore pressure.
     numerics : Numerics or mapping, optional
         Number of particles, threads, settling.
     inflow : Hydrograph, mapping or a sequence of them, optional
         What flows in across lines: discharge, velocity and pore pressure against `elapsed_time`.
-    observers : sequence, optional
+    observers : observer or sequence of them, optional
         Objects with an ``interval`` [s] and a method ``observe(flow)``, called every so many seconds of
         the event and when it comes to rest.
 
     Raises
     ------
     InputError (a ValueError), ParameterError (a ValueError), landlab.FieldError
-        If the grid, a boundary, a law or a parameter is not usable.
+        If the grid, a boundary, a law or a parameter is not usable; the grid has no new field then.
+
+    Notes
+    -----
+    What can be computed but is hardly meant, such as coordinates in degrees or a density in g/cm3, is logged once as a
+    warning by the logger "landlab_debrisflow".
 
     Examples
     --------
@@ -78,12 +86,24 @@ class DebrisFlow(Component):
         self._observers = inputs.check_observers(observers)
         inputs.check_phases(self._physics)
         self._hydrographs = read_hydrographs(inflow)
-        super().__init__(grid)
-        inputs.check_boundaries(grid)
-        inputs.add_fields(self)
-        entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
-        self._simulation = Simulation(self._physics, self._numerics, entering)
-        self._calls = Calls(self, self._simulation)
+        inputs.check_types(grid)
+        with inputs.no_new_fields(grid):
+            super().__init__(grid)
+            inputs.check_boundaries(grid)
+            odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
+            odd += doubts.about_names(grid, self._physics)
+            inputs.add_fields(self)
+            entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
+            self._simulation = Simulation(self._physics, self._numerics, entering)
+            self._calls = Calls(self, self._simulation)
+        for doubt in (*odd, *doubts.about_parameters(grid, self._physics)):
+            log.warning("%s", doubt)
+
+    def __repr__(self):
+        return summary.text(self)
+
+    def _repr_html_(self):
+        return summary.html(self)
 
     @classproperty
     @classmethod
@@ -128,7 +148,8 @@ class DebrisFlow(Component):
         Returns
         -------
         bool
-            True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on.
+            True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on. A
+            warning then says what moves and how fast.
         """
         if (duration := inputs.check_duration(max_duration, "max_duration")) > 0.0:
             self._calls.run(duration, stop_at_rest=True)
@@ -143,7 +164,8 @@ class DebrisFlow(Component):
             If something still moves.
         """
         if not self.at_rest:
-            raise inputs.InputError("settle() lays down mass at rest, but the flow still moves; run_until_rest() first")
+            what = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
+            raise inputs.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
         self._calls.settle()
 
     @property

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import inputs
+from . import inputs, plausible
 from .core.parameters import on_nodes
 from .core.variables import OUTPUT_PREFIX
 from .spatial.transfer import Nodes
@@ -50,6 +50,7 @@ class Ground:
             If a value is not usable.
         """
         grid, at = self._grid, self._grid.at_node
+        inputs.check_types(grid)
         fields = ("topographic__elevation", "soil__depth", "bed__excess_pore_pressure_ratio", "bed__drained")
         present = set(at)  # its get() is a dict's and knows nothing of the fields
         self.elevation, self.soil, self._ratios, self._drained = (at[n] if n in present else None for n in fields)
@@ -57,7 +58,7 @@ class Ground:
         changed = self._seen is None or not all(map(np.array_equal, self._seen, (self.elevation, self.status)))
         if changed:
             inputs.check_boundaries(grid)
-            inputs.check_elevation(grid, self.elevation)
+            plausible.check_elevation(grid, self.elevation)
             self._seen, self._surface = (self.elevation.copy(), self.status), None
         inputs.check_bed(grid, self.soil, self._ratios, self._drained)
         if self._loaded:

@@ -72,8 +72,8 @@ def test_nodata_in_the_way_says_so_and_an_open_edge_does_not(caplog):
         flow = DebrisFlow(grid, numerics=COARSE)
         with caplog.at_level(logging.WARNING, "landlab_debrisflow"):
             flow.run_until_rest()
-        messages = [record.getMessage() for record in caplog.records]
-        assert len(messages) == nodata and all("ran against closed or NODATA nodes" in m for m in messages)
+        messages = [m for m in caplog.messages if "ran against closed or NODATA nodes" in m]
+        assert len(messages) == nodata
     assert float(messages[0].split()[0]) > 50.0  # most of 225 m3 lay in its way
 
 

@@ -1,5 +1,7 @@
 """What the README says is what the package does."""
 
+import contextlib
+import io
 import re
 from pathlib import Path
 
@@ -7,38 +9,57 @@ import pytest
 
 from landlab_debrisflow.core.variables import NODE_FIELDS
 
+from .suspicions import suspicions
+
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
 
-def test_example_runs(tmp_path, monkeypatch, capsys):
-    code = re.search(r"```python\n(.*?)```", README, re.DOTALL).group(1)
-    assert len([line for line in code.splitlines() if line.strip()]) <= 22
-    monkeypatch.chdir(tmp_path)
-    exec(compile(code, "README.md", "exec"), {})
-    budget = eval(capsys.readouterr().out)
-    assert budget["eroded"] > 0.0
-    assert budget["moving"] == 0.0
-    assert (tmp_path / "first_flow.nc").stat().st_size > 0
+BLOCKS = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 
 
-def test_inflow_as_printed():
-    first, inflow = re.findall(r"```python\n(.*?)```", README, re.DOTALL)[:2]
-    names = {}
-    exec(compile(first.split("flow = DebrisFlow(")[0] + inflow, "README.md", "exec"), names)
-    names["flow"].run_one_step(60.0)
-    assert names["flow"].budget["inflow"] == pytest.approx(0.5 * 80.0 * 60.0, rel=1e-14)
+@pytest.fixture(scope="module")
+def read_through(tmp_path_factory):
+    """Run all code as it is printed, from top to bottom as a reader would; return names, output and files of each."""
+    folder, names, seen = tmp_path_factory.mktemp("readme"), {}, []
+    with contextlib.chdir(folder), suspicions() as doubts:
+        for block in BLOCKS:
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(compile(block, "README.md", "exec"), names)
+            seen.append((dict(names), out.getvalue()))
+    assert doubts == []
+    return seen, folder
 
 
-def test_laws_as_printed():
-    blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
-    (laws,) = [block for block in blocks if "two_phase" in block]
-    names = {}
-    exec(compile(blocks[0].split("flow = DebrisFlow(")[0], "README.md", "exec"), names)
-    names["grid"].add_full("friction__angle", 31.0, at="node")
-    exec(compile("from landlab_debrisflow import DebrisFlow\n" + laws, "README.md", "exec"), names)
-    names["flow"].run_one_step(2.0)
+def test_there_are_four_blocks_of_code():
+    assert len(BLOCKS) == 4
+    assert len([line for line in BLOCKS[0].splitlines() if line.strip()]) <= 22
+
+
+def test_first_flow_as_printed(read_through):
+    seen, folder = read_through
+    budget = eval(seen[0][1])
+    assert budget["eroded"] > 0.0 and budget["moving"] == budget["residual"] == 0.0
+    assert budget["outflow"] < 0.01 * budget["deposited"]  # the first thing a reader sees ends on its DEM
+    assert (folder / "first_flow.nc").stat().st_size > 0
+
+
+def test_inflow_as_printed(read_through):
+    names, out = read_through[0][1]
+    assert float(out) == pytest.approx(0.5 * 80.0 * 60.0, rel=1e-14)
+    assert f"# {out.strip()}, the integral" in BLOCKS[1]
+    assert names["flow"].budget["eroded"] > 0.0
+
+
+def test_column_as_printed(read_through):
+    *_, (_, out), _ = read_through[0]
+    assert f"# {out.strip()}: most of the pressure" in BLOCKS[2]
+
+
+def test_laws_as_printed(read_through):
+    names, out = read_through[0][-1]
     assert names["grid"].at_node["bed__excess_pore_pressure"].max() > 0.0
     assert names["flow"].budget_by_phase["water"]["eroded"] > 0.0
+    assert out.startswith("DebrisFlow: moving at 10 s") and "flow two_phase, friction coulomb" in out
 
 
 def test_table_of_fields_is_complete_and_true():

@@ -128,10 +128,11 @@ def test_one_node_out_of_bounds_is_refused_with_its_place(wrong):
         "friction: basal_friction_angle, from field 'coulomb__angle', must lie in [0, 89] deg, got"
     )
     assert message.endswith(f"got {wrong} at node 197 (row 3, column 17)")
-    with pytest.raises(
-        ParameterError, match=rf"basal_friction_angle must lie in \[0, 89\] deg, got {wrong} at index 197"
-    ):
-        Coulomb(basal_friction_angle=angle)
+    with pytest.raises(ParameterError) as refusal:
+        two_bodies(Coulomb(basal_friction_angle=angle), {})
+    assert str(refusal.value) == (
+        f"friction: basal_friction_angle must lie in [0, 89] deg, got {wrong} at node 197 (row 3, column 17)"
+    )
 
 
 def test_a_field_is_looked_at_again_in_every_call():
@@ -142,9 +143,28 @@ def test_a_field_is_looked_at_again_in_every_call():
         flow.run_one_step(1.0)
 
 
-def test_closed_nodes_need_no_value():
+@pytest.mark.parametrize("missing", [math.nan, -9999.0, math.inf])
+@pytest.mark.parametrize("given", ["field", "array", "masked array"])
+def test_closed_nodes_need_no_value(given, missing):
     grid, angle = halves()
     grid.status_at_node[:60] = grid.BC_NODE_IS_CLOSED
-    angle[:60] = math.nan
+    angle[:60] = missing
     grid.add_field(FIELD, angle, at="node")
-    DebrisFlow(grid, friction=Coulomb(basal_friction_angle=FIELD)).run_one_step(1.0)
+    masked = np.ma.masked_where(np.arange(angle.size) < 60, angle)
+    law = Coulomb(basal_friction_angle={"field": FIELD, "array": angle, "masked array": masked}[given])
+    flow = DebrisFlow(grid, friction=law)
+    flow.run_one_step(1.0)
+    grid.status_at_node[30] = grid.BC_NODE_IS_FIXED_VALUE
+    got = math.nan if given == "masked array" else missing
+    with pytest.raises(ParameterError, match=rf"must lie in \[0, 89\] deg, got {got} at node 30 \(row 0, column 30\)"):
+        flow.run_one_step(1.0)
+
+
+@pytest.mark.parametrize("missing", [math.nan, -9999.0])
+def test_closed_nodes_need_no_values_that_agree(missing):
+    grid, angle = halves()
+    grid.status_at_node[:60] = grid.BC_NODE_IS_CLOSED
+    limit = angle + 10.0
+    limit[:60] = missing
+    friction = {"law": "mu_i", "static_friction_angle": angle, "limiting_friction_angle": limit}
+    DebrisFlow(grid, friction=friction).run_one_step(1.0)

@@ -27,6 +27,7 @@ from typing import Any, dataclass_transform
 import numpy as np
 
 from .errors import ParameterError
+from .hints import did_you_mean, give_number, number_in, plain, same_word
 
 
 class NodeValues:
@@ -35,6 +36,7 @@ class NodeValues:
     Parameters
     ----------
     values : ndarray, shape (nodes,)
+        Any number at nodes that the grid will have closed, NaN included.
 
     Examples
     --------
@@ -50,13 +52,15 @@ class NodeValues:
         return NodeValues, (self.values,)  # an array by itself would come out of a pickle writeable
 
     def __eq__(self, other):
-        return isinstance(other, NodeValues) and np.array_equal(self.values, other.values)
+        return isinstance(other, NodeValues) and np.array_equal(self.values, other.values, equal_nan=True)
 
     def __hash__(self):
         return hash(self.values.tobytes())
 
     def __repr__(self):
-        return f"<{self.values.size} node values from {self.values.min():g} to {self.values.max():g}>"
+        given = self.values[~np.isnan(self.values)]
+        span = f"from {given.min():g} to {given.max():g}" if given.size else "without a number"
+        return f"<{self.values.size} node values {span}>"
 
 
 def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False):
@@ -116,18 +120,20 @@ def declared(cls):
 def _checked(owner: str, field: dataclasses.Field, value: Any):
     """Return the value in its declared type, or raise ParameterError."""
     meta, name = field.metadata, f"{owner}: {field.name}"
-    kind = meta["kind"]
+    kind, value = meta["kind"], plain(value)
     if value is None and field.default is None:
         return None
     if kind is tuple:
         return _checked_list(name, value, meta)
     if kind is str:
-        if value not in meta["choices"]:
-            raise ParameterError(f"{name} must be one of {', '.join(meta['choices'])}; got {value!r}")
-        return value
+        choices = meta["choices"]
+        if (word := same_word(value, choices)) is None:
+            hint = did_you_mean(value, choices)
+            raise ParameterError(f"{name} must be one of {', '.join(choices)}; got {value!r}{hint}")
+        return word
     if kind is bool:
         if not isinstance(value, bool):
-            raise ParameterError(f"{name} must be true or false, got {value!r}")
+            raise ParameterError(f"{name} must be true or false, got {value!r}; give True or False without quotes")
         return value
     if meta["varies"] and not isinstance(value, Real):
         return _checked_on_nodes(name, value, meta)
@@ -135,30 +141,32 @@ def _checked(owner: str, field: dataclasses.Field, value: Any):
 
 
 def _checked_on_nodes(name: str, value: Any, meta):
-    """Return the name of a field or an array of values as `NodeValues`."""
-    if isinstance(value, str | NodeValues):
+    """Return the name of a field or an array of values as `NodeValues`; what they are is looked at with the grid."""
+    if isinstance(value, NodeValues) or (isinstance(value, str) and number_in(value) is None):
         return value
     try:
-        values = np.asarray(value, float)
-    except (TypeError, ValueError):
+        values = np.ma.filled(value, np.nan) if isinstance(value, np.ma.MaskedArray) else np.asarray(value)
+    except ValueError:  # rows of different lengths
         values = np.empty(0)
-    if values.ndim != 1 or values.size == 0:
+    if values.ndim != 1 or values.size == 0 or values.dtype.kind not in "iuf":
+        got = f"an array of shape {values.shape}" if isinstance(value, np.ndarray) else repr(value)
+        remedy = give_number(value) if isinstance(value, str) else ""
+        if values.ndim > 1:
+            remedy = "; give array.reshape(-1), in the order of the grid's nodes, whose first row is the southern one"
         raise ParameterError(
             f"{name} must be a number [{meta['unit']}], the name of a field at nodes, or an array over them, "
-            f"got {value!r}"
+            f"got {got}{remedy}"
         )
-    check_values(name, values, meta)
-    return NodeValues(values)
+    return NodeValues(values.astype(float))
 
 
-def check_values(name: str, values, meta, where=None) -> None:
-    """Refuse an array of which one value is out of bounds; `where` turns its place into words."""
+def check_values(name: str, values, meta, ignored, where) -> None:
+    """Refuse an array of which one value is out of bounds, but for those ignored; `where` turns a place into words."""
     low, high = meta["bounds"]
-    bad = np.flatnonzero(~((values >= low) & (values <= high)) | np.isinf(values))
+    bad = np.flatnonzero((~((values >= low) & (values <= high)) | np.isinf(values)) & ~ignored)
     if bad.size:
         unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
-        place = f"at index {bad[0]}" if where is None else where(bad[0])
-        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {values[bad[0]]} {place}")
+        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {values[bad[0]]} {where(bad[0])}")
 
 
 def on_nodes(obj, fields: Mapping[str, Any]):
@@ -191,16 +199,17 @@ def _checked_list(name: str, value: Any, meta):
     if isinstance(value, Real):
         return (_checked_number(name, value, meta),)
     if isinstance(value, str | Mapping) or not hasattr(value, "__iter__"):
-        raise ParameterError(f"{name} must be a number or a list of numbers [{meta['unit']}], got {value!r}")
-    return tuple(_checked_number(f"{name}[{k}]", number, meta) for k, number in enumerate(value))
+        hint = give_number(value) if isinstance(value, str) else ""
+        raise ParameterError(f"{name} must be a number or a list of numbers [{meta['unit']}], got {value!r}{hint}")
+    return tuple(_checked_number(f"{name}[{k}]", plain(number), meta) for k, number in enumerate(value))
 
 
 def _checked_number(name: str, value: Any, meta):
     kind, unit = meta["kind"], meta["unit"]
     expected = Integral if kind is int else Real
     if isinstance(value, bool) or not isinstance(value, expected):
-        word = "an integer" if kind is int else "a number"
-        raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}")
+        word, hint = "an integer" if kind is int else "a number", give_number(value, kind is int)
+        raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}{hint}")
     low, high = meta["bounds"]
     if not low <= value <= high or math.isinf(value):  # the comparison also refuses NaN
         unit = "" if unit == "-" else f" {unit}"
@@ -217,8 +226,17 @@ def _in_si(self):
     return namedtuple(type(self).__name__ + "SI", values)(**values)
 
 
-def from_mapping(cls, mapping: Mapping[str, Any]):
+def from_mapping(cls, mapping: Mapping[str, Any], relatives: Mapping[str, type] | None = None):
     """Build a declared class from plain values, as they come from YAML.
+
+    Parameters
+    ----------
+    cls : type
+        Made by `declared`.
+    mapping : mapping
+        Values of parameters by name.
+    relatives : mapping of str to type, optional
+        Other classes by name; a key that is unknown here may be one of theirs, and then that is said.
 
     Raises
     ------
@@ -229,7 +247,9 @@ def from_mapping(cls, mapping: Mapping[str, Any]):
     for key in mapping:
         if key not in legal:
             allowed = ", ".join(f"{name} [{unit}]" for name, unit in legal.items()) or "none"
-            raise ParameterError(f"{cls.__name__}: unknown key {key!r}; allowed: {allowed}")
+            owners = [n for n, other in (relatives or {}).items() if key in {f.name for f in dataclasses.fields(other)}]
+            hint = f" (it is one of {', '.join(owners)})" if owners else did_you_mean(key, legal)
+            raise ParameterError(f"{cls.__name__}: unknown key {key!r}{hint}; allowed: {allowed}")
     return cls(**mapping)
 
 

@@ -64,6 +64,7 @@ PARTICLE_VARIABLES = (
     Variable("arrested", "-", "1 if its body has come to rest", "i1", 0, written=False),
     Variable("rest_speed", "m s-1", "speed below which it comes to rest if friction holds it", written=False),
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
+    Variable("counted_at_wall", "-", "1 once that was counted", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
 )
 

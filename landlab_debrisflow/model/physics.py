@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..core.errors import ParameterError
+from ..core.hints import did_you_mean, plain, same_word
 from ..core.parameters import from_mapping
 from ..physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
@@ -69,18 +70,20 @@ def build_physics(flow=None, friction=None, erosion=None, column=None, material=
 
 
 def build_law(kind: str, value):
-    """Return the law of some kind that `value` stands for.
+    """Return the law of some kind that `value` stands for; the case of its name does not matter.
 
     Examples
     --------
     >>> build_law("friction", {"law": "voellmy", "turbulent_coefficient": 300})
     Voellmy(basal_friction_angle=30.96375653207352, cohesion=0.0, turbulent_coefficient=300.0)
+    >>> build_law("friction", "MU_I").inertial_number
+    0.279
     >>> build_law("flow", "plough")
     Traceback (most recent call last):
         ...
     landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase, two_phase
     """
-    laws = LAWS[kind]
+    laws, value = LAWS[kind], plain(value)
     if value is None:
         value = next(iter(laws))
     if isinstance(value, str):
@@ -88,11 +91,15 @@ def build_law(kind: str, value):
     if isinstance(value, Mapping):
         values = dict(value)
         if "law" not in values:
-            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {', '.join(laws)}; got {value!r}")
+            hint = "".join(did_you_mean(key, ("law",)) for key in values)
+            known = ", ".join(laws)
+            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {known}; got {value!r}{hint}")
         name = values.pop("law")
-        if name not in laws:
-            raise ParameterError(f"{kind}: unknown law {name!r}; allowed: {', '.join(laws)}")
-        return from_mapping(laws[name], values)
+        if (known := same_word(plain(name), laws)) is None:
+            raise ParameterError(f"{kind}: unknown law {name!r}{did_you_mean(name, laws)}; allowed: {', '.join(laws)}")
+        return from_mapping(laws[known], values, laws)
+    if isinstance(value, type) and callable(getattr(value, METHOD[kind], None)):
+        raise ParameterError(f"{kind}: {value.__name__} is no {kind} law but the class of one; give {value.__name__}()")
     if isinstance(value, type) or not callable(getattr(value, METHOD[kind], None)):
         raise ParameterError(
             f"{kind}: {value!r} is no {kind} law (it has no method {METHOD[kind]!r}); "
@@ -113,4 +120,5 @@ def build_declared(cls, value, keyword: str):
         return value
     if value is None or isinstance(value, Mapping):
         return from_mapping(cls, value or {})
-    raise ParameterError(f"{keyword} must be a {cls.__name__} or a mapping, got {value!r}")
+    hint = f"; give {cls.__name__}(), not the class" if value is cls else ""
+    raise ParameterError(f"{keyword} must be a {cls.__name__} or a mapping, got {value!r}{hint}")

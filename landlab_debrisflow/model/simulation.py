@@ -1,6 +1,5 @@
 """The event: clock, loop, release, rest and settling."""
 
-import logging
 from copy import copy, deepcopy
 
 import numpy as np
@@ -20,9 +19,8 @@ from .physics import Physics
 from .release import release_particles
 from .rest import Rest
 from .single import Single
+from .stopped import Stopped
 from .timestep import Pace
-
-log = logging.getLogger("landlab_debrisflow")
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -46,6 +44,7 @@ class Simulation:
         self.time = 0.0
         self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
         self.rest = Rest()
+        self.stopped = Stopped()
         self._changed = True  # terrain or particles are new: neighbours and forces must be found again
         self.bed = self.status = self.parameters = None
         self.walled = False  # whether there are closed nodes
@@ -205,17 +204,6 @@ class Simulation:
         """Let what was arrested move again."""
         self.rest.set_free(self.particles)
 
-    def warn_of_walls(self) -> None:
-        """Log how much ran against closed or NODATA nodes since the last warning."""
-        p = self.particles
-        if volume := float(p.volume[p.touched_wall > 0].sum()):
-            log.warning(
-                "%.3g m3 ran against closed or NODATA nodes at %.4g s: obstacles, or the DEM is too small",
-                volume,
-                self.time,
-            )
-            p.touched_wall[:] = 0
-
     def resting_depth(self):
         """Return nodes and the depth of particles that lie still on them [m]."""
         p = self.particles
@@ -233,6 +221,8 @@ class Simulation:
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
         now = self.particles
+        if now.count == 0:  # also before there is a bed
+            return now.excess_pore_pressure
         self.particles = now.copy()  # looking must not change how a law keeps its columns
         try:
             none, every = np.zeros(now.count), slice(now.count)
@@ -263,7 +253,7 @@ class Simulation:
     def snapshot(self):
         """Return what `restore` needs to undo everything since."""
         kept = {name: getattr(self, name) for name in ("time", "_steps", "settled_solid")}
-        kept |= {"origins": copy(self.origins), "rest": deepcopy(self.rest)}
+        kept |= {"origins": copy(self.origins), "rest": deepcopy(self.rest), "stopped": copy(self.stopped)}
         return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
 
     def restore(self, snapshot) -> None:

@@ -55,6 +55,8 @@ def advance(sim, dt: float) -> None:
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
     check(sim, dt)
+    if sim.walled:
+        sim.stopped.count(sim.particles, sim.time + dt)
 
 
 def friction_and_kick(sim, dt: float) -> None:

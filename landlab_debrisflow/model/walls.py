@@ -25,7 +25,7 @@ def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
     status : ndarray, shape (nodes,)
         Node statuses as Landlab numbers them.
     touched : ndarray of int8, shape (n,)
-        Set to 1 for those that move within their own spacing of a wall.
+        Set to 1 for those that move towards or along a wall within their own spacing of it, not away from it.
 
     Returns
     -------
@@ -48,8 +48,9 @@ def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
     def both(values):
         return np.concatenate([values, values[source]])
 
-    near = np.any(np.abs(wall - np.array([state.x[source], state.y[source]])) < SPACING * support[source], axis=0)
-    touched[source[near & np.any(state.velocity[:, source], axis=0)]] = 1
+    gap, moving = wall - np.array([state.x[source], state.y[source]]), state.velocity[:, source]
+    near = (np.abs(gap) < SPACING * support[source]) & (gap * moving[:2] >= 0.0)
+    touched[source[np.any(near, axis=0) & np.any(moving, axis=0)]] = 1
     images = {name: both(getattr(state, name)) for name in ALIKE}
     images |= {"x": np.concatenate([state.x, x]), "y": np.concatenate([state.y, y])}
     images["velocity"] = np.concatenate([state.velocity, velocity], axis=1)

@@ -10,6 +10,7 @@ import xarray as xr
 from rich.console import Console
 
 from ..core.errors import InputError
+from ..core.hints import did_you_mean
 from .files import check_writable, write_dataset
 
 
@@ -77,7 +78,8 @@ class Snapshots:
         maps = flow.maps
         if self._variables is not None:
             if unknown := [name for name in self._variables if name not in maps]:
-                raise InputError(f"Snapshots: no field {unknown[0]!r} in the maps; there are {', '.join(maps)}")
+                hint = did_you_mean(unknown[0], maps)
+                raise InputError(f"Snapshots: no field {unknown[0]!r} in the maps{hint}; there are {', '.join(maps)}")
             maps = maps[self._variables]
         # the accounts of one moment are no attribute of the whole series
         maps.attrs = {key: value for key, value in maps.attrs.items() if not key.startswith("budget")}

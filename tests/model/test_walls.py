@@ -61,6 +61,14 @@ def test_images_are_mirrored_in_x_in_y_and_in_both():
     np.testing.assert_array_equal(flow.x[:2], x)
 
 
+@pytest.mark.parametrize(("across", "touches"), [(-1.0, 1), (-1e-3, 1), (1e-3, 0), (1.0, 0)])
+def test_what_leaves_a_wall_has_not_touched_it(across, touches):
+    velocity = np.zeros((3, 1))
+    velocity[:2, 0] = across, 1.0
+    *_, touched = reflect(state(WEST + np.array([0.5]), np.array([15.0]), velocity))
+    assert touched.tolist() == [touches]
+
+
 def test_what_moves_within_its_own_spacing_has_touched():
     """Not what only feels its image, 2.8 spacings from a wall at most, nor what lies still."""
     x = WEST + np.array([0.5, 1.2, 0.5])

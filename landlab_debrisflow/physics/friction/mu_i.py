@@ -40,7 +40,7 @@ class MuI:
         if low.size != high.size and 1 not in (low.size, high.size):  # refused on any grid
             return
         low, high = np.broadcast_arrays(low, high)
-        bad = np.flatnonzero(high < low)
+        bad = np.flatnonzero((high >= 0.0) & (high < low) & (low <= 89.0))  # out of bounds only closed nodes may be
         if bad.size:
             raise ParameterError(
                 f"MuI: limiting_friction_angle must be at least static_friction_angle, {low[bad[0]]:g} deg, got "

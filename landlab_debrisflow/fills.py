@@ -1,0 +1,45 @@
+"""Numbers that stand in rasters where there are no data, and how to get rid of them."""
+
+import numpy as np
+
+FILLS = (
+    -9999.0, -32768.0, -32767.0, 32767.0, 65535.0, -99999.0, 99999.0, -999999.0, 999999.0,
+    -2147483648.0, -2147483647.0, 2147483647.0, 4294967295.0,
+)  # fmt: skip
+"""Numbers by which programs and integer formats mark missing data, and which no field of the grid has by chance."""
+
+LEAST_FILL = 32766.0
+"""Below this only negative numbers are fill values."""
+
+HUGE = 1e15
+"""Nothing measured is so large: 1e20 and 9.97e36 of climate data, the largest floats of GIS."""
+
+
+def is_fill(values):
+    """Return which values mark missing data, as an array of bool."""
+    return np.isin(values, FILLS) | (np.abs(values) >= HUGE)
+
+
+def written(value) -> str:
+    """Return a number as it is written in code, without loss.
+
+    Examples
+    --------
+    >>> written(-32768.0), written(np.float32(1e20)), written(0.25)
+    ('-32768', '1.0000000200408773e+20', '0.25')
+    """
+    value = float(value)
+    return repr(int(value)) if value.is_integer() and abs(value) < HUGE else repr(value)
+
+
+def close_them(name: str, value) -> str:
+    """Return the call that closes all nodes at which a field has some value."""
+    return f"grid.set_nodata_nodes_to_closed(grid.at_node['{name}'], {written(value)})"
+
+
+def replace_them(name: str, values, value) -> str:
+    """Return how to replace a fill value of a field by 0, as the end of a refusal; nothing if it is none."""
+    if not is_fill(value):
+        return ""
+    field, count = f"grid.at_node['{name}']", np.count_nonzero(values == value)
+    return f"; {written(value)} marks missing data, at {count} nodes: {field}[{field} == {written(value)}] = 0"

@@ -1,0 +1,34 @@
+"""What ran against closed nodes: every particle counts once, with the volume it has when it is first stopped."""
+
+import numpy as np
+
+
+class Stopped:
+    """An account of volume since it was last told.
+
+    Attributes
+    ----------
+    volume : float
+        [m3]
+    first, last : float
+        Times of the first and the last one [s].
+    where : tuple of float
+        Where the first one was, from the lower left node [m].
+    """
+
+    def __init__(self):
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew; particles that were counted are not counted again."""
+        self.volume, self.first, self.last, self.where = 0.0, np.inf, -np.inf, (np.nan, np.nan)
+
+    def count(self, p, time: float) -> None:
+        """Count the particles that a wall has stopped and that were not counted before, at some time [s]."""
+        new = np.flatnonzero(p.touched_wall > p.counted_at_wall)
+        if new.size:
+            if self.volume == 0.0:
+                self.first, self.where = time, (float(p.x[new[0]]), float(p.y[new[0]]))
+            self.volume += float(p.volume[new].sum())
+            self.last = time
+            p.counted_at_wall[new] = 1

@@ -1,0 +1,81 @@
+"""What a call has to tell at its end, to the logger: what ran against walls, what left, and what still moves."""
+
+import logging
+
+import numpy as np
+
+log = logging.getLogger("landlab_debrisflow")
+
+NOTABLE = 0.01
+"""Part of what an event released, took in and eroded from which on its outflow is told [-]."""
+
+
+class Reports:
+    """What is told of an event, each thing once.
+
+    Parameters
+    ----------
+    flow : DebrisFlow
+    simulation : Simulation
+    """
+
+    def __init__(self, flow, simulation):
+        self._flow, self._simulation = flow, simulation
+        self._supply, self._left, self._told = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
+
+    def tell(self, until_rest: bool) -> None:
+        """Tell what the call that ends has to tell; `until_rest`: whether it was to end at rest."""
+        self._walls()
+        self._outflow()
+        if until_rest and not self._simulation.at_rest:
+            self._unrest()
+
+    def _walls(self):
+        stopped = self._simulation.stopped
+        if stopped.volume > 0.0:
+            x, y = np.add(stopped.where, self._flow.grid.xy_of_lower_left)
+            later = " and later" if stopped.last > stopped.first else ""
+            log.warning(
+                "%.4g m3 ran against closed or NODATA nodes at %.4g s%s, first near (%.6g, %.6g) m: obstacles, or the "
+                "DEM is too small", stopped.volume, stopped.first, later, x, y,
+            )  # fmt: skip
+        stopped.forget()
+
+    def _outflow(self):
+        budget, by_edge = self._flow.budget, self._flow.outflow_by_edge
+        supply = budget["released"] + budget["inflow"] + budget["eroded"]
+        left = {edge: volume - self._left[edge] for edge, volume in by_edge.items()}
+        total, came, at_rest = sum(left.values()), supply - self._supply, self._simulation.at_rest
+        # as soon as it is notable, and once more with its final volume
+        if total - self._told >= NOTABLE * came > 0.0 and (at_rest or self._told == 0.0):
+            sides = {"inside": "open nodes inside"} | {edge: f"the {edge} edge" for edge in left if edge != "inside"}
+            where = ", ".join(f"{v:.4g} m3 over {sides[edge]}" for edge, v in left.items() if v >= 0.01 * total)
+            log.log(
+                logging.INFO if self._told else logging.WARNING,
+                "%s left the grid, %.3g %% of what was released, flowed in and was eroded: the DEM ends inside the "
+                "flow's reach, and depths and deposits near there are too small; use a larger DEM",
+                where, 100.0 * total / came,
+            )  # fmt: skip
+            self._told = total
+        if at_rest:
+            self._supply, self._left, self._told = supply, by_edge, 0.0
+
+    def _unrest(self):
+        sim = self._simulation
+        p, speed = sim.particles, np.sqrt(np.sum(sim.particles.velocity**2, axis=0))
+        words = []
+        if np.any(moving := speed > 0.0):
+            k = int(speed.argmax())
+            x, y = np.add((p.x[k], p.y[k]), self._flow.grid.xy_of_lower_left)
+            words.append(
+                f"{p.volume[moving].sum():.4g} m3 in {np.count_nonzero(moving)} of {p.count} particles still move, the "
+                f"fastest with {speed[k]:.3g} m/s near ({x:.6g}, {y:.6g}) m"
+            )
+        if not sim.inflow.over:
+            words.append(f"the inflow lasts until {max(source.times[-1] for source in sim.inflow.sources):.4g} s")
+        log.warning(
+            "not at rest after %.6g s: %s. Nothing was settled, so elevation and soil still lack what moves. Call "
+            "run_until_rest() again, or with a larger max_duration; what only creeps, as under a viscous law, comes to "
+            "rest earlier with a larger rest_energy in numerics",
+            sim.time, "; ".join(words) or "nothing moves any more",
+        )  # fmt: skip
