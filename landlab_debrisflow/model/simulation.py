@@ -1,7 +1,6 @@
 """The event: clock, loop, release, rest and settling."""
 
 import logging
-from copy import copy
 
 import numpy as np
 
@@ -130,27 +129,38 @@ class Simulation:
         """Whether nothing moves, and nothing will flow in."""
         return self.idle and self.inflow.over
 
-    def advance(self, duration: float, after_step=None, stop_at_rest: bool = False) -> None:
-        """Advance by exactly `duration` seconds, or until rest.
+    def start(self, end: float) -> None:
+        """Get ready for the first step of a call that goes until `end` [s]."""
+        self.wait(end)
+        if self.particles.count:
+            step.check(self)
+
+    def advance(self, end: float, stop_at_rest: bool = False, after_step=None, interrupted=None) -> bool:
+        """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
 
         Parameters
         ----------
-        duration : float
+        end : float
             [s]
-        after_step : callable, optional
-            Called without arguments after every step.
         stop_at_rest : bool
             Return as soon as all is at rest; `time` tells when.
+        after_step : callable, optional
+            Called after every step with the time at which it began [s].
+        interrupted : callable, optional
+            Asked before every step without arguments. If it returns True the advance ends there.
+
+        Returns
+        -------
+        bool
+            True if all is done; False if it was interrupted: another advance to the same end goes on to the bit.
         """
-        end = self.time + duration
-        self._wake()
-        if self.particles.count:
-            step.check(self)
         while self.time < end and not self.at_rest:
+            if interrupted is not None and interrupted():
+                return False
             if self.idle:
                 self.wait(end)
                 continue
-            left = end - self.time
+            began, left = self.time, end - self.time
             dt = self._next_step(left)
             if self.time + dt == self.time:
                 raise SimulationError("time step", None, self.time, dt)
@@ -161,9 +171,13 @@ class Simulation:
                 sleep.fall_asleep(self)
             self._look_for_rest()
             if after_step is not None:
-                after_step()
+                after_step(began)
         if not stop_at_rest and self.time < end:
             self._pass_time(end)
+        return True
+
+    def catch_up(self) -> None:
+        """Bring the columns of particles asleep to the present."""
         sleep.catch_up(self)
 
     def wait(self, end: float) -> None:
@@ -264,15 +278,3 @@ class Simulation:
         p.keep(np.zeros(p.count, bool))
         self._arrested = False
         return laid
-
-    def snapshot(self):
-        """Return what `restore` needs to undo everything since."""
-        kept = {name: getattr(self, name) for name in ("time", "_peak_energy", "_arrested", "_steps", "settled_solid")}
-        return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
-
-    def restore(self, snapshot) -> None:
-        """Go back to a snapshot."""
-        self.particles, self.outflow, self._pace, self.inflow.rows_entered, kept = snapshot
-        vars(self).update(kept)
-        self.matter.forget()
-        self._changed = True
