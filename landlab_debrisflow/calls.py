@@ -104,7 +104,7 @@ class Calls:
                     self._close()
                 self._interrupted = latest
             if isinstance(failure, KeyboardInterrupt):
-                failure.add_note("interrupted before a step was complete: grid and model are as they were before the call")
+                failure.add_note("interrupted within a step: grid and model are as they were before the call")
             raise
         finally:
             self._undo = None

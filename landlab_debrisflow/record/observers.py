@@ -110,7 +110,8 @@ class Snapshots:
         """
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
-        time = _time(self._times)
+        words = {"units": "s", "long_name": "elapsed time of the event", "axis": "T"}
+        time = xr.DataArray(self._times, dims="time", name="time", attrs=words)
         return xr.concat(
             self._maps, time, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals"
         )
@@ -191,20 +192,14 @@ class Series:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The measures at those of the times that the flow has passed, over ``time`` [s]."""
+        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how they were made."""
         first = self._values[0] if self._values else {}
         data = {
             name: (("time", *(f"{name}_{k}" for k in range(value.ndim))), np.stack([v[name] for v in self._values]))
             for name, value in first.items()
         }
-        return xr.Dataset(
-            data, {"time": _time(self._times)}, {"interpolation": "linear in time between the two steps around"}
-        )
-
-
-def _time(values):
-    words = {"units": "s", "long_name": "elapsed time of the event", "axis": "T"}
-    return xr.DataArray(values, dims="time", name="time", attrs=words)
+        time = ("time", self._times, {"units": "s", "long_name": "elapsed time"})
+        return xr.Dataset(data, {"time": time}, {"interpolation": "linear in time between the two steps around"})
 
 
 def _shapes(values) -> str:
