@@ -192,7 +192,7 @@ class Series:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how they were made."""
+        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how."""
         first = self._values[0] if self._values else {}
         data = {
             name: (("time", *(f"{name}_{k}" for k in range(value.ndim))), np.stack([v[name] for v in self._values]))
