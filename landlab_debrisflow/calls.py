@@ -1,21 +1,38 @@
-"""The life of a call: read the grid, let fail what is to fail, run, settle, show; or leave everything as it was."""
+"""The life of a call: read the grid, let fail what is to fail, run, settle, show; or leave everything as it was.
+
+Whoever looks between two steps sees the grid as the end of a call would leave it, and what was done for that is taken
+back. A call that is interrupted ends like that, too, but what belongs to the moment is kept: if nobody has changed the
+grid, the next call takes all of it back and goes on, so that in the end nothing tells that there was an interruption.
+"""
 
 import logging
 from contextlib import contextmanager
+from copy import copy
+from typing import NamedTuple
 
 import numpy as np
 
-from . import doubts, inputs
+from . import doubts, inputs, looks
 from .core.variables import OUTPUT_PREFIX
 from .ground import Ground
 from .inflow_inputs import check_lines, check_strips
+from .interruption import Interruption
 from .model.footprint import NOW, PEAKS, PHASES, Footprint
-from .model.journal import Journal
+from .model.journal import Journal, Spot
 from .model.ledger import Ledger
+from .moment import Moment
 from .reports import Reports
 from .spatial.transfer import REACH
 
 log = logging.getLogger("landlab_debrisflow")
+
+
+class Interrupted(NamedTuple):
+    """A call that has not come to its end."""
+
+    moment: Moment  # as it was before it was shown
+    end: float  # until when it should have gone [s]
+    fingerprint: tuple  # of the grid as it was left
 
 
 class Calls:
@@ -34,43 +51,65 @@ class Calls:
         self.ledger = Ledger(grid.dx * grid.dy)
         self._ground = Ground(grid, simulation.physics)
         self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
+        self._undo = self._footprint = None  # in a call: rows as it found them, and what shows the flow
+        self.interruption = Interruption()  # entered by whatever may not be done while a call runs
+        self._interrupted = None
         self._said_nothing_to_do = self._said_deep = False
         self._reports = Reports(flow, simulation)
 
     def run(self, duration: float, stop_at_rest: bool) -> None:
         """Run for `duration` seconds, or until rest."""
-        with self.all_or_nothing():
-            self.begin()
-            self._advance(duration, stop_at_rest)
-            self.ledger.watch_soil(None, None)
-            if self._simulation.at_rest and self._simulation.numerics.settle:
-                self._settle()
-            self._finish()
-            self._reports.tell(stop_at_rest)
+        sim = self._simulation
+        with self.interruption as interruption, self.all_or_nothing() as earlier:
+            end = sim.time + duration
+            if earlier is None:
+                self.begin()
+                self._start(end, stop_at_rest)
+            elif np.isclose(end, earlier.end, rtol=1e-12, atol=0.0):
+                end = earlier.end  # what is left of it was computed with rounding
+            done = sim.advance(end, stop_at_rest, self._after_step, lambda: interruption.wanted)
+            with interruption.held():
+                if done:
+                    self._close(settle=sim.at_rest and sim.numerics.settle)
+                    self._reports.tell(stop_at_rest)
+                else:
+                    self._break_off(end)
+        interruption.raise_cause(sim.time, done)
 
     def settle(self) -> None:
         """Lay down what is at rest."""
-        with self.all_or_nothing():
-            self.begin(take_release=False)
-            self._settle()
-            self._finish()
+        with self.interruption as interruption, self.all_or_nothing() as earlier:
+            if earlier is None:
+                self.begin(take_release=False)
+            with interruption.held():
+                self._close(settle=True)
+        interruption.raise_cause(self._simulation.time, done=True)
 
     @contextmanager
     def all_or_nothing(self):
-        """Leave grid and model as they were if anything goes wrong inside, an interrupt included."""
-        names = [f for f in self.flow._info if f in self.flow.grid.at_node and "out" in self.flow._info[f]["intent"]]
-        fields = [self.flow.grid.at_node[name] for name in names] + [self._settled]
-        self._undo = Journal(fields, self.flow.grid.number_of_node_columns)
-        simulation, ledger, lying = self._simulation.snapshot(), self.ledger.snapshot(), self._lying
+        """Leave grid and model as they were if anything goes wrong inside; give the call that goes on here, or None."""
+        latest, columns = self._interrupted, self.flow.grid.number_of_node_columns
+        goes_on = latest is not None and latest.fingerprint == self._ground.fingerprint(self.flow._info)
+        # without it, the bed of the last call is of no use any more
+        moment = latest.moment if goes_on else self._moment(Journal(self._rasters(), columns), [self._simulation.bed])
         try:
-            yield
-        except BaseException:
-            self._undo.restore()
-            self._simulation.restore(simulation)
-            self.ledger.restore(ledger)
-            self._lying = lying
-            self._ground.forget()
+            with self.interruption.held():
+                if goes_on:
+                    moment.restore()
+                self._undo = moment.rows
+            yield latest if goes_on else None
+        except BaseException as failure:
+            with self.interruption.held():
+                moment.restore()
+                if goes_on:
+                    self._undo = moment.rows
+                    self._close()
+                self._interrupted = latest
+            if isinstance(failure, KeyboardInterrupt):
+                failure.add_note("interrupted within a step: grid and model are as they were before the call")
             raise
+        finally:
+            self._undo = None
 
     def begin(self, take_release=True):
         """Read and check the grid, let fail what is to fail, and put the model on the bare bed."""
@@ -99,65 +138,123 @@ class Calls:
         self._footprint = Footprint(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)
         soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
         self.ledger.watch_soil(bed.nodes.core, soil)
-        self._journals = [self._undo] if soil is None else [self._undo, soil]
         if failing.size:
             sim.release(failing, depth)
         self._cover()
         self._record()
 
-    def _cover(self):
+    def _start(self, end, stop_at_rest):
+        sim = self._simulation
+        if stop_at_rest and sim.at_rest:
+            return
+        sim.start(end)
+        self._cover()
+        if not sim.idle:
+            self._look(looks.at_start(self.flow._observers))
+
+    def _cover(self, *others):
         """Keep the rows of the grid that the next step may change."""
         south, north = self._simulation.extent()
-        for journal in self._journals if south <= north else ():
+        for journal in (self._undo, self.ledger, *others) if south <= north else ():
             journal.cover(int(south / self.flow.grid.dy) - REACH, int(north / self.flow.grid.dy) + REACH + 2)
 
-    def _advance(self, duration, stop_at_rest):
-        """Run, stopping where an observer wants to look while there is an event."""
-        sim, end = self._simulation, self._simulation.time + duration
-        while sim.time < end and not (stop_at_rest and sim.at_rest):
-            sim.wait(end)
-            watching = () if sim.idle else self.flow._observers
-            looks = [o.interval * (np.floor(sim.time / o.interval * (1 + 1e-12)) + 1) for o in watching]
-            self._cover()
-            sim.advance(min([end, *looks]) - sim.time, self._follow, stop_at_rest)
-            self._record()
-            for observer, look in zip(watching, looks, strict=True):
-                if sim.time >= look or sim.idle:
-                    self._show()
-                    observer.observe(self.flow)
-
-    def _follow(self):
-        sim = self._simulation
+    def _after_step(self, began):
+        sim, observers = self._simulation, self.flow._observers
         self._cover()
         if self._footprint.is_due(sim.time, sim.survey.fastest):
             self._record()
+        self._look(observers if sim.idle else looks.after_step(observers, began, sim.time))
 
     def _record(self):
         sim = self._simulation
         self._footprint.record(sim.particles, sim.matter.density(sim.particles), sim.time)
 
+    # ---- what others see ----
+
+    def _look(self, observers):
+        if observers:
+            with self._showing():
+                looks.look(self.flow, observers, self.interruption)
+
+    @contextmanager
+    def _showing(self):
+        """Show the present, and take all of that back."""
+        sim, footprint = self._simulation, self._footprint
+        particles, at = sim.particles, self.flow.grid.at_node
+        names = [f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at]
+        kept = Spot([at[name] for name in names], self._near()), Spot(self._ground.draining, slice(None))
+        sim.particles, self._footprint = particles.copy(), copy(footprint)
+        try:
+            self._show()
+            yield
+        finally:
+            with self.interruption.held():
+                sim.particles, self._footprint = particles, footprint
+                for each in kept:
+                    each.restore()
+
+    def _near(self):
+        """Return all nodes on which what is shown may change."""
+        sim, columns = self._simulation, self.flow.grid.number_of_node_columns
+        p = sim.particles
+        under, _ = sim.bed.depth_of(p.x, p.y, p.spread, p.volume)
+        nodes = np.concatenate([under, sim.origins.nodes, self._footprint.under, self._lying])
+        nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # closed ones beside show what is there
+        return nodes[(nodes >= 0) & (nodes < self.flow.grid.number_of_nodes)]
+
+    def _show(self):
+        """Bring fields and columns to the present; return the nodes whose deposit is that of particles."""
+        sim, field = self._simulation, self.flow.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
+        sim.catch_up()
+        self._record()
+        nodes, depth = sim.resting_depth()
+        field[self._lying] = self._settled[self._lying]
+        field[nodes] = self._settled[nodes] + depth
+        self._ground.show(self._undo.nodes, sim.time)
+        return nodes
+
+    # ---- the end ----
+
+    def _break_off(self, end):
+        """Leave the grid as the end of a call does, and keep what is needed to go on as if it had not ended."""
+        moment = self._moment(self._undo.again(self._rasters()))
+        self._close()
+        self._interrupted = Interrupted(moment, end, self._ground.fingerprint(self.flow._info))
+
+    def _close(self, settle: bool = False):
+        """Show the present, and remember the terrain to notice what other components change."""
+        if settle:
+            self._settle()
+        self.ledger.watch_soil(None, None)
+        self._ground.remember(self._undo.nodes)
+        self._lying = self._show()
+        self._footprint = self._interrupted = None
+
     def _settle(self):
-        elevation, bed = self._ground.elevation, self._simulation.bed
+        sim, elevation = self._simulation, self._ground.elevation
+        sim.catch_up()
+        self._record()
         self.ledger.watch_soil(None, None)  # what settles becomes soil, too
         rise = Journal([elevation], self.flow.grid.number_of_node_columns)
-        self._journals = [self._undo, rise]
-        self._cover()
-        nodes, depth = self._simulation.settle()
-        self.ledger.count_deposit(bed.nodes.core, rise)
+        self._cover(rise)
+        nodes, depth = sim.settle()
+        self.ledger.count_deposit(sim.bed.nodes.core, rise)
         self._settled[nodes] += depth
         self._lying = np.union1d(self._lying, nodes)
         self._footprint.clear()
 
-    def _finish(self):
-        """Show the deposit, and remember the terrain to notice what other components change."""
-        self._show()
-        self._ground.remember(self._undo.nodes, self._simulation.time)
+    # ---- to go back ----
 
-    def _show(self):
-        """Write the deposit, what has settled and what lies still now, and the pressure of the bed."""
-        self._ground.show(self._undo.nodes, self._simulation.time)
-        field = self.flow.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
-        nodes, depth = self._simulation.resting_depth()
-        field[self._lying] = self._settled[self._lying]
-        field[nodes] = self._settled[nodes] + depth
-        self._lying = nodes
+    def _rasters(self):
+        """Return the node arrays that a call changes."""
+        at, info = self.flow.grid.at_node, self.flow._info
+        return [at[f] for f in info if f in at and "out" in info[f]["intent"]] + [self._settled, *self._ground.rasters]
+
+    def _moment(self, rows, shared=()):
+        """Return what there is now; `rows` is a journal of the node arrays, and what is `shared` is not copied."""
+        sim, ground, in_call = self._simulation, self._ground, [] if self._footprint is None else [self._footprint]
+        # calls and ground replace what they have, if it is not in the rows
+        values = [value for each in (self, ground) for value in vars(each).values() if value is not sim.bed]
+        laws = [sim.physics, *vars(sim.physics).values(), sim.numerics]
+        objects = [self, sim, ground, self.ledger, *in_call]
+        return Moment(objects, ground, rows, ground.draining if in_call else (), [*values, *laws, *shared])

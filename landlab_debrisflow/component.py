@@ -40,8 +40,8 @@ class DebrisFlow(Component):
     inflow : Hydrograph, mapping or a sequence of them, optional
         What flows in across lines: discharge, velocity and pore pressure against `elapsed_time`.
     observers : observer or sequence of them, optional
-        Objects with an ``interval`` [s] and a method ``observe(flow)``, called every so many seconds of
-        the event and when it comes to rest.
+        Objects with an ``interval`` [s] and a method ``observe(flow)``, called after every step that crosses a multiple
+        of the interval and when the event comes to rest. They change no result (`landlab_debrisflow.record.observers`).
 
     Raises
     ------
@@ -130,9 +130,14 @@ class DebrisFlow(Component):
         Raises
         ------
         InputError
-            If `dt` or a field is not usable; nothing was changed.
+            If `dt` or a field is not usable, or if an observer calls; nothing was changed.
         SimulationError
-            If the state stopped being finite; the grid is as it was before the call.
+            If the state stopped being finite; grid and flow are as they were before the call, and whatever else fails
+            in a step leaves them so, too.
+        KeyboardInterrupt, or what an observer raised
+            After the step. What was computed is kept, nothing settles, and `elapsed_time` tells when that was. If
+            nobody changes the grid, the next call goes on as if there had been no interruption: to end at the same
+            time, ask for what is left of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
         """
         if (dt := inputs.check_duration(dt)) > 0.0:
             self._calls.run(dt, stop_at_rest=False)
@@ -150,6 +155,11 @@ class DebrisFlow(Component):
         bool
             True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on. A
             warning then says what moves and how fast.
+
+        Raises
+        ------
+        As `run_one_step`
+            After Ctrl-C, or an observer that failed, call again to go on.
         """
         if (duration := inputs.check_duration(max_duration, "max_duration")) > 0.0:
             self._calls.run(duration, stop_at_rest=True)

@@ -1,5 +1,7 @@
 """The fields of the grid as the model's bed, read and checked at every call; nothing here costs a copy of the grid."""
 
+from hashlib import blake2b
+
 import numpy as np
 
 from . import inputs, plausible
@@ -97,21 +99,41 @@ class Ground:
         if self._surface is not None:
             self._surface.move_to(nodes, self.elevation[nodes])
 
-    def show(self, nodes: slice, time: float) -> None:
-        """Bring what of the bed changes by itself to the present, at some nodes."""
-        if self._loaded:
-            self.bed.pore_pressure.drain(time, nodes)
+    @property
+    def rasters(self):
+        """Arrays of its own over nodes that a call changes in place."""
+        return [*(self._seen or ())[:1], *(() if self._eroded is None else (self._eroded,))]
 
-    def remember(self, nodes: slice, time: float) -> None:
-        """Note how the call leaves the elevation and what it eroded; only drainage changes more than `nodes`."""
-        self._seen[0][nodes] = self.elevation[nodes]
+    @property
+    def draining(self):
+        """Arrays that change by themselves, everywhere."""
+        return self.bed.pore_pressure.draining if self._loaded else []
+
+    def show(self, nodes: slice, time: float) -> None:
+        """Bring what of the bed changes by itself to the present; the flow was nowhere but at `nodes`."""
         if self._loaded:
             self.bed.pore_pressure.finish(time, nodes)
+
+    def remember(self, nodes: slice) -> None:
+        """Note how the call leaves the elevation and what it eroded, at the nodes where it did."""
+        self._seen[0][nodes] = self.elevation[nodes]
         if self._eroded is None:
             self._eroded = self.bed.taken
         else:
             self._eroded[nodes] += self.bed.taken[nodes]
 
-    def forget(self) -> None:
-        """Read everything anew at the next call."""
-        self._seen = self._surface = None
+    def follow(self, nodes: slice) -> None:
+        """Bring the surface to the elevation of some nodes, which others have put back."""
+        if self._surface is not None:
+            those = np.arange(nodes.start, nodes.stop)
+            those = those[self.status[those] != self._grid.BC_NODE_IS_CLOSED]  # what is filled into those never changes
+            self._surface.move_to(those, self.elevation[those])
+
+    def fingerprint(self, names) -> tuple:
+        """Return what differs once anybody has changed statuses, some fields, or fields that laws have values from."""
+        at, laws = self._grid.at_node, self._laws.values()
+        names = {*names, *(v for law in laws for v in getattr(law, "__dict__", {}).values() if isinstance(v, str))}
+        arrays = {name: at[name] for name in names & set(at)}
+        places = {name: array.ctypes.data for name, array in arrays.items()}
+        arrays["status"] = self._grid.status_at_node
+        return places, {name: blake2b(np.ascontiguousarray(array)).digest() for name, array in arrays.items()}

@@ -9,6 +9,7 @@ from landlab.bmi import wrap_as_bmi
 from landlab.components import DepthDependentDiffuser, FlowAccumulator, SpaceLargeScaleEroder
 
 from landlab_debrisflow import DebrisFlow, InputError
+from landlab_debrisflow.record.observers import EVERY_STEP
 
 from .grids import COARSE, release_slab
 
@@ -28,17 +29,23 @@ class Watch:
         self.moving.append(float(flow.grid.at_node["debris_flow__depth"].sum()) * 25.0)
 
 
-def test_observers_are_called_at_their_interval_and_at_rest(valley):
-    often, seldom = Watch(1.0), Watch(2.5)
-    flow = DebrisFlow(valley, numerics=COARSE, observers=[often, seldom])
+def test_observers_are_called_after_the_steps_that_cross_their_interval_and_at_rest(valley):
+    often, seldom, always = Watch(1.0), Watch(2.5), Watch(EVERY_STEP)
+    flow = DebrisFlow(valley, numerics=COARSE, observers=[often, seldom, always])
     flow.run_one_step(4.2)
-    assert often.times == [1.0, 2.0, 3.0, 4.0] and seldom.times == [2.5]
+    assert np.floor(often.times).tolist() == [1.0, 2.0, 3.0, 4.0] and len(seldom.times) == 1
     flow.run_one_step(0.8)  # calls do not shift the rhythm
-    assert often.times[4:] == [5.0] and seldom.times == [2.5, 5.0]
+    assert often.times[4:] == [5.0] and seldom.times[1:] == [5.0]
     flow.run_until_rest()
     end = flow.elapsed_time
-    assert often.times[5:-1] == list(np.arange(6.0, end)) and often.times[-1] == seldom.times[-1] == end
+    assert np.floor(often.times[5:-1]).tolist() == list(np.arange(6.0, end))
+    assert often.times[-1] == seldom.times[-1] == end
     assert all(volume > 225.0 for volume in often.moving)  # they see the grid as it is then
+    steps = np.unique(always.times)
+    assert always.times[0] == 0.0 and steps.size == flow._simulation._steps + 1
+    for watch in (often, seldom):  # a look is at the end of the first step beyond
+        crossed = watch.interval * np.arange(1, int(end / watch.interval) + 1)
+        assert watch.times[:-1] == steps[np.searchsorted(steps, crossed)].tolist()
 
 
 def test_observers_are_left_in_peace_when_nothing_happens(valley):

@@ -71,6 +71,11 @@ class Footprint:
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
         self._passed, self._then = 0.0, time  # way of the fastest since the last look [m]; when it was last counted [s]
 
+    @property
+    def under(self):
+        """Nodes that showed the flow at the last look."""
+        return self._under
+
     def is_due(self, time: float, fastest: float) -> bool:
         """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last look."""
         self._passed += fastest * (time - self._then)

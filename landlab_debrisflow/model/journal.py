@@ -39,6 +39,11 @@ class Journal:
         self._kept = []  # (slice of nodes, copies)
 
     @property
+    def arrays(self) -> list:
+        """What is kept."""
+        return self._arrays
+
+    @property
     def nodes(self) -> slice:
         """The nodes covered so far."""
         return slice(self._first * self._columns, self._last * self._columns)
@@ -65,8 +70,35 @@ class Journal:
             total += float(np.sum(copies[which][here] - array[part][here]))
         return total
 
+    def again(self, arrays) -> "Journal":
+        """Return a journal of some arrays over the same rows, as they are now."""
+        other = Journal(arrays, self._columns)
+        other._first, other._last = self._first, self._last
+        if self._first < self._last:
+            other._kept.append((self.nodes, [array[self.nodes].copy() for array in other._arrays]))
+        return other
+
     def restore(self) -> None:
         """Put everything back."""
         for part, copies in self._kept:
             for array, copy in zip(self._arrays, copies, strict=True):
                 array[part] = copy
+
+
+class Spot:
+    """Copies of node arrays at some nodes, made at once.
+
+    Parameters
+    ----------
+    arrays : sequence of ndarray, shape (nodes,)
+    nodes : slice or ndarray of int
+    """
+
+    def __init__(self, arrays, nodes):
+        self._arrays, self._nodes = arrays, nodes
+        self._kept = [array[nodes].copy() for array in arrays]
+
+    def restore(self) -> None:
+        """Put everything back."""
+        for array, kept in zip(self._arrays, self._kept, strict=True):
+            array[self._nodes] = kept

@@ -23,6 +23,11 @@ class Ledger:
         self._eroded = self.eroded
         self._core, self._soil = core, soil
 
+    def cover(self, first: int, last: int) -> None:
+        """Keep some rows of the soil that is measured, if any; see `Journal.cover`."""
+        if self._soil is not None:
+            self._soil.cover(first, last)
+
     @property
     def eroded(self) -> float:
         """Volume eroded so far [m3], also in the middle of a call."""
@@ -54,12 +59,3 @@ class Ledger:
             came = terms["released"] + terms["inflow"] + terms["eroded"]
             terms["residual"] = came - terms["moving"] - terms["deposited"] - terms["outflow"]
         return phases
-
-    def snapshot(self):
-        """Return what `restore` needs."""
-        return self.released, self.eroded, self.deposited
-
-    def restore(self, snapshot) -> None:
-        """Go back to a snapshot."""
-        self.released, self._eroded, self.deposited = snapshot
-        self._soil = None

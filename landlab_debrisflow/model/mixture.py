@@ -47,10 +47,6 @@ class Mixture:
         self.own_part = 1.0 - self.material.soil_porosity
         self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
         self.drainage = None  # [s-1]
-        self.forget()
-
-    def forget(self) -> None:
-        """Find everything anew: the particles are others."""
         self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
         self._steps = 0
 

@@ -44,6 +44,11 @@ class Origins:
         self._node, self._part = np.concatenate([self._node, node]), np.concatenate([self._part, part])
         return first + np.arange(count)
 
+    @property
+    def nodes(self):
+        """Nodes from which anything was taken, shape (m,), some of them twice."""
+        return self._node
+
     def unmoved(self, origin, x, y, spacing, core):
         """Return which part of each particle goes back, shape (n,): all, if it never moved, none from a spacing on.
 

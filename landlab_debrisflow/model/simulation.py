@@ -1,7 +1,5 @@
 """The event: clock, loop, release, rest and settling."""
 
-from copy import copy, deepcopy
-
 import numpy as np
 
 from ..core.errors import SimulationError
@@ -78,8 +76,11 @@ class Simulation:
 
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
-        y = self.particles.y
+        y, raster = self.particles.y, self.bed.nodes
         ends = [(y.min(), y.max())] if y.size else []
+        if self.origins.nodes.size:  # to which may return what never moved
+            rows = self.origins.nodes // raster.columns
+            ends.append((rows.min() * raster.dy, rows.max() * raster.dy))
         ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]
         return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
 
@@ -130,27 +131,38 @@ class Simulation:
         """Whether nothing moves, and nothing will flow in."""
         return self.idle and self.inflow.over
 
-    def advance(self, duration: float, after_step=None, stop_at_rest: bool = False) -> None:
-        """Advance by exactly `duration` seconds, or until rest.
+    def start(self, end: float) -> None:
+        """Get ready for the first step of a call that goes until `end` [s]."""
+        self.wait(end)
+        if self.particles.count:
+            step.check(self)
+
+    def advance(self, end: float, stop_at_rest: bool = False, after_step=None, interrupted=None) -> bool:
+        """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
 
         Parameters
         ----------
-        duration : float
+        end : float
             [s]
-        after_step : callable, optional
-            Called without arguments after every step.
         stop_at_rest : bool
             Return as soon as all is at rest; `time` tells when.
+        after_step : callable, optional
+            Called after every step with the time at which it began [s].
+        interrupted : callable, optional
+            Asked before every step without arguments. If it returns True the advance ends there.
+
+        Returns
+        -------
+        bool
+            True if all is done; False if it was interrupted: another advance to the same end goes on to the bit.
         """
-        end = self.time + duration
-        self._wake()
-        if self.particles.count:
-            step.check(self)
         while self.time < end and not self.at_rest:
+            if interrupted is not None and interrupted():
+                return False
             if self.idle:
                 self.wait(end)
                 continue
-            left = end - self.time
+            began, left = self.time, end - self.time
             dt = self._next_step(left)
             if self.time + dt == self.time:
                 raise SimulationError("time step", None, self.time, dt)
@@ -161,9 +173,13 @@ class Simulation:
                 sleep.fall_asleep(self)
             self.rest.judge(self)
             if after_step is not None:
-                after_step()
+                after_step(began)
         if not stop_at_rest and self.time < end:
             self._pass_time(end)
+        return True
+
+    def catch_up(self) -> None:
+        """Bring the columns of particles asleep to the present."""
         sleep.catch_up(self)
 
     def wait(self, end: float) -> None:
@@ -249,16 +265,3 @@ class Simulation:
         p.keep(np.zeros(p.count, bool))
         self.origins, self.rest = Origins(), Rest()
         return nodes, depth
-
-    def snapshot(self):
-        """Return what `restore` needs to undo everything since."""
-        kept = {name: getattr(self, name) for name in ("time", "_steps", "settled_solid")}
-        kept |= {"origins": copy(self.origins), "rest": deepcopy(self.rest), "stopped": copy(self.stopped)}
-        return self.particles.copy(), self.outflow.copy(), copy(self._pace), self.inflow.rows_entered, kept
-
-    def restore(self, snapshot) -> None:
-        """Go back to a snapshot."""
-        self.particles, self.outflow, self._pace, self.inflow.rows_entered, kept = snapshot
-        vars(self).update(kept)
-        self.matter.forget()
-        self._changed = True

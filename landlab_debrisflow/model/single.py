@@ -80,6 +80,3 @@ class Single:
     def celerity_squared(self, sim, dt: float):
         """Return by how much the square of the celerity is higher than weight makes it, (n,) or (1,) [m2 s-2]."""
         return NOT_STIFF
-
-    def forget(self) -> None:
-        """Find everything anew: the particles are others."""

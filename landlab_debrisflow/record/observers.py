@@ -1,14 +1,23 @@
 """Observers: what watches a run. They are given to `DebrisFlow` and never imported by the model.
 
-An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, called every so many
-seconds of the event and once more when the flow comes to rest.
+An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, called at the end of every step that
+crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers change nothing: steps
+are as long as without them, so a look comes a little after the multiple, and its time is `flow.elapsed_time`.
+A step that crosses several multiples is looked at once. With ``interval = EVERY_STEP`` an observer looks before the
+first step of a call and after every step. What it sees is the grid as it would be if the call ended there, except
+that nothing settles; it may not run the flow itself.
+
+An observer that raises ends the call after that step, with everything computed kept: call again to go on. The other
+observers still look at the step, and no look is repeated.
 """
 
 from numbers import Real
 
+import numpy as np
 import xarray as xr
 from rich.console import Console
 
+from ..core.constants import EVERY_STEP
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from .files import check_writable, write_dataset
@@ -50,7 +59,7 @@ class Progress:
 
 
 class Snapshots:
-    """Keeps `flow.maps` at intervals, as one Dataset over ``time``.
+    """Keeps `flow.maps` at intervals, as one Dataset over ``time``, which is that of the looks.
 
     Parameters
     ----------
@@ -86,7 +95,11 @@ class Snapshots:
         self._times.append(flow.elapsed_time)
         self._maps.append(maps)
         if self.path is not None and flow.at_rest:
-            self.write()
+            try:
+                self.write()
+            except (OSError, InputError) as failure:
+                failure.add_note("Snapshots: all are kept; make room and call write(), or write(path) elsewhere")
+                raise
 
     @property
     def dataset(self) -> xr.Dataset:
@@ -127,6 +140,72 @@ class Snapshots:
         if path is None:
             raise InputError("Snapshots.write: no path; give one here or as Snapshots(interval, path=...)")
         return write_dataset(path, self.dataset)
+
+
+class Series:
+    """Measures of the flow at given times, each interpolated linearly between the two steps around.
+
+    Parameters
+    ----------
+    times : array_like, shape (n,)
+        When the measures are wanted, increasing [s of `flow.elapsed_time`].
+    measure : callable
+        Called with the flow before the first step of a call and after every step. Returns a mapping of names to
+        numbers or arrays, the same names and shapes every time.
+
+    Raises
+    ------
+    InputError
+        If the times do not increase or `measure` cannot be called.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> series = Series(np.arange(0.0, 61.0), lambda flow: {"eroded": flow.budget["eroded"]})
+    >>> series.dataset.sizes["time"]  # nothing was observed yet
+    0
+    """
+
+    interval = EVERY_STEP
+
+    def __init__(self, times, measure):
+        self._wanted = np.array(times, float, ndmin=1)
+        if self._wanted.ndim != 1 or not np.all(np.isfinite(self._wanted)) or np.any(np.diff(self._wanted) <= 0.0):
+            raise InputError(f"Series: times must be finite numbers of seconds that increase, got {times!r}")
+        if not callable(measure):
+            raise InputError(f"Series: measure must be callable with the flow, got {measure!r}")
+        self._measure, self._before, self._times, self._values = measure, None, [], []
+
+    def observe(self, flow) -> None:
+        """Measure, and interpolate what is wanted between the last time and now."""
+        now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
+        then, earlier = self._before or (now, values)
+        if {k: v.shape for k, v in values.items()} != {k: v.shape for k, v in earlier.items()}:
+            raise InputError(
+                f"Series: measure must return the same names and shapes every time, got {_shapes(values)} "
+                f"after {_shapes(earlier)}"
+            )
+        since = self._wanted >= then if self._before is None else self._wanted > then
+        for time in self._wanted[since & (self._wanted <= now)]:
+            part = (time - then) / (now - then) if now > then else 1.0
+            self._times.append(float(time))
+            self._values.append({k: (1.0 - part) * earlier[k] + part * v for k, v in values.items()})
+        self._before = now, values
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how."""
+        first = self._values[0] if self._values else {}
+        data = {
+            name: (("time", *(f"{name}_{k}" for k in range(value.ndim))), np.stack([v[name] for v in self._values]))
+            for name, value in first.items()
+        }
+        time = ("time", self._times, {"units": "s", "long_name": "elapsed time"})
+        return xr.Dataset(data, {"time": time}, {"interpolation": "linear in time between the two steps around"})
+
+
+def _shapes(values) -> str:
+    return ", ".join(f"{name} {value.shape}" for name, value in values.items()) or "nothing"
 
 
 def _positive(interval, owner: str) -> float:

@@ -80,6 +80,11 @@ class BedPressure:
             for others in (slice(0, nodes.start), slice(nodes.stop, None)):
                 self._pressure[others] *= np.exp((self._start - time) / self._drainage_time)
 
+    @property
+    def draining(self):
+        """The arrays that `finish` changes, also where the flow never was."""
+        return [self._pressure, self._age]
+
 
 @kernel
 def _respond(left, at, sums, area, loading, drainage_time, age, dt, ages, load, pressure, ratio):

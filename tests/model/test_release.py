@@ -146,6 +146,22 @@ def test_a_body_that_settles_a_little_keeps_its_shape():
     assert np.abs(grid.at_node["topographic__elevation"] - before)[depth > 0.0].max() < 0.02
 
 
+@pytest.mark.parametrize("later", [False, True])
+def test_one_particle_of_a_wide_site_gives_back_all_of_it(later):
+    """Also far beyond its tent, and in a call in which nothing was released."""
+    grid = inclined((120, 40), 5.0, 0.05)
+    release_slab(grid, (97.0, 297.0), 80.0, 0.5)
+    depth, before = grid.at_node["debris_flow__release_depth"].copy(), grid.at_node["topographic__elevation"].copy()
+    flow = DebrisFlow(grid, **dry_block(0.9, particle_count=1, settle=not later))
+    assert flow.run_until_rest(30.0) is True
+    if later:
+        np.testing.assert_allclose(grid.at_node["debris_flow__deposit_depth"], depth, rtol=0, atol=1e-11)
+        flow.settle()
+    np.testing.assert_allclose(grid.at_node["topographic__elevation"], before, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(grid.at_node["debris_flow__deposit_depth"], depth, rtol=0, atol=1e-11)
+    assert abs(flow.budget["residual"]) < 1e-12 * flow.budget["released"]
+
+
 # ---- a second release ----
 
 
