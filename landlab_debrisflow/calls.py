@@ -12,6 +12,7 @@ from .inflow_inputs import check_lines, check_strips
 from .model.footprint import NOW, PEAKS, PHASES, Footprint
 from .model.journal import Journal
 from .model.ledger import Ledger
+from .outputs import DEPOSIT, ERODED
 from .spatial.transfer import REACH
 
 log = logging.getLogger("landlab_debrisflow")
@@ -32,7 +33,6 @@ class Calls:
         self._settled = np.zeros(grid.number_of_nodes)
         self.ledger = Ledger(grid.dx * grid.dy)
         self._ground = Ground(grid, simulation.physics)
-        self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
         self._said_nothing_to_do = False
 
     def run(self, duration: float, stop_at_rest: bool) -> None:
@@ -57,16 +57,15 @@ class Calls:
     def all_or_nothing(self):
         """Leave grid and model as they were if anything goes wrong inside, an interrupt included."""
         names = [f for f in self.flow._info if f in self.flow.grid.at_node and "out" in self.flow._info[f]["intent"]]
-        fields = [self.flow.grid.at_node[name] for name in names] + [self._settled]
+        fields = [self.flow.grid.at_node[name] for name in names] + [self._settled, self._ground.eroded]
         self._undo = Journal(fields, self.flow.grid.number_of_node_columns)
-        simulation, ledger, lying = self._simulation.snapshot(), self.ledger.snapshot(), self._lying
+        simulation, ledger = self._simulation.snapshot(), self.ledger.snapshot()
         try:
             yield
         except BaseException:
             self._undo.restore()
             self._simulation.restore(simulation)
             self.ledger.restore(ledger)
-            self._lying = lying
             self._ground.forget()
             raise
 
@@ -139,19 +138,36 @@ class Calls:
         nodes, depth = self._simulation.settle()
         self.ledger.count_deposit(bed.nodes.core, rise)
         self._settled[nodes] += depth
-        self._lying = np.union1d(self._lying, nodes)
         self._footprint.clear()
 
     def _finish(self):
-        """Show the deposit, and remember the terrain to notice what other components change."""
+        """Show the accounts, also where others wrote, and remember the terrain to notice what others change."""
         self._show()
         self._ground.remember(self._undo.nodes, self._simulation.time)
+        beyond = slice(self._undo.nodes.start), slice(self._undo.nodes.stop, None)
+        for name, depth in ((ERODED, self._ground.eroded), (DEPOSIT, self._settled)):
+            for rest in beyond:
+                if not np.array_equal(field := self.flow.grid.at_node[name][rest], depth[rest]):
+                    field[:] = depth[rest]
 
     def _show(self):
-        """Write the deposit, what has settled and what lies still now, and the pressure of the bed."""
-        self._ground.show(self._undo.nodes, self._simulation.time)
-        field = self.flow.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
+        """Write what was eroded, what has settled or lies still, and bed pressure, where the call may change them."""
+        rows, at = self._undo.nodes, self.flow.grid.at_node
+        self._ground.show(rows, self._simulation.time)
+        at[ERODED][rows], at[DEPOSIT][rows] = self._ground.eroded[rows], self._settled[rows]
         nodes, depth = self._simulation.resting_depth()
-        field[self._lying] = self._settled[self._lying]
-        field[nodes] = self._settled[nodes] + depth
-        self._lying = nodes
+        at[DEPOSIT][nodes] += depth
+
+    def accounts(self) -> dict:
+        """Return the depths eroded and deposited so far [m] over nodes, by the names of their fields."""
+        deposit, (nodes, depth) = self._settled.copy(), self._simulation.resting_depth()
+        deposit[nodes] += depth
+        return {ERODED: self._ground.eroded, DEPOSIT: deposit}
+
+    def continue_from(self, earlier: "Calls") -> None:
+        """Go on with clock and accounts of an earlier component that holds no particles any more."""
+        simulation, before = self._simulation, earlier._simulation
+        simulation.time, simulation.settled_solid = before.time, before.settled_solid
+        simulation.outflow = before.outflow.copy()
+        self.ledger.continue_from(earlier.ledger, before)
+        self._settled[:], self._ground.eroded[:] = earlier._settled, earlier._ground.eroded

@@ -7,7 +7,6 @@ import numpy as np
 
 from .core.errors import InputError
 from .core.parameters import NodeValues, check_values
-from .core.variables import NODE_FIELDS
 
 NODATA = -9999.0
 FIXED_GRADIENT, LOOPED, CLOSED = 2, 3, 4  # node statuses of Landlab
@@ -20,21 +19,6 @@ def check_duration(value, name: str = "dt") -> float:
     if not 0.0 <= value < np.inf:
         raise InputError(f"{name} must be a finite number of seconds >= 0, got {value!r}")
     return float(value)
-
-
-def add_fields(component) -> None:
-    """Add what a component writes, and its release, to its grid where they are missing."""
-    grid = component.grid
-    if component._physics.two_phases:
-        for field in NODE_FIELDS:
-            if field.intent == "out" and field.optional and field.name not in grid.at_node:
-                grid.add_zeros(field.name, at="node", units=field.unit)
-    new_arrival = "debris_flow__arrival_time" not in grid.at_node
-    component.initialize_output_fields()
-    if "debris_flow__release_depth" not in grid.at_node:
-        grid.add_zeros("debris_flow__release_depth", at="node", units="m")
-    if new_arrival:
-        grid.at_node["debris_flow__arrival_time"][:] = -1.0
 
 
 def check_boundaries(grid) -> None:

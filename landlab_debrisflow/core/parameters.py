@@ -223,12 +223,3 @@ def from_mapping(cls, mapping: Mapping[str, Any]):
             allowed = ", ".join(f"{name} [{unit}]" for name, unit in legal.items()) or "none"
             raise ParameterError(f"{cls.__name__}: unknown key {key!r}; allowed: {allowed}")
     return cls(**mapping)
-
-
-def describe(obj) -> dict[str, Any]:
-    """Return the parameters of a declared object as plain values for file attributes."""
-    return {
-        f"{f.name} [{f.metadata['unit']}]": getattr(obj, f.name)
-        for f in dataclasses.fields(obj)
-        if getattr(obj, f.name) is not None
-    }
