@@ -11,7 +11,7 @@ from .core.variables import COLUMN_MEMORY
 from .physics.column.peclet import basal_peclet_number, consolidation_time, erosion_time
 from .physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from .physics.material import Material
-from .record.attributes import described, heading, quantity
+from .record.attributes import NO_FILL, described, heading, quantity
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
@@ -242,9 +242,9 @@ def _dataset(inputs: Inputs, given, output) -> xr.Dataset:
     data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
     height = "height above the base over thickness, 0 at the base, 1 at the surface"
     coordinates = {
-        "time": ("time", inputs.times, described("s", "time")),
+        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
         "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
-        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height)),
+        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
     }
     attributes, units = heading(), {name: number.unit for name, number in (NUMBERS | OTHERS).items()}
     for name, value in given.items():

@@ -176,6 +176,13 @@ def test_outputs_of_one_that_is_gone_do_not_stay():
         np.testing.assert_array_equal(grid.at_node[name], values, name)
 
 
+class Auditor:
+    interval = 1.0
+
+    def observe(self, flow):
+        agree(flow)
+
+
 class Fails:
     interval = 3.0
 
@@ -382,7 +389,7 @@ def test_the_accounts_are_the_components_own(zeroed, settle):
 @pytest.mark.parametrize("keywords", [{}, {"flow": "two_phase"}, {"inflow": SURGE}, {"column": "none"}])
 def test_over_the_life_of_a_component(settle, keywords):
     grid = scene()
-    flow = DebrisFlow(grid, numerics=COARSE | {"settle": settle}, **keywords)
+    flow = DebrisFlow(grid, numerics=COARSE | {"settle": settle}, observers=[Auditor()], **keywords)
     agree(flow)
     for _ in range(3):
         flow.run_one_step(2.0)
@@ -391,7 +398,7 @@ def test_over_the_life_of_a_component(settle, keywords):
     with pytest.raises(RuntimeError, match="no paper"):
         flow.run_until_rest()
     agree(flow)
-    flow._observers = ()
+    flow._observers = (Auditor(),)
     for centre in (FAR, NEAR):
         flow.run_until_rest()
         agree(flow)

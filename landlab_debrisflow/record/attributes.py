@@ -22,6 +22,9 @@ OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
 CF_UNITS = {"-": "1", "deg": "degree"}
 """Units of the package that files call otherwise."""
 
+NO_FILL = {"_FillValue": None}
+"""Encoding of coordinates, which are missing nowhere."""
+
 LARGEST_INTEGER = 2**63 - 1
 """That a file can hold."""
 
@@ -127,5 +130,5 @@ def at_nodes(kind: str, obj: Any, fields, count: int):
         if isinstance(value, NodeValues):
             value = value.values
         if isinstance(value, np.ndarray) and value.shape == (count,) and value.dtype.kind in "biuf":
-            words = described(declaration.get("unit", "-"), declaration.get("meaning", name))
+            words = described(declaration["unit"], declaration["meaning"]) if declaration else {"long_name": name}
             yield legal(f"{kind}_{name}"), value.astype(float), words

@@ -8,15 +8,22 @@ import xarray as xr
 from ..core.variables import NODE_FIELDS, PARTICLE_VARIABLES
 from ..model.motion import CLOSED
 from ..physics.column.peclet import consolidation_time, erosion_time
-from .attributes import OF_A_MOMENT, at_nodes, date_created, described, heading, of_laws, of_moment, of_parameters
+from .attributes import (
+    NO_FILL,
+    OF_A_MOMENT,
+    at_nodes,
+    date_created,
+    described,
+    heading,
+    of_laws,
+    of_moment,
+    of_parameters,
+)  # fmt: skip
 
 ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
 """Maps that tell of closed nodes, too: what ran against their faces, 0 if nothing did."""
 
 FIELDS = {field.name: field for field in NODE_FIELDS}
-
-NO_FILL = {"_FillValue": None}
-"""Encoding of coordinates, which may not be missing anywhere."""
 
 
 def particles_dataset(particles, lower_left, physics, time: float) -> xr.Dataset:

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from ..core.errors import InputError
 from .attributes import described
-from .datasets import NO_FILL, join
+from .datasets import join
 from .files import check_writable, write_dataset
 
 
@@ -98,7 +98,7 @@ class Snapshots:
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
         # elapsed time has no date to count from, so to CF it is a quantity, no time axis
-        time = xr.Variable("time", self._times, described("s", "elapsed time"), NO_FILL)
+        time = xr.Variable("time", self._times, described("s", "elapsed time"))
         series, last = join(self._maps, xr.DataArray(time, name="time")), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
 
