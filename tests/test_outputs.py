@@ -176,6 +176,23 @@ def test_outputs_of_one_that_is_gone_do_not_stay():
         np.testing.assert_array_equal(grid.at_node[name], values, name)
 
 
+def test_they_are_written_also_where_nothing_flowed_since():
+    """A call keeps to the rows of the raster that the flow may reach; the first event was far from them."""
+    grid = inclined((80, 40), 5.0, 0.5, soil=1.0, foot=100.0)
+    release_slab(grid, (30.0, 40.0), 8.0, 1.0)
+    flow = DebrisFlow(grid, numerics=COARSE)
+    flow.run_until_rest()
+    before = {name: grid.at_node[name].copy() for name in (ERODED, DEPOSIT)}
+    for name in before:
+        grid.at_node[name][:] = 5.0
+    release_slab(grid, (30.0, 360.0), 8.0, 0.3)
+    flow.run_until_rest()
+    agree(flow)
+    for name, values in before.items():
+        near = grid.y_of_node < 120.0
+        np.testing.assert_array_equal(grid.at_node[name][near], values[near], name)
+
+
 class Auditor:
     interval = 1.0
 
