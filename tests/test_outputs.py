@@ -233,6 +233,8 @@ def test_a_copy_of_grid_and_component_is_a_component_of_its_own():
         np.testing.assert_array_equal(grid.at_node[name], values, name)
     assert twin.run_until_rest() and flow.run_until_rest()
     assert agree(twin) == agree(flow)
+    for name, values in outputs(grid).items():
+        np.testing.assert_array_equal(twin.grid.at_node[name], values, name)
 
 
 def test_debris_that_is_left_behind_is_said_once(caplog):
