@@ -31,6 +31,7 @@ class Calls:
     def __init__(self, flow, simulation):
         self.flow, self._simulation, grid = flow, simulation, flow.grid
         self._settled = np.zeros(grid.number_of_nodes)
+        self._reached = slice(0, 0)  # nodes that calls so far may have changed
         self.ledger = Ledger(grid.dx * grid.dy)
         self._ground = Ground(grid, simulation.physics)
         self._said_nothing_to_do = False
@@ -116,7 +117,7 @@ class Calls:
             self._record()
             for observer, look in zip(watching, looks, strict=True):
                 if sim.time >= look or sim.idle:
-                    self._show()
+                    self._show(self._undo.nodes)
                     observer.observe(self.flow)
 
     def _follow(self):
@@ -141,22 +142,22 @@ class Calls:
         self._footprint.clear()
 
     def _finish(self):
-        """Show the accounts, also where others wrote, and remember the terrain to notice what others change."""
-        self._show()
-        self._ground.remember(self._undo.nodes, self._simulation.time)
-        beyond = slice(self._undo.nodes.start), slice(self._undo.nodes.stop, None)
-        for name, depth in ((ERODED, self._ground.eroded), (DEPOSIT, self._settled)):
-            for rest in beyond:
-                if not np.array_equal(field := self.flow.grid.at_node[name][rest], depth[rest]):
-                    field[:] = depth[rest]
+        """Show the accounts of all calls so far, and remember the terrain to notice what others change."""
+        before, now = self._reached, self._undo.nodes
+        if before.stop > 0 < now.stop:
+            self._reached = slice(min(before.start, now.start), max(before.stop, now.stop))
+        else:
+            self._reached = now if now.stop > 0 else before
+        self._show(self._reached)
+        self._ground.remember(now, self._simulation.time)
 
-    def _show(self):
-        """Write what was eroded, what has settled or lies still, and bed pressure, where the call may change them."""
-        rows, at = self._undo.nodes, self.flow.grid.at_node
-        self._ground.show(rows, self._simulation.time)
-        at[ERODED][rows], at[DEPOSIT][rows] = self._ground.eroded[rows], self._settled[rows]
-        nodes, depth = self._simulation.resting_depth()
-        at[DEPOSIT][nodes] += depth
+    def _show(self, nodes):
+        """Write what was eroded, what has settled and lies still, at some nodes, and bed pressure where it changed."""
+        self._ground.show(self._undo.nodes, self._simulation.time)
+        at = self.flow.grid.at_node
+        at[ERODED][nodes], at[DEPOSIT][nodes] = self._ground.eroded[nodes], self._settled[nodes]
+        lying, depth = self._simulation.resting_depth()
+        at[DEPOSIT][lying] += depth
 
     def accounts(self) -> dict:
         """Return the depths eroded and deposited so far [m] over nodes, by the names of their fields."""
@@ -171,3 +172,4 @@ class Calls:
         simulation.outflow = before.outflow.copy()
         self.ledger.continue_from(earlier.ledger, before)
         self._settled[:], self._ground.eroded[:] = earlier._settled, earlier._ground.eroded
+        self._reached = earlier._reached

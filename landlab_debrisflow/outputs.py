@@ -42,12 +42,15 @@ class Outputs:
     def __init__(self, grid, simulation, continues=None):
         self._grid, self._simulation, self._told = grid, simulation, False
         self._aside = {} if continues is None else continues._written()  # None: they are in the fields
+        self.show()
         for field in self._fields():
             if field.name not in grid.at_node:
-                grid.add_full(field.name, field.start, at="node", units=field.unit)
+                values = np.zeros(grid.number_of_nodes)  # costs nothing where nothing is written, unlike grid.add_zeros
+                if field.start:
+                    values[:] = field.start
+                grid.add_field(field.name, values, at="node", units=field.unit)
         if "debris_flow__release_depth" not in grid.at_node:
             grid.add_zeros("debris_flow__release_depth", at="node", units="m")
-        self.show()
 
     def __setstate__(self, state):
         vars(self).update(state)

@@ -184,7 +184,7 @@ def test_they_are_written_also_where_nothing_flowed_since():
     flow.run_until_rest()
     before = {name: grid.at_node[name].copy() for name in (ERODED, DEPOSIT)}
     for name in before:
-        grid.at_node[name][:] = 5.0
+        grid.at_node[name][:] = 0.0
     release_slab(grid, (30.0, 360.0), 8.0, 0.3)
     flow.run_until_rest()
     agree(flow)
