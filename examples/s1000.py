@@ -24,6 +24,7 @@ from rich.text import Text
 from s1000_scores import MEASURES, NOISE, QUOTED, ObservedPath, dig_and_spread, measure
 
 from landlab_debrisflow import DebrisFlow, InputError
+from landlab_debrisflow.record.datasets import join
 from landlab_debrisflow.record.files import check_writable, write_dataset
 from landlab_debrisflow.record.observers import Progress
 from landlab_debrisflow.record.plots import Layer, draw_maps, save_figure
@@ -203,7 +204,7 @@ def peak_memory():
 def outside_volume(depth, source):
     """Return the volume of a depth map outside the source [m3]."""
     cell = float(depth.x[1] - depth.x[0]) * float(depth.y[1] - depth.y[0])
-    return float(depth.values[~source.values].sum() * cell)
+    return float(np.nansum(depth.values[~source.values]) * cell)  # closed nodes are missing
 
 
 # ---- showing ----
@@ -263,10 +264,7 @@ def print_misfits(console, results, observed):
 def collect(maps, change, observed, source):
     """Return one Dataset of both runs along ``run``, with the observed change."""
     names = xr.DataArray(list(maps), dims="run", name="run")
-    both = xr.concat(
-        list(maps.values()), names, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals"
-    )
-    both.attrs = {key: value for key, value in both.attrs.items() if not key.startswith(("budget", "elapsed"))}
+    both = join(list(maps.values()), names)
     both["elevation_change"] = xr.concat(list(change.values()), names).assign_coords(x=both.x, y=both.y)
     both["observed_elevation_change"] = observed.assign_coords(x=both.x, y=both.y)
     both["source"] = source.astype("i1").assign_coords(x=both.x, y=both.y)

@@ -24,6 +24,7 @@ from tsing_shan_figures import draw_columns, draw_flow, draw_maps_of, print_tabl
 from tsing_shan_record import Record
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
+from landlab_debrisflow.record.datasets import join
 from landlab_debrisflow.record.files import check_writable, write_dataset
 from landlab_debrisflow.record.plots import save_figure
 from landlab_debrisflow.terrains import tsing_shan_valley
@@ -151,10 +152,7 @@ def read_terrain(dem, release, erodible):
 def collect(records):
     """Return the maps of all runs along ``run``."""
     names = xr.DataArray([f"{model}, c_v = {c_v:g} m2 s-1" for model, c_v in records], dims="run", name="run")
-    maps = [record.maps for record in records.values()]
-    both = xr.concat(maps, names, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals")
-    both.attrs = {key: value for key, value in both.attrs.items() if not key.startswith(("budget", "elapsed"))}
-    return both
+    return join([record.maps for record in records.values()], names)
 
 
 if __name__ == "__main__":

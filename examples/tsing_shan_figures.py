@@ -94,7 +94,7 @@ def draw_maps_of(records):
         pressure = {m: 1e-3 * r.maps.debris_flow__basal_excess_pore_pressure for m, r in pair.items()}
         largest = max(float(abs(values).max()) for values in pressure.values())
         if largest > 0.01:  # else all of it has gone
-            words = f"basal excess pore pressure at {some.maps.attrs['elapsed_time [s]']:.0f} s"
+            words = f"basal excess pore pressure at {some.maps.attrs['elapsed_time']:.0f} s"
             layers.append(Layer(titled(pressure, words, c_v), "pressure [kPa]", "RdBu_r", (-largest, largest)))
         if all(("since", 0.0) in r.snapshots for r in pair.values()):
             number = {m: relief.copy(data=r.snapshots["since", 0.0]["peclet"]) for m, r in pair.items()}

@@ -152,12 +152,12 @@ class Record:
         end = self.end["particles"]
         volume, far = end.volume.values, self.distance(end.x.values, end.y.values)
         front = quantile(far, volume, FRONT_SHARE)
-        deposit = self.maps.debris_flow__deposit_depth.values
+        maps = self.maps.fillna(0.0)  # closed nodes are missing
+        deposit, eroded = maps.debris_flow__deposit_depth.values, maps.debris_flow__eroded_depth.values
         bare = self.soil == 0.0
         beyond = bare & (deposit >= DEPOSIT)
-        crossed = bare & (self.maps.debris_flow__max_depth.values > 0.0)
+        crossed = bare & (maps.debris_flow__max_depth.values > 0.0)
         line = self.distance(self.node_x, self.node_y)[crossed].min(initial=np.inf)
-        eroded = self.maps.debris_flow__eroded_depth.values
         passing, forty = (self.peclet(self.snapshots.get(key)) for key in (("since", 0.0), PECLET_TIME))
         return {
             "final": self.budget["moving"] + self.budget["deposited"], "eroded": self.budget["eroded"],

@@ -3,6 +3,7 @@
 from .column import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
+from .core.version import __version__
 from .model.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
@@ -15,6 +16,6 @@ __all__ = [
     "Numerics",
     "ParameterError",
     "SimulationError",
+    "__version__",
     "solve_column",
 ]
-__version__ = "0.1.0"

@@ -21,6 +21,7 @@ from .model.footprint import NOW, PEAKS, PHASES, Footprint
 from .model.journal import Journal, Spot
 from .model.ledger import Ledger
 from .moment import Moment
+from .outputs import DEPOSIT, ERODED
 from .reports import Reports
 from .spatial.transfer import REACH
 
@@ -48,9 +49,9 @@ class Calls:
     def __init__(self, flow, simulation):
         self.flow, self._simulation, grid = flow, simulation, flow.grid
         self._settled = np.zeros(grid.number_of_nodes)
+        self._reached = slice(0, 0)  # nodes that calls so far may have changed
         self.ledger = Ledger(grid.dx * grid.dy)
         self._ground = Ground(grid, simulation.physics)
-        self._lying = np.zeros(0, int)  # nodes whose deposit is still that of particles
         self._undo = self._footprint = None  # in a call: rows as it found them, and what shows the flow
         self.interruption = Interruption()  # entered by whatever may not be done while a call runs
         self._interrupted = None
@@ -60,7 +61,7 @@ class Calls:
     def run(self, duration: float, stop_at_rest: bool) -> None:
         """Run for `duration` seconds, or until rest."""
         sim = self._simulation
-        with self.interruption as interruption, self.all_or_nothing() as earlier:
+        with self.interruption as interruption, self.flow._outputs.shown(), self.all_or_nothing() as earlier:
             end = sim.time + duration
             if earlier is None:
                 self.begin()
@@ -78,7 +79,7 @@ class Calls:
 
     def settle(self) -> None:
         """Lay down what is at rest."""
-        with self.interruption as interruption, self.all_or_nothing() as earlier:
+        with self.interruption as interruption, self.flow._outputs.shown(), self.all_or_nothing() as earlier:
             if earlier is None:
                 self.begin(take_release=False)
             with interruption.held():
@@ -185,7 +186,7 @@ class Calls:
         kept = Spot([at[name] for name in names], self._near()), Spot(self._ground.draining, slice(None))
         sim.particles, self._footprint = particles.copy(), copy(footprint)
         try:
-            self._show()
+            self._show(self._undo.nodes)
             yield
         finally:
             with self.interruption.held():
@@ -198,20 +199,19 @@ class Calls:
         sim, columns = self._simulation, self.flow.grid.number_of_node_columns
         p = sim.particles
         under, _ = sim.bed.depth_of(p.x, p.y, p.spread, p.volume)
-        nodes = np.concatenate([under, sim.origins.nodes, self._footprint.under, self._lying])
+        nodes = np.concatenate([under, self._footprint.under])
         nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # closed ones beside show what is there
         return nodes[(nodes >= 0) & (nodes < self.flow.grid.number_of_nodes)]
 
-    def _show(self):
-        """Bring fields and columns to the present; return the nodes whose deposit is that of particles."""
-        sim, field = self._simulation, self.flow.grid.at_node[OUTPUT_PREFIX + "deposit_depth"]
+    def _show(self, nodes):
+        """Bring columns to the present and fields, those of the accounts at some nodes; the flow was nowhere else."""
+        sim, at = self._simulation, self.flow.grid.at_node
         sim.catch_up()
         self._record()
-        nodes, depth = sim.resting_depth()
-        field[self._lying] = self._settled[self._lying]
-        field[nodes] = self._settled[nodes] + depth
         self._ground.show(self._undo.nodes, sim.time)
-        return nodes
+        at[ERODED][nodes], at[DEPOSIT][nodes] = self._ground.eroded[nodes], self._settled[nodes]
+        lying, depth = sim.resting_depth()
+        at[DEPOSIT][lying] += depth
 
     # ---- the end ----
 
@@ -226,8 +226,13 @@ class Calls:
         if settle:
             self._settle()
         self.ledger.watch_soil(None, None)
-        self._ground.remember(self._undo.nodes)
-        self._lying = self._show()
+        before, now = self._reached, self._undo.nodes
+        if before.stop > 0 < now.stop:
+            self._reached = slice(min(before.start, now.start), max(before.stop, now.stop))
+        else:
+            self._reached = now if now.stop > 0 else before
+        self._show(self._reached)  # also where somebody else has written
+        self._ground.remember(now)
         self._footprint = self._interrupted = None
 
     def _settle(self):
@@ -240,8 +245,24 @@ class Calls:
         nodes, depth = sim.settle()
         self.ledger.count_deposit(sim.bed.nodes.core, rise)
         self._settled[nodes] += depth
-        self._lying = np.union1d(self._lying, nodes)
         self._footprint.clear()
+
+    # ---- accounts over all calls ----
+
+    def accounts(self) -> dict:
+        """Return the depths eroded and deposited so far [m] over nodes, by the names of their fields."""
+        deposit, (nodes, depth) = self._settled.copy(), self._simulation.resting_depth()
+        deposit[nodes] += depth
+        return {ERODED: self._ground.eroded, DEPOSIT: deposit}
+
+    def continue_from(self, earlier: "Calls") -> None:
+        """Go on with clock and accounts of an earlier component that holds no particles any more."""
+        simulation, before = self._simulation, earlier._simulation
+        simulation.time, simulation.settled_solid = before.time, before.settled_solid
+        simulation.outflow = before.outflow.copy()
+        self.ledger.continue_from(earlier.ledger, before)
+        self._settled[:], self._ground.eroded[:] = earlier._settled, earlier._ground.eroded
+        self._reached = earlier._reached
 
     # ---- to go back ----
 

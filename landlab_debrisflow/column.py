@@ -11,6 +11,7 @@ from .core.variables import COLUMN_MEMORY
 from .physics.column.peclet import basal_peclet_number, consolidation_time, erosion_time
 from .physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from .physics.material import Material
+from .record.attributes import NO_FILL, described, heading, quantity
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
@@ -233,31 +234,20 @@ class _Columns:
 
 def _dataset(inputs: Inputs, given, output) -> xr.Dataset:
     """Return the output as a Dataset."""
-    from . import __version__  # the package is complete only now
-
     data = {}
     for name, (unit, words) in VARIABLES.items():
         dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
-        data[name] = (dims, np.stack([values[name] for values in output]), _attributes(unit, words))
+        data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))
     start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
-    data["initial_peclet_number"] = ("column", start, _attributes("-", "basal Peclet number at time 0"))
+    data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
     height = "height above the base over thickness, 0 at the base, 1 at the surface"
     coordinates = {
-        "time": ("time", inputs.times, _attributes("s", "time")),
-        "column": ("column", np.arange(inputs.thickness.size), _attributes("-", "number of the column")),
-        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), _attributes("-", height)),
+        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
+        "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
+        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
     }
-    attributes = {"Conventions": "CF-1.10", "source": f"landlab_debrisflow {__version__}", "version": __version__}
-    units = {name: number.unit for name, number in (NUMBERS | OTHERS).items()}
+    attributes, units = heading(), {name: number.unit for name, number in (NUMBERS | OTHERS).items()}
     for name, value in given.items():
-        if isinstance(value, str):
-            attributes[name] = value
-        elif isinstance(value, bool):
-            attributes[name] = int(value)  # netCDF has no booleans
-        elif isinstance(value, Real):
-            attributes[f"{name} [{units[name]}]" if units.get(name, "-") != "-" else name] = value
+        if isinstance(value, str | Real):
+            attributes |= quantity(name, value, units.get(name, "-"))
     return xr.Dataset(data, coordinates, attributes)
-
-
-def _attributes(unit: str, long_name: str) -> dict[str, str]:
-    return {"units": "1" if unit == "-" else unit, "long_name": long_name}

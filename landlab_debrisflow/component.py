@@ -15,6 +15,8 @@ from .model.inflow import Inflow
 from .model.numerics import Numerics
 from .model.physics import build_declared, build_physics
 from .model.simulation import Simulation
+from .outputs import Outputs, check_continued
+from .record.attributes import of_moment
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
 
 log = logging.getLogger("landlab_debrisflow")
@@ -25,6 +27,9 @@ class DebrisFlow(Component):
 
     Depth-integrated SPH on the terrain with a column of pore pressure under every particle, which moves
     with the flow while new soil enters from below (Pastor et al., 2022).
+
+    Output fields start at 0, arrival time at -1, whatever stood in them. With several components on one grid they hold
+    the outputs of the one that was built or called last; `maps` and `budget` are always a component's own.
 
     Parameters
     ----------
@@ -42,6 +47,8 @@ class DebrisFlow(Component):
     observers : observer or sequence of them, optional
         Objects with an ``interval`` [s] and a method ``observe(flow)``, called after every step that crosses a multiple
         of the interval and when the event comes to rest. They change no result (`landlab_debrisflow.record.observers`).
+    continues : DebrisFlow, optional
+        The component before on the same grid, at rest and settled: its maps, budget and elapsed time go on.
 
     Raises
     ------
@@ -78,7 +85,7 @@ class DebrisFlow(Component):
     _info: ClassVar = {field.name: field.info for field in NODE_FIELDS}
 
     def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
-                 numerics=None, inflow=None, observers=()):  # fmt: skip
+                 numerics=None, inflow=None, observers=(), continues=None):  # fmt: skip
         if not isinstance(grid, RasterModelGrid):
             raise inputs.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
         self._physics = build_physics(flow, friction, erosion, column, material)
@@ -92,10 +99,19 @@ class DebrisFlow(Component):
             inputs.check_boundaries(grid)
             odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
             odd += doubts.about_names(grid, self._physics)
-            inputs.add_fields(self)
             entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
+            if continues is not None:
+                if not isinstance(continues, DebrisFlow):
+                    raise inputs.InputError(
+                        f"continues must be the DebrisFlow before on the same grid, got {continues!r}"
+                    )
+                check_continued(continues, grid, entering)
             self._simulation = Simulation(self._physics, self._numerics, entering)
             self._calls = Calls(self, self._simulation)
+            if continues is not None:
+                self._calls.continue_from(continues._calls)
+            # last, because what is refused changes nothing
+            self._outputs = Outputs(grid, self._simulation, None if continues is None else continues._outputs)
         for doubt in (*odd, *doubts.about_parameters(grid, self._physics)):
             log.warning("%s", doubt)
 
@@ -178,9 +194,26 @@ class DebrisFlow(Component):
             raise inputs.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
         self._calls.settle()
 
+    def new_event(self):
+        """Start the maps of peaks (``max_...``) and the arrival time anew.
+
+        Erosion, deposit, budget and elapsed time, which arrival time counts, go on. Call it between two events.
+
+        Raises
+        ------
+        InputError
+            If something still moves or has yet to flow in.
+        """
+        if not self.at_rest:
+            raise inputs.InputError(
+                "new_event() starts peaks and arrival time anew, but the last event is not over: something still moves "
+                "or has yet to flow in; run_until_rest() first"
+            )
+        self._outputs.restart_peaks()
+
     @property
     def elapsed_time(self):
-        """Time simulated so far [s]."""
+        """Time simulated so far [s], in all calls, and by the component that this one continues."""
         return self._simulation.time
 
     @property
@@ -213,16 +246,23 @@ class DebrisFlow(Component):
     @property
     def particles(self):
         """The particles now: a Dataset over ``particle`` with map coordinates of the grid."""
-        return particles_dataset(self._simulation.particles, self.grid.xy_of_lower_left, self.elapsed_time)
+        sim = self._simulation
+        return particles_dataset(sim.particles, self.grid.xy_of_lower_left, self._physics, self.elapsed_time)
 
     @property
     def columns(self):
         """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
         sim = self._simulation
         c_v = sim.matter.coefficient_of_consolidation(sim.particles, slice(None))
-        return columns_dataset(sim.columns_now(), sim.particles, c_v, self.elapsed_time)
+        return columns_dataset(sim.columns_now(), sim.particles, c_v, self._physics, self.elapsed_time)
 
     @property
     def maps(self):
-        """The fields of the grid as a Dataset over ``y`` and ``x``, with units and all parameters."""
-        return maps_dataset(self.grid, self._physics, self._numerics, self.budget, self.elapsed_time, self._hydrographs)
+        """Elevation, soil and outputs as a Dataset over ``y`` and ``x``, with units, budget and all parameters.
+
+        Closed nodes are missing (NaN), except in the maps of impact pressure and run-up, which tell what ran against
+        them, and where something was left before they were closed.
+        """
+        shown = self._outputs.maps(self._calls.accounts())
+        moment = of_moment(self.elapsed_time, self._simulation.particles, self.budget)
+        return maps_dataset(self.grid, shown, self._physics, self._numerics, self._hydrographs, moment)

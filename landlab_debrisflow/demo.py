@@ -9,6 +9,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from .component import DebrisFlow
+from .record.datasets import join
 from .record.files import check_writable, write_dataset
 from .record.observers import Progress
 from .record.plots import Layer, draw_maps, save_figure
@@ -151,17 +152,13 @@ def _number(value):
 def _side_by_side(maps):
     """Join the maps of both models along a dimension ``column``, with their budgets as variables."""
     names = list(maps)
-    budgets = [key for key in maps[names[0]].attrs if key.startswith(("budget", "elapsed_time"))]
-    both = xr.concat(
-        list(maps.values()), xr.DataArray(names, dims="column", name="column"),
-        combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals",
-    )  # fmt: skip
+    both = join(list(maps.values()), xr.DataArray(names, dims="column", name="column"))
     both["column"].attrs["long_name"] = "law of the pore pressure column"
-    for key in budgets:
-        both.attrs.pop(key, None)
-        name, unit = key.removesuffix("]").split(" [")
-        values = [maps[column].attrs[key] for column in names]
-        both[name.replace(" ", "_")] = ("column", values, {"units": unit, "long_name": name})
+    for units, unit in maps[names[0]].attrs.items():
+        if units.startswith(("budget", "elapsed_time")) and units.endswith("_units"):
+            name = units.removesuffix("_units")
+            values = [maps[column].attrs[name] for column in names]
+            both[name] = ("column", values, {"units": unit, "long_name": name.replace("_", " ")})
     return both
 
 

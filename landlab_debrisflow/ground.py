@@ -6,7 +6,6 @@ import numpy as np
 
 from . import inputs, plausible
 from .core.parameters import on_nodes
-from .core.variables import OUTPUT_PREFIX
 from .spatial.transfer import Nodes
 from .terrain.bed import Bed
 from .terrain.bed_pressure import BedPressure
@@ -36,6 +35,7 @@ class Ground:
         self._seen = None  # elevation and status as the last call left them
         self._surface = None  # of that elevation
         self._eroded = None  # in this event before the present call, over nodes [m]; None: nothing
+        self.eroded = np.zeros(grid.number_of_nodes)  # in all calls of the component, whatever becomes of its field [m]
         self.elevation = self.soil = self.status = self.bed = None
 
     @property
@@ -87,9 +87,8 @@ class Ground:
         if new_event:
             self._eroded = None
         drained = None if self._drained is None else self._drained > 0.0
-        eroded_depth = grid.at_node[OUTPUT_PREFIX + "eroded_depth"]
         self.bed = Bed(
-            nodes, self._surface, self.elevation, self.soil, eroded_depth, ratios, drained, pore_pressure, self._eroded
+            nodes, self._surface, self.elevation, self.soil, self.eroded, ratios, drained, pore_pressure, self._eroded
         )
         return self.bed
 
@@ -102,7 +101,7 @@ class Ground:
     @property
     def rasters(self):
         """Arrays of its own over nodes that a call changes in place."""
-        return [*(self._seen or ())[:1], *(() if self._eroded is None else (self._eroded,))]
+        return [self.eroded, *(self._seen or ())[:1], *(() if self._eroded is None else (self._eroded,))]
 
     @property
     def draining(self):

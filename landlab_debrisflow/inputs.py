@@ -50,21 +50,6 @@ def check_types(grid) -> None:
                 )
 
 
-def add_fields(component) -> None:
-    """Add what a component writes, and its release, to its grid where they are missing."""
-    grid = component.grid
-    if component._physics.two_phases:
-        for field in NODE_FIELDS:
-            if field.intent == "out" and field.optional and field.name not in grid.at_node:
-                grid.add_zeros(field.name, at="node", units=field.unit)
-    new_arrival = "debris_flow__arrival_time" not in grid.at_node
-    component.initialize_output_fields()
-    if "debris_flow__release_depth" not in grid.at_node:
-        grid.add_zeros("debris_flow__release_depth", at="node", units="m")
-    if new_arrival:
-        grid.at_node["debris_flow__arrival_time"][:] = -1.0
-
-
 def check_boundaries(grid) -> None:
     """Refuse kinds of boundary that mean nothing for a flow of debris."""
     for status, word in ((FIXED_GRADIENT, "fixed-gradient"), (LOOPED, "looped")):

@@ -51,9 +51,9 @@ def test_its_test_can_fail(outside, monkeypatch):
 def test_it_is_written_down_in_the_maps(outside, slope):
     law = outside[0].ExcessShear(erodibility="soil__depth", threshold=50.0)
     attributes = DebrisFlow(slope, erosion=law, numerics=COARSE).maps.attrs
-    assert attributes["erosion"] == "ExcessShear"
-    assert attributes["erosion erodibility [m s-1 Pa-1]"] == "soil__depth"
-    assert attributes["erosion threshold [Pa]"] == 50.0
+    assert (attributes["erosion"], attributes["erosion_law"]) == ("ExcessShear", "excess_shear.ExcessShear")
+    assert attributes["erosion_erodibility"] == "soil__depth"
+    assert (attributes["erosion_threshold"], attributes["erosion_threshold_units"]) == (50.0, "Pa")
 
 
 def test_a_field_that_is_missing_is_refused(outside, slope):

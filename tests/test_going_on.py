@@ -233,17 +233,17 @@ def test_whatever_a_step_changes_is_undone():
     flow.run_one_step(2.0)
     sim = flow._simulation
     sim.number, sim.array, sim.nested = 1, np.zeros(3), {"list": [np.zeros(2)]}
-    looked = sim._look_for_rest
+    judge = sim.rest.judge
 
-    def change():
+    def change(simulation):
         sim.number += 1
         sim.array += 1.0
         sim.nested["list"][0] += 1.0
         sim.nested["list"].append(2)
         sim.new = sim.matter.new = "new"
-        looked()
+        judge(simulation)
 
-    sim._look_for_rest = change
+    sim.rest.judge = change
     before = state(flow)
     with failing(5), pytest.raises(Failed):
         flow.run_one_step(2.0)

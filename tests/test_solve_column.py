@@ -362,8 +362,9 @@ def test_everything_has_units_and_a_name():
     assert ds.thickness.dims == ("time", "column") and ds.initial_peclet_number.dims == ("column",)
     assert_allclose(ds.level, np.linspace(0.0, 1.0, 11))
     assert (ds.attrs["law"], ds.attrs["scheme"], ds.attrs["levels"]) == ("ale", "default", 11)
-    assert ds.attrs["version"] == __version__ and ds.attrs["entrainment_rate [m s-1]"] == 0.01
-    assert "thickness [m]" not in ds.attrs and not [key for key in ds.attrs if key.startswith("porosity_source")]
+    assert ds.attrs["version"] == __version__ and ds.attrs["entrainment_rate"] == 0.01
+    assert ds.attrs["entrainment_rate_units"] == "m s-1" and "levels_units" not in ds.attrs
+    assert "thickness" not in ds.attrs and not [key for key in ds.attrs if key.startswith("porosity_source")]
 
 
 def test_a_file_keeps_everything(tmp_path):

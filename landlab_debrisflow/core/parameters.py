@@ -251,12 +251,3 @@ def from_mapping(cls, mapping: Mapping[str, Any], relatives: Mapping[str, type] 
             hint = f" (it is one of {', '.join(owners)})" if owners else did_you_mean(key, legal)
             raise ParameterError(f"{cls.__name__}: unknown key {key!r}{hint}; allowed: {allowed}")
     return cls(**mapping)
-
-
-def describe(obj) -> dict[str, Any]:
-    """Return the parameters of a declared object as plain values for file attributes."""
-    return {
-        f"{f.name} [{f.metadata['unit']}]": getattr(obj, f.name)
-        for f in dataclasses.fields(obj)
-        if getattr(obj, f.name) is not None
-    }

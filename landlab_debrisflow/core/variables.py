@@ -78,6 +78,7 @@ class NodeField(NamedTuple):
     doc: str
     optional: bool = False
     dtype: type = float
+    start: float = 0.0  # of an output, where nothing has come
 
     @property
     def info(self) -> dict:
@@ -117,6 +118,7 @@ NODE_FIELDS = (
     NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
     NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
     NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
+    # peaks are those of what counts as arrival, since the component or, if it was called, new_event() began
     NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
     NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
     NodeField(
@@ -128,7 +130,10 @@ NODE_FIELDS = (
         "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes of "
         "what stood at their faces",
     ),
-    NodeField("debris_flow__arrival_time", "out", "s", "Time of first arrival; -1 where nothing came"),
+    NodeField(
+        "debris_flow__arrival_time", "out", "s",
+        "Elapsed time of the component at first arrival; -1 where nothing came", start=-1.0,
+    ),
     NodeField("debris_flow__eroded_depth", "out", "m", "Cumulative erosion, without the release"),
     NodeField("debris_flow__deposit_depth", "out", "m", "Depth of mass at rest now plus what has settled"),
     NodeField(

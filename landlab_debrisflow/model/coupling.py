@@ -130,16 +130,6 @@ def make_whole(of, count, index, weight, porosity, volume):
 
 
 @kernel
-def pull(push, ground, cosine, gravity):
-    """Return the size of the acceleration along the bed, shape (n,) [m s-2]."""
-    pull = np.empty(cosine.size)
-    for i in range(cosine.size):
-        ax, ay, az = along_bed(i, push, ground, cosine, gravity)
-        pull[i] = np.sqrt(ax * ax + ay * ay + az * az)
-    return pull
-
-
-@kernel
 def share_soil(of, count, index, weight, granted, water, volume, velocity, exponent):
     """Share the water of the soil among the partners, in place; v goes like V^-`exponent`.
 

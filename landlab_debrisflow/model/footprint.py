@@ -1,6 +1,8 @@
 """What the flow shows on the nodes: now, and at its peak. The maps are made of this.
 
-Two of the peaks are what obstacles are designed for. They count where the flow is deeper than what counts as arrival.
+Peaks count where the flow is deeper than what counts as arrival: a node has arrival time, peak depth, peak speed and
+all the others, or none. The last 1e-32 m3 of a tent moves at full speed, too. Two of the peaks are what obstacles are
+designed for.
 
 **Impact pressure** is the dynamic pressure density x speed^2, in the mean over the volume at a node: the flux of
 momentum through a square metre across the flow. The empirical factor on it (1.5 for Hungr et al., 1984; 3 to 5 for
@@ -56,7 +58,7 @@ class Footprint:
         Arrays named as in `NOW` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1 where
         nothing came.
     arrival_depth : float
-        Depth that counts as arrival [m].
+        Depth that counts as arrival, and for the peaks [m].
     time : float
         Of the event, now [s].
     """
@@ -168,11 +170,11 @@ def _record(
         depth[n], speed[n] = volume / area, sums[n, WAY] / volume
         if sums[n, GRAINS] > 0.0:
             pressure[n], peclet[n] = sums[n, PRESSURE] / sums[n, GRAINS], sums[n, PECLET] / sums[n, GRAINS]
-        max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
-        max_peclet[n] = max(max_peclet[n], peclet[n])
-        if sums[n, LIQUEFACTION] > 0.0:
-            max_ratio[n] = max(max_ratio[n], min(1.0, sums[n, PRESSURE] / sums[n, LIQUEFACTION]))
         if depth[n] > arrival_depth:
+            max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
+            max_peclet[n] = max(max_peclet[n], peclet[n])
+            if sums[n, LIQUEFACTION] > 0.0:
+                max_ratio[n] = max(max_ratio[n], min(1.0, sums[n, PRESSURE] / sums[n, LIQUEFACTION]))
             max_impact[n] = max(max_impact[n], sums[n, IMPACT] / volume)
             max_run_up[n] = max(max_run_up[n], sums[n, SURFACE] / volume)
             if arrival[n] < 0.0:

@@ -17,6 +17,16 @@ class Ledger:
         self.released = self.deposited = 0.0
         self._eroded = 0.0  # in earlier calls
         self._core = self._soil = None
+        self._earlier = dict.fromkeys(("released", "inflow", "eroded"), (0.0, 0.0))
+
+    def continue_from(self, earlier: "Ledger", simulation) -> None:
+        """Begin with the accounts of an earlier ledger; `simulation`, of which they are, holds no particles any more.
+
+        Of which phase volumes were is what they were then, of another material perhaps.
+        """
+        whole, solid = earlier.budget(simulation), earlier.budget_by_phase(simulation)["solid"]
+        self._earlier = {name: (whole[name], solid[name]) for name in self._earlier}
+        self.released, self._eroded, self.deposited = (whole[name] for name in ("released", "eroded", "deposited"))
 
     def watch_soil(self, core, soil: Journal | None) -> None:
         """Measure erosion as the fall of the soil depth in a journal, on core nodes, from now on; None: no more."""
@@ -40,7 +50,7 @@ class Ledger:
     def budget(self, simulation) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""
         moving = float(simulation.particles.volume.sum())
-        inflow, outflow = simulation.inflow.volume, simulation.outflow.total
+        inflow, outflow = self._earlier["inflow"][0] + simulation.inflow.volume, simulation.outflow.total
         return {
             "released": self.released, "inflow": inflow, "eroded": self.eroded, "moving": moving,
             "deposited": self.deposited, "outflow": outflow,
@@ -50,8 +60,11 @@ class Ledger:
     def budget_by_phase(self, simulation) -> dict[str, dict[str, float]]:
         """Return the budgets of grains and of what is between them [m3]; settled grains are those of the particles."""
         whole, material = self.budget(simulation), simulation.physics.material
-        parts = {name: (1.0 - material.porosity) * whole[name] for name in ("released", "inflow")}
-        parts["eroded"] = (1.0 - material.soil_porosity) * whole["eroded"]
+        porosity = dict.fromkeys(("released", "inflow"), material.porosity) | {"eroded": material.soil_porosity}
+        parts = {
+            name: solid + (1.0 - porosity[name]) * (whole[name] - volume)
+            for name, (volume, solid) in self._earlier.items()
+        }
         parts["moving"] = float(simulation.matter.solid_volume(simulation.particles).sum())
         parts["deposited"], parts["outflow"] = simulation.settled_solid, simulation.outflow.solid
         phases = {"solid": parts, "water": {name: whole[name] - part for name, part in parts.items()}}

@@ -10,7 +10,9 @@ import numpy as np
 from ..core.jit import kernel
 from ..physics.contracts import MIXTURE, WATER
 from ..spatial.across import find_partners
-from .coupling import kick_both, make_whole, pull, share_soil
+from . import walls
+from .coupling import kick_both, make_whole, share_soil
+from .motion import kick
 from .timestep import NOT_STIFF
 
 STEPS_BETWEEN_LOOKS = 16
@@ -100,12 +102,18 @@ class Mixture:
         _hold_back(velocity, p.light)
 
     def held(self, sim, which: slice, yield_stress, drag):
-        """Return which grains friction would hold at rest, and which water drag; `which` are all."""
-        p, velocity = sim.particles, np.zeros((3, sim.particles.count))
-        self.kick(sim, velocity, yield_stress, drag, np.zeros(1), 1.0)
-        seeping = pull(p.thrust, sim.ground, sim.cosine, self.material.gravity)
-        seeping *= self.material.water_density * p.porosity * p.thickness
-        return np.where(p.phase == WATER, seeping <= p.rest_speed * self.coupling, ~np.any(velocity, axis=0))
+        """Return which grains friction and walls would hold at rest, and which water drag; `which` are all."""
+        p, none, at_rest = sim.particles, np.zeros(sim.particles.count), np.zeros(1)
+        velocity, pull = np.zeros((2, 3, none.size))
+        self.kick(sim, velocity, yield_stress, drag, at_rest, 1.0)
+        free = _size(velocity)
+        walls.bear(sim, which, velocity, sim.ground)
+        left = _size(velocity)
+        leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # along the wall friction holds it
+        kick(pull, p.thrust, sim.ground, sim.cosine, none, none, none + 1.0, self.material.gravity, at_rest, 1.0)
+        walls.bear(sim, which, pull, sim.ground)
+        seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
+        return np.where(p.phase == WATER, seeping <= p.rest_speed * self.coupling, leaning | (left == 0.0))
 
     def refuse_soil(self, rate) -> None:
         """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""
@@ -166,13 +174,17 @@ class Mixture:
         return self.law.stiffness * lightness * _reached(x) * _reached(dt * self.drainage)
 
 
+def _size(vectors):
+    return np.sqrt((vectors**2).sum(axis=0))
+
+
 def _hold_back(velocity, light) -> None:
     """Let light particles be no faster than the fastest of the others, in place.
 
     Drag is exchanged with the mean of the partners, in which what weighs next to nothing does not count.
     """
     if light.any():
-        speed = np.sqrt((velocity**2).sum(axis=0))
+        speed = _size(velocity)
         fastest = speed[~light].max(initial=0.0)
         velocity[:, light] *= np.minimum(1.0, fastest / np.maximum(speed[light], 1e-300))
 

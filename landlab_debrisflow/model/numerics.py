@@ -18,7 +18,9 @@ class Numerics:
     courant_number: float = parameter("-", "time step over smoothing length / celerity", 0.6, (1e-6, 1.0))
     shock_viscosity: float = parameter("-", "strength of the viscosity at shocks", 1.0, (0.5, 10.0))
     rest_energy: float = parameter("-", "kinetic energy over its peak at which all is at rest", 1e-4, (0.0, 1.0))
-    arrival_depth: float = parameter("m", "depth that counts as arrival", 0.01, (0.0, None))
+    arrival_depth: float = parameter(
+        "m", "depth that counts as arrival, and from which on peaks count", 0.01, (0.0, None)
+    )
 
     DEFAULT_COUNT = 2000
 

@@ -46,6 +46,11 @@ class Particles:
         return self.volume.size
 
     @property
+    def ever(self) -> int:
+        """Number of particles that there have been so far."""
+        return self._next_identity
+
+    @property
     def roll(self):
         """What differs whenever particles came or went: their number, and how many there ever were."""
         return self.volume.size, self._next_identity

@@ -6,11 +6,9 @@ A simulation has one of the two as its ``matter``, and asks it wherever the numb
 import numpy as np
 
 from ..physics.contracts import MIXTURE
+from . import walls
 from .motion import kick
 from .timestep import NOT_STIFF
-
-NEVER = np.zeros(1)
-"""Speed below which particles come to rest if only friction itself is asked [m s-1]."""
 
 
 class Single:
@@ -57,12 +55,13 @@ class Single:
         kick(velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, self._gravity, rest_speed, dt)
 
     def held(self, sim, which: slice, yield_stress, drag):
-        """Return which of some particles friction would hold at rest."""
-        p, velocity = sim.particles, np.zeros((3, yield_stress.size))
+        """Return which of some particles friction and walls would hold at rest."""
+        p, n = sim.particles, yield_stress.size
         thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
-        mass = p.density[which] * p.thickness[which]
-        kick(velocity, thrust, ground, sim.cosine[which], yield_stress, drag, mass, self._gravity, NEVER, 1.0)
-        return ~np.any(velocity, axis=0)
+        mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
+        kick(pull, thrust, ground, sim.cosine[which], none, none, mass, self._gravity, np.zeros(1), 1.0)
+        walls.bear(sim, which, pull, ground)
+        return np.sqrt((pull**2).sum(axis=0)) <= yield_stress / mass
 
     def refuse_soil(self, rate) -> None:
         """Set the rate of erosion to 0 where nobody could take all of the soil, in place."""

@@ -10,7 +10,7 @@ from ..core.jit import kernel
 from ..physics.contracts import FlowState
 from ..spatial.summation import SMOOTHING_RATIO
 from ..spatial.transfer import Nodes
-from .motion import CLOSED
+from .motion import CLOSED, stop_at_walls
 
 
 def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
@@ -56,6 +56,23 @@ def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
     images["velocity"] = np.concatenate([state.velocity, velocity], axis=1)
     return state._replace(**images), both(changed)
 
+
+def bear(sim, which: slice, pull, ground) -> None:
+    """Take away, in place, what walls bear of the pull (3, n) on some particles at rest; `ground` (6, n) is theirs."""
+    if not sim.walled:
+        return
+    p, nodes = sim.particles, sim.bed.nodes
+    size = np.sqrt((pull**2).sum(axis=0))
+    pull *= TOUCHING * min(nodes.dx, nodes.dy) / np.maximum(size, 1e-300)
+    stop_at_walls(
+        size.size, np.ascontiguousarray(p.x[which]), np.ascontiguousarray(p.y[which]), pull, ground, nodes.dx, nodes.dy,
+        nodes.columns, sim.status, 1.0, np.zeros(size.size, np.int8),
+    )  # fmt: skip
+    pull *= size / (TOUCHING * min(nodes.dx, nodes.dy))
+
+
+TOUCHING = 1e-3
+"""Distance from a wall, over node spacing, at which a particle leans on it."""
 
 SPACING = 0.5 / SMOOTHING_RATIO
 """Spacing of particles over their support."""

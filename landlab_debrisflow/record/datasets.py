@@ -1,32 +1,51 @@
 """The state as xarray Datasets with units, after the CF conventions."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import xarray as xr
 
-from ..core.parameters import describe
-from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX, PARTICLE_VARIABLES
+from ..core.variables import NODE_FIELDS, PARTICLE_VARIABLES
+from ..model.motion import CLOSED
 from ..physics.column.peclet import consolidation_time, erosion_time
+from .attributes import (
+    NO_FILL,
+    OF_A_MOMENT,
+    at_nodes,
+    date_created,
+    described,
+    heading,
+    of_laws,
+    of_moment,
+    of_parameters,
+)  # fmt: skip
+
+ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
+"""Maps that tell of closed nodes, too: what ran against their faces, 0 if nothing did."""
+
+FIELDS = {field.name: field for field in NODE_FIELDS}
 
 
-def particles_dataset(particles, lower_left, time: float) -> xr.Dataset:
+def particles_dataset(particles, lower_left, physics, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
     data, order = {}, np.argsort(particles.identity)
     for variable in PARTICLE_VARIABLES:
         if not variable.written or variable.per_level:
             continue
-        values, attributes = getattr(particles, variable.name), _attributes(variable.unit, variable.long_name)
+        values, attributes = getattr(particles, variable.name), described(variable.unit, variable.long_name)
         if variable.vector:
             for axis, part in zip("xyz", values, strict=True):
                 words = f"{variable.long_name}, {axis} component"
-                data[f"{variable.name}_{axis}"] = ("particle", part[order], _attributes(variable.unit, words))
+                data[f"{variable.name}_{axis}"] = ("particle", part[order], described(variable.unit, words))
         else:
             data[variable.name] = ("particle", values[order], attributes)
-    data["x"] = ("particle", particles.x[order] + lower_left[0], _attributes("m", "map coordinate of the grid"))
-    data["y"] = ("particle", particles.y[order] + lower_left[1], _attributes("m", "map coordinate of the grid"))
-    return xr.Dataset(data, {"particle": particles.identity[order]}, {"elapsed_time [s]": time})
+    data["x"] = ("particle", particles.x[order] + lower_left[0], described("m", "map coordinate of the grid"))
+    data["y"] = ("particle", particles.y[order] + lower_left[1], described("m", "map coordinate of the grid"))
+    attributes = heading() | of_moment(time, particles) | of_laws(physics)  # no date: the same particles are identical
+    return xr.Dataset(data, {"particle": _numbers(particles.identity[order])}, attributes)
 
 
-def columns_dataset(profile, particles, coefficient_of_consolidation, time: float) -> xr.Dataset:
+def columns_dataset(profile, particles, coefficient_of_consolidation, physics, time: float) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
@@ -46,49 +65,89 @@ def columns_dataset(profile, particles, coefficient_of_consolidation, time: floa
         "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
         "clipped_pressure": (p.column_clipped, "Pa m", "pressure taken off by the bounds times thickness"),
     }  # fmt: skip
-    level = xr.DataArray(
-        np.linspace(0.0, 1.0, levels), dims="level",
-        attrs=_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface"),
-    )  # fmt: skip
-    words = _attributes("Pa", "excess pore pressure")
+    words = described("-", "height above the base over thickness, 0 at the base, 1 at the surface")
+    level = xr.Variable("level", np.linspace(0.0, 1.0, levels), words, NO_FILL)
+    words = described("Pa", "excess pore pressure")
     return xr.Dataset(
         {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
-        | {name: ("particle", values[order], _attributes(unit, text)) for name, (values, unit, text) in data.items()},
-        {"particle": p.identity[order], "level": level},
-        {"elapsed_time [s]": time},
+        | {name: ("particle", values[order], described(unit, text)) for name, (values, unit, text) in data.items()},
+        {"particle": _numbers(p.identity[order]), "level": level},
+        heading() | of_moment(time, particles) | of_laws(physics),
     )
 
 
-def maps_dataset(grid, physics, numerics, budget, time: float, hydrographs=()) -> xr.Dataset:
-    """Return elevation, soil and all fields of the flow over ``y`` and ``x``, with all parameters."""
-    data = {}
-    for field in NODE_FIELDS:
-        shown = field.name.startswith(OUTPUT_PREFIX) or field.name in ("topographic__elevation", "soil__depth")
-        if shown and field.name in grid.at_node:
-            values = grid.at_node[field.name].reshape(grid.shape).copy()
-            data[field.name] = (("y", "x"), values, _attributes(field.unit, field.doc))
-    west, south = grid.xy_of_lower_left
-    x = west + grid.dx * np.arange(grid.number_of_node_columns)
-    y = south + grid.dy * np.arange(grid.number_of_node_rows)
-    coordinates = {
-        "x": ("x", x, {"units": "m", "long_name": "x", "axis": "X"}),
-        "y": ("y", y, {"units": "m", "long_name": "y", "axis": "Y"}),
-    }
-    attributes = {"Conventions": "CF-1.10", "source": "landlab_debrisflow", "elapsed_time [s]": time}
-    attributes |= {f"budget {name} [m3]": value for name, value in budget.items()}
+def _numbers(identity):
+    return xr.Variable("particle", identity, described("-", "number of the particle, in order of release"))
+
+
+def maps_dataset(grid, shown: Mapping, physics, numerics, hydrographs, moment: Mapping) -> xr.Dataset:
+    """Return what is shown over ``y`` and ``x``, closed nodes missing, with all parameters.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+    shown : mapping of str to ndarray, shape (nodes,)
+        By the names of fields.
+    physics : Physics
+        A parameter that varies in space becomes a variable named as its attribute would be.
+    numerics : Numerics
+    hydrographs : sequence of Hydrograph
+    moment : mapping
+        Attributes: see `attributes.of_moment`.
+
+    Returns
+    -------
+    xarray.Dataset
+    """
+    closed = np.asarray(grid.status_at_node) == CLOSED
+    data, encoding = {}, {"_FillValue": np.nan}
+    for name, values in shown.items():
+        field, missing = FIELDS[name], closed
+        if field.intent == "out":  # what lay there before the nodes were closed is in the budget, too
+            missing = closed & (values == field.start) & (name not in ON_WALLS)
+        values = np.where(missing, np.nan, values).reshape(grid.shape)
+        data[name] = (("y", "x"), values, described(field.unit, field.doc), encoding)
+    attributes = {}
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(physics, kind)
-        attributes[kind] = type(law).__name__
-        attributes |= {f"{kind} {key}": _plain(value) for key, value in describe(law).items()}
-    attributes |= {f"numerics {key}": _plain(value) for key, value in describe(numerics).items()}
+        attributes |= of_parameters(kind, law)
+        for name, values, words in at_nodes(kind, law, grid.at_node, closed.size):
+            data[name] = (("y", "x"), np.where(closed, np.nan, values).reshape(grid.shape), words, encoding)
+    attributes |= of_parameters("numerics", numerics)
     for k, hydrograph in enumerate(hydrographs):
-        attributes |= {f"inflow {k} {key}": value for key, value in describe(hydrograph).items()}
-    return xr.Dataset(data, coordinates, attributes)
+        attributes |= of_parameters(f"inflow_{k}", hydrograph)
+    return xr.Dataset(data, _axes(grid), heading() | date_created() | dict(moment) | attributes | of_laws(physics))
 
 
-def _attributes(unit: str, long_name: str) -> dict[str, str]:
-    return {"units": "1" if unit == "-" else unit, "long_name": long_name}
+def _axes(grid):
+    """Return the map coordinates of columns and rows."""
+    axes = {}
+    spacings = grid.dx, grid.dy
+    for axis, first, spacing, count in zip("xy", grid.xy_of_lower_left, spacings, grid.shape[::-1], strict=True):
+        words = described("m", axis) | {"standard_name": f"projection_{axis}_coordinate", "axis": axis.upper()}
+        axes[axis] = xr.Variable(axis, first + spacing * np.arange(count), words, NO_FILL)
+    return axes
 
 
-def _plain(value):
-    return int(value) if isinstance(value, bool) else value  # netCDF has no booleans
+def join(maps: Sequence[xr.Dataset], along: xr.DataArray) -> xr.Dataset:
+    """Return maps of several moments or runs along a new dimension.
+
+    Parameters of which all have the same values over nodes have them once. Attributes that are not the same for all
+    are left out, as are those that are true of one moment only; variables that one has and another has not are missing
+    there.
+    """
+    first, names = maps[0], dict.fromkeys(name for one in maps for name in one)
+    once = [
+        name for name in names
+        if name not in FIELDS and all(name in one and one[name].identical(first[name]) for one in maps)
+    ]  # fmt: skip
+    joined = xr.concat(
+        [one.drop_vars(once) for one in maps], along,
+        data_vars="all", combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals",
+    ).assign({name: first[name] for name in once})  # fmt: skip
+    shared = [name for name in joined.attrs if all(name in one.attrs for one in maps)]
+    kept = [name for name in shared if name.removesuffix("_units") in shared and not name.startswith(OF_A_MOMENT)]
+    joined.attrs = {name: joined.attrs[name] for name in kept} | date_created()
+    for axis in joined.coords.values():
+        axis.encoding |= NO_FILL
+    return joined

@@ -20,6 +20,8 @@ from rich.console import Console
 from ..core.constants import EVERY_STEP
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
+from .attributes import described
+from .datasets import join
 from .files import check_writable, write_dataset
 
 
@@ -90,8 +92,6 @@ class Snapshots:
                 hint = did_you_mean(unknown[0], maps)
                 raise InputError(f"Snapshots: no field {unknown[0]!r} in the maps{hint}; there are {', '.join(maps)}")
             maps = maps[self._variables]
-        # the accounts of one moment are no attribute of the whole series
-        maps.attrs = {key: value for key, value in maps.attrs.items() if not key.startswith("budget")}
         self._times.append(flow.elapsed_time)
         self._maps.append(maps)
         if self.path is not None and flow.at_rest:
@@ -103,7 +103,7 @@ class Snapshots:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """All snapshots so far over ``time`` [s]; attributes that changed from one to the next are left out.
+        """All snapshots so far over ``time`` [s]; attributes that are not the same for all are left out.
 
         Raises
         ------
@@ -112,11 +112,10 @@ class Snapshots:
         """
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
-        words = {"units": "s", "long_name": "elapsed time of the event", "axis": "T"}
-        time = xr.DataArray(self._times, dims="time", name="time", attrs=words)
-        return xr.concat(
-            self._maps, time, combine_attrs="drop_conflicts", join="exact", coords="minimal", compat="equals"
-        )
+        # elapsed time has no date to count from, so to CF it is a quantity, no time axis
+        time = xr.Variable("time", self._times, described("s", "elapsed time"))
+        series, last = join(self._maps, xr.DataArray(time, name="time")), self._maps[-1].attrs
+        return series.assign_attrs(number_of_particles=last["number_of_particles"])
 
     def write(self, path=None):
         """Write the dataset as NetCDF, atomically.

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.errors import ParameterError
-from landlab_debrisflow.core.parameters import declared, describe, from_mapping, parameter
+from landlab_debrisflow.core.parameters import declared, from_mapping, parameter
 
 
 @declared
@@ -100,10 +100,3 @@ def test_a_law_without_parameters_says_so():
 
     with pytest.raises(ParameterError, match="allowed: none"):
         from_mapping(Nothing, {"angle": 1.0})
-
-
-def test_descriptions_build_the_same_again():
-    sledge = Sledge(angle=12.5, wood="beech")
-    text = describe(sledge)
-    assert text == {"angle [deg]": 12.5, "bells [-]": 2, "painted [-]": False, "wood [-]": "beech"}
-    assert from_mapping(Sledge, {key.split(" [")[0]: value for key, value in text.items()}) == sledge

@@ -72,11 +72,21 @@ def test_a_node_on_the_rim_has_no_neighbour_beyond_it():
     assert not field["max_impact_pressure"][:, 0].any()
 
 
-def test_a_film_is_no_impact():
-    """What is less than counts as arrival, as the last per mille of a tent, shows as speed and depth only."""
-    for volume, counts in ((0.99 * ARRIVAL_DEPTH * D * D, False), (1.01 * ARRIVAL_DEPTH * D * D, True)):
-        seen, field = footprint([EAST])
-        seen.record(over_the_middle((3.0, 0.0, 0.0), volume=volume), 2000.0, 1.0)
-        assert field["max_speed"][2, 2] == pytest.approx(3.0)
-        for name in ("max_impact_pressure", "max_run_up"):
-            assert (field[name][2, 2] > 0.0) == (field[name][EAST] > 0.0) == counts
+@pytest.mark.parametrize(("share", "counts"), [(0.99, False), (1.01, True)])
+def test_a_film_is_no_peak(share, counts):
+    """What is less than counts as arrival, as the last per mille of a tent, shows where it is, and in no peak."""
+    seen, field = footprint([EAST])
+    field["arrival_time"][:] = -1.0
+    p = over_the_middle(
+        (3.0, 0.0, 0.0), volume=share * ARRIVAL_DEPTH * D * D, basal_excess_pore_pressure=600.0,
+        liquefaction_pressure=1000.0, basal_peclet_number=7.0,
+    )  # fmt: skip
+    seen.record(p, 2000.0, 1.0)
+    shown = {name: field[name][2, 2] for name in NOW}
+    assert shown == pytest.approx(
+        {"depth": share * 0.01, "speed": 3.0, "basal_excess_pore_pressure": 600.0, "basal_peclet_number": 7.0}
+    )
+    for name in PEAKS:
+        assert (field[name][2, 2] != (-1.0 if name == "arrival_time" else 0.0)) == counts, name
+    for name in ("max_impact_pressure", "max_run_up"):
+        assert (field[name][EAST] > 0.0) == counts, name

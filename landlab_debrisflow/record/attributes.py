@@ -1,0 +1,134 @@
+"""What files say beside the numbers: under names that CF allows, in values that NetCDF can hold.
+
+A quantity stands under its name, in letters, digits and underscores, and its unit, if it has one, under the name with
+``_units`` behind it. What is not set (None) is left out.
+"""
+
+import dataclasses
+import re
+from datetime import UTC, datetime
+from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+
+from ..core.parameters import NodeValues
+from ..core.version import __version__
+from ..model.physics import LAWS
+
+OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
+"""How the names begin of what is true at one moment of one run only."""
+
+CF_UNITS = {"-": "1", "deg": "degree"}
+"""Units of the package that files call otherwise."""
+
+NO_FILL = {"_FillValue": None}
+"""Encoding of coordinates, which are missing nowhere."""
+
+LARGEST_INTEGER = 2**63 - 1
+"""That a file can hold."""
+
+
+def heading() -> dict[str, str]:
+    """Return what stands in every file: conventions, and what wrote it."""
+    return {"Conventions": "CF-1.10", "source": f"landlab_debrisflow {__version__}", "version": __version__}
+
+
+def date_created() -> dict[str, str]:
+    """Return the present time: ISO 8601, UTC."""
+    return {"date_created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
+
+
+def of_moment(time: float, particles, budget=()) -> dict[str, Any]:
+    """Return elapsed time [s], number of particles so far and the terms of a budget [m3], if there is one."""
+    attributes = quantity("elapsed_time", time, "s") | quantity("number_of_particles", particles.ever)
+    for name, volume in dict(budget).items():
+        attributes |= quantity(f"budget_{name}", volume, "m3")
+    return attributes
+
+
+def described(unit: str, long_name: str) -> dict[str, str]:
+    """Return the attributes of a variable."""
+    return {"units": CF_UNITS.get(unit, unit), "long_name": long_name}
+
+
+def quantity(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
+    """Return the attributes of a quantity; none for what is not set or cannot be written.
+
+    Examples
+    --------
+    >>> quantity("inflow_0_velocity", (4.0,), "m s-1")
+    {'inflow_0_velocity': 4.0, 'inflow_0_velocity_units': 'm s-1'}
+    >>> quantity("numerics_settle", True), quantity("friction_drag π", 2.5)
+    ({'numerics_settle': 1}, {'friction_dragu20u3c0': 2.5})
+    """
+    name, value = legal(name), plain(value)
+    if value is None:
+        return {}
+    has_unit = unit != "-" and not isinstance(value, str)
+    return {name: value} | ({f"{name}_units": CF_UNITS.get(unit, unit)} if has_unit else {})
+
+
+def legal(name: str) -> str:
+    """Return a name in letters, digits and underscores; others become ``u`` and their number in Unicode."""
+    return re.sub("[^A-Za-z0-9_]", lambda other: f"u{ord(other[0]):x}", name)
+
+
+def plain(value: Any):
+    """Return a value as number, text or tuple of numbers, which files give back equal; None if it is no such thing."""
+    if isinstance(value, str):
+        return str(value)
+    if isinstance(value, NodeValues):
+        return repr(value).strip("<>")
+    if isinstance(value, Integral | np.bool_):  # true and false are 1 and 0
+        return int(value) if abs(int(value)) <= LARGEST_INTEGER else str(value)
+    if isinstance(value, Real):
+        return float(value)
+    if isinstance(value, tuple | list) and value and all(isinstance(one, Real) for one in value):
+        return plain(value[0]) if len(value) == 1 else tuple(float(one) for one in value)
+    return None
+
+
+def parameters(obj: Any):
+    """Yield name, value and declaration (a mapping) of all parameters of an object.
+
+    An object that declares none, a law from outside perhaps, has its public attributes.
+    """
+    if dataclasses.is_dataclass(obj):
+        yield from ((f.name, getattr(obj, f.name, None), f.metadata) for f in dataclasses.fields(obj))
+    else:
+        public = {name: value for name, value in getattr(obj, "__dict__", {}).items() if not name.startswith("_")}
+        yield from ((name, value, {}) for name, value in public.items())
+
+
+def of_parameters(kind: str, obj: Any) -> dict[str, Any]:
+    """Return the attributes of all parameters of an object."""
+    attributes = {}
+    for name, value, declaration in parameters(obj):
+        attributes |= quantity(f"{kind}_{name}", value, declaration.get("unit", "-"))
+    return attributes
+
+
+def of_laws(physics) -> dict[str, str]:
+    """Return the class of every law under its kind, and the name it is chosen by, or where it is from."""
+    attributes = {}
+    for kind, laws in LAWS.items():
+        law = type(getattr(physics, kind))
+        names = [name for name, one in laws.items() if one is law]
+        attributes |= {kind: law.__name__, f"{kind}_law": (*names, f"{law.__module__}.{law.__qualname__}")[0]}
+    return attributes
+
+
+def at_nodes(kind: str, obj: Any, fields, count: int):
+    """Yield name, values over `count` nodes and attributes of every parameter that is given at all of them.
+
+    `fields` are those of the grid at its nodes, of which a parameter may have given the name.
+    """
+    for name, value, declaration in parameters(obj):
+        if isinstance(value, str) and declaration.get("varies") and value in fields:
+            value = fields[value]
+        if isinstance(value, NodeValues):
+            value = value.values
+        if isinstance(value, np.ndarray) and value.shape == (count,) and value.dtype.kind in "biuf":
+            words = described(declaration["unit"], declaration["meaning"]) if declaration else {"long_name": name}
+            yield legal(f"{kind}_{name}"), value.astype(float), words
