@@ -143,11 +143,10 @@ class Calls:
 
     def _finish(self):
         """Show the accounts of all calls so far, and remember the terrain to notice what others change."""
-        before, now = self._reached, self._undo.nodes
-        if before.stop > 0 < now.stop:
-            self._reached = slice(min(before.start, now.start), max(before.stop, now.stop))
-        else:
-            self._reached = now if now.stop > 0 else before
+        now, before = self._undo.nodes, self._reached
+        if now.stop > 0:
+            first = min(before.start, now.start) if before.stop > 0 else now.start
+            self._reached = slice(first, max(before.stop, now.stop))
         self._show(self._reached)
         self._ground.remember(now, self._simulation.time)
 
