@@ -179,10 +179,10 @@ class Calls:
 
     @contextmanager
     def _showing(self):
-        """Show the present, and take all of that back."""
+        """Show the present, and take back what the next steps would find otherwise: accounts are only shown."""
         sim, footprint = self._simulation, self._footprint
         particles, at = sim.particles, self.flow.grid.at_node
-        names = [f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at]
+        names = [f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at and f not in (ERODED, DEPOSIT)]
         kept = Spot([at[name] for name in names], self._near()), Spot(self._ground.draining, slice(None))
         sim.particles, self._footprint = particles.copy(), copy(footprint)
         try:
@@ -226,11 +226,10 @@ class Calls:
         if settle:
             self._settle()
         self.ledger.watch_soil(None, None)
-        before, now = self._reached, self._undo.nodes
-        if before.stop > 0 < now.stop:
-            self._reached = slice(min(before.start, now.start), max(before.stop, now.stop))
-        else:
-            self._reached = now if now.stop > 0 else before
+        now, before = self._undo.nodes, self._reached
+        if now.stop > 0:
+            first = min(before.start, now.start) if before.stop > 0 else now.start
+            self._reached = slice(first, max(before.stop, now.stop))
         self._show(self._reached)  # also where somebody else has written
         self._ground.remember(now)
         self._footprint = self._interrupted = None
