@@ -22,8 +22,12 @@ STEEPEST = 10.0
 SUSPECT = (0.0, -1.0, -99.0, -999.0)
 """Elevations that exist, but are also used to fill voids."""
 
-HOLE = 100.0
-"""Least height of the walls all round a void filled with one of those [m]."""
+HOLE, SHAFT = 50.0, 300.0
+"""Least height of the walls all round a void filled with one of those, and with any other number [m]."""
+
+
+MOST_VALUES = 20
+"""Of elevations below high walls that are looked at: a filled void has one."""
 
 
 def check_elevation(grid, elevation) -> None:
@@ -49,7 +53,11 @@ def check_elevation(grid, elevation) -> None:
     if high - low > HOLE:
         for value in SUSPECT:
             if low <= value <= high:
-                _check_holes(grid, elevation, used, value)
+                _check_holes(grid, elevation, used, value, HOLE)
+    if high - low > SHAFT:
+        pairs = _steps(grid, elevation, used, SHAFT)[0]
+        for value in np.unique(elevation[pairs].min(axis=0))[:MOST_VALUES]:
+            _check_holes(grid, elevation, used, value, SHAFT)
 
 
 def _check_fills(grid, elevation, used):
@@ -78,19 +86,23 @@ def _numbers(grid, pairs):
     return row * grid.number_of_node_columns + column
 
 
-def _check_cliffs(grid, elevation, used):
-    """Refuse steps between neighbours that no cliff has, naming the side that is farther from the rest."""
-    z = np.where(used, elevation, np.nan)
-    raster, steep, fall = z.reshape(grid.shape), [], 0.0
+def _steps(grid, elevation, used, least):
+    """Return pairs of neighbours that are steep and differ by more than `least` [m], shape (2, n), and the most."""
+    raster, pairs, most = np.where(used, elevation, np.nan).reshape(grid.shape), [], 0.0
     for one, other, step, spacing in _neighbours(grid):
         height = np.abs(raster[one] - raster[other])
-        first = _numbers(grid, height > max(HIGHEST_CLIFF, STEEPEST * spacing))
-        if first.size:
-            steep.append(np.array([first, first + step]))
-            fall = max(fall, float(np.nanmax(height)))
-    if not steep:
+        first = _numbers(grid, height > max(least, STEEPEST * spacing))
+        pairs.append(np.array([first, first + step]))
+        most = max(most, float(np.nanmax(height, initial=0.0)))
+    return np.concatenate(pairs, axis=1), most
+
+
+def _check_cliffs(grid, elevation, used):
+    """Refuse steps between neighbours that no cliff has, naming the side that is farther from the rest."""
+    pairs, fall = _steps(grid, elevation, used, HIGHEST_CLIFF)
+    if pairs.size == 0:
         return
-    middle, pairs = np.median(elevation[used]), np.concatenate(steep, axis=1)
+    z, middle = np.where(used, elevation, np.nan), np.median(elevation[used])
     odd = np.abs(z[pairs] - middle).argmax(axis=0)
     suspects = np.unique(pairs[odd, np.arange(odd.size)])
     values, count = np.unique(z[suspects], return_counts=True)
@@ -107,8 +119,8 @@ def _check_cliffs(grid, elevation, used):
     )
 
 
-def _check_holes(grid, elevation, used, value):
-    """Refuse voids of two nodes and more inside the grid that are filled with `value`, deep below all around."""
+def _check_holes(grid, elevation, used, value, deep):
+    """Refuse voids of two nodes and more inside the grid that are filled with `value`, `deep` [m] below all around."""
     filled, raster = (used & (elevation == value)).reshape(grid.shape), elevation.reshape(grid.shape)
     usable, rim, sheer = used.reshape(grid.shape), [], []
     for one, other, step, spacing in _neighbours(grid):
@@ -116,7 +128,7 @@ def _check_holes(grid, elevation, used, value):
         inside = np.where(filled.flat[first], first, first + step)
         rim.append(inside)
         outside = 2 * first + step - inside
-        sheer.append(raster.flat[outside] - value >= max(HOLE, STEEPEST * spacing))
+        sheer.append(raster.flat[outside] - value >= max(deep, STEEPEST * spacing))
     rim, sheer = np.concatenate(rim), np.concatenate(sheer)
     if not sheer.any():
         return
@@ -135,6 +147,6 @@ def _check_holes(grid, elevation, used, value):
         close = f"grid.status_at_node[{nodes.tolist()}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(
         f"{Z} is exactly {written(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, with upright "
-        f"walls of {HOLE:g} m and more all round: a void that is filled with a number? Close them: {close}; or, if it "
+        f"walls of {deep:g} m and more all round: a void that is filled with a number? Close them: {close}; or, if it "
         "is ground, give it another elevation"
     )

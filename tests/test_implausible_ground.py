@@ -123,6 +123,23 @@ def test_voids_filled_with_a_number_that_exists_are_refused(value):
     follow(message, grid)
 
 
+@pytest.mark.parametrize("value", [-1000.0, 1.0, 255.0])
+def test_deep_voids_filled_with_any_number_are_refused(value):
+    grid, void = slope_at(600.0)
+    grid.at_node[Z][void] = value
+    follow(refusal(grid), grid)
+    assert np.array_equal(np.flatnonzero(grid.status_at_node == grid.BC_NODE_IS_CLOSED), void)
+
+
+def test_the_message_says_how_to_keep_what_is_meant():
+    """A shaft of three by five nodes, 400 m deep."""
+    grid, void = slope_at(600.0)
+    grid.at_node[Z][void] = 255.0
+    assert "if it is ground, give it another elevation" in refusal(grid)
+    grid.at_node[Z][void] += 1e-3 * np.arange(void.size)
+    accepted(grid)
+
+
 def test_only_the_void_is_closed_where_there_is_ground_at_the_same_elevation():
     grid, void = slope_at(500.0)
     sea = grid.x_of_node > 280.0
@@ -148,6 +165,7 @@ def test_the_datum_is_nobodys_business(offset):
         lambda: scenes.pit(200.0), lambda: scenes.pit(100.0), lambda: scenes.pit(50.0, spacing=1.0),
         lambda: scenes.cliff(200.0), lambda: scenes.cliff(1000.0), scenes.gully, scenes.noisy_slope, scenes.walls,
         lambda: scenes.plane(np.tan(np.radians(80.0)), 1.0), lambda: scenes.plane(0.5, 100.0),
+        lambda: scenes.pit(1000.0),
     ],
 )  # fmt: skip
 def test_pits_cliffs_and_steep_slopes_are_ground(build):

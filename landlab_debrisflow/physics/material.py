@@ -57,7 +57,8 @@ class Material:
         if self.solid_density <= self.water_density:
             raise ParameterError(
                 f"Material: solid_density must exceed water_density, {self.water_density:g} kg m-3, got "
-                f"{self.solid_density:g}: debris that floats has no friction; for dry debris set water_density to 0"
+                f"{self.solid_density:g}: debris that floats has no friction; for dry debris set water_density to 0; "
+                "units are kg m-3, in which grains have some 2650"
             )
 
     @property

@@ -93,7 +93,7 @@ def particles():
     return SimpleNamespace(
         awake=n, velocity=np.zeros((3, n)), thrust=np.zeros((3, n)), thickness=np.full(n, 2.0), thickening=np.zeros(n),
         smoothing_length=np.full(n, 3.0), volume=np.full(n, 7.0), basal_excess_pore_pressure=np.zeros(n),
-        entrainment_rate=np.zeros(n), depth=np.full(n, 2.5), own_thickness=np.full(n, 2.0),
+        entrainment_rate=np.zeros(n), depth=np.full(n, 2.5), own_thickness=np.full(n, 2.0), light=np.zeros(n, bool),
     )  # fmt: skip
 
 
