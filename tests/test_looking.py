@@ -1,12 +1,16 @@
 """Who looks changes nothing, and sees the flow as it would be if the call ended there."""
 
+from contextlib import contextmanager
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from landlab_debrisflow import InputError
+from landlab_debrisflow.calls import Calls
 from landlab_debrisflow.record.observers import EVERY_STEP
 
-from .grids import copy_fields
+from .grids import changed_fields, copy_fields
 from .twins import SCENES, Failed, Fails, build, different, outcome, run_through, state
 
 HORIZON = 60.0
@@ -101,8 +105,24 @@ def test_an_observer_may_not_run_the_flow(call):
     assert not different(outcome(flow), outcome(twin))
 
 
-def test_nothing_of_a_look_stays_on_the_grid():
-    """Not even where it wrote over what a former event left."""
+@pytest.mark.parametrize("name", SCENES)
+def test_nothing_of_a_look_stays_on_the_grid(name, monkeypatch):
+    showing, shown = Calls._showing, set()
+
+    @contextmanager
+    def checked(calls):
+        before, inside = copy_fields(calls.flow.grid), state(calls.flow)
+        with showing(calls):
+            shown.update(changed_fields(calls.flow.grid, before))
+            yield
+        assert not changed_fields(calls.flow.grid, before) and not different(state(calls.flow), inside)
+
+    monkeypatch.setattr(Calls, "_showing", checked)
+    build(name, [SimpleNamespace(interval=EVERY_STEP, observe=lambda flow: None)]).run_until_rest(HORIZON)
+    assert {"debris_flow__depth", "debris_flow__deposit_depth", "debris_flow__max_run_up"} <= shown
+
+
+def test_nor_where_it_wrote_over_what_a_former_event_left():
     flow = build("eroding", [Looks(0.3)])
     flow.run_until_rest()
     left = copy_fields(flow.grid)

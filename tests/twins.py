@@ -40,6 +40,13 @@ def with_walls():
     return grid
 
 
+def with_loaded_bed():
+    """Wet far from the flow, too."""
+    grid = valley(shape=(60, 60))
+    grid.add_full("bed__excess_pore_pressure", 500.0, at="node")
+    return grid
+
+
 def with_friction():
     grid = valley()
     grid.add_full("friction__angle", 30.0, at="node")
@@ -55,7 +62,7 @@ SCENES = {
     "inflow": (valley, {"inflow": SURGES}),
     "sleeping": (with_sleepers, {"material": WET, "numerics": {"particle_count": 200}}),
     "walls": (with_walls, {}),
-    "loaded bed": (valley, {"material": {"bed_loading_coefficient": 0.6, "bed_drainage_time": 20.0}}),
+    "loaded bed": (with_loaded_bed, {"material": {"bed_loading_coefficient": 0.6, "bed_drainage_time": 20.0}}),
     "friction from a field": (
         with_friction, {"friction": {"law": "coulomb", "basal_friction_angle": "friction__angle"}},
     ),
@@ -163,13 +170,13 @@ class Fails:
 
 def run_through(flow, duration=None):
     """Run a flow to rest, or for so many seconds, as often as it takes; return how often it was interrupted."""
-    interruptions, end = 0, None if duration is None else flow.elapsed_time + duration
+    interruptions, began = 0, flow.elapsed_time
     while True:
         try:
-            if end is None:
+            if duration is None:
                 flow.run_until_rest()
             else:
-                flow.run_one_step(end - flow.elapsed_time)
+                flow.run_one_step(duration - (flow.elapsed_time - began))
             return interruptions
         except (Failed, KeyboardInterrupt) as interruption:
             interruptions += 1
