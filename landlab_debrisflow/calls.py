@@ -179,11 +179,14 @@ class Calls:
 
     @contextmanager
     def _showing(self):
-        """Show the present, and take back what the next steps would find otherwise: accounts are only shown."""
+        """Show the present, and take all of that back."""
         sim, footprint = self._simulation, self._footprint
         particles, at = sim.particles, self.flow.grid.at_node
-        names = [f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at and f not in (ERODED, DEPOSIT)]
-        kept = Spot([at[name] for name in names], self._near()), Spot(self._ground.draining, slice(None))
+        shown, accounts = {f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at}, {ERODED, DEPOSIT}
+        kept = (
+            Spot([at[name] for name in shown - accounts], self._near()),
+            Spot([at[name] for name in accounts], self._undo.nodes), Spot(self._ground.draining, slice(None)),
+        )  # fmt: skip
         sim.particles, self._footprint = particles.copy(), copy(footprint)
         try:
             self._show(self._undo.nodes)
