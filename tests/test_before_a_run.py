@@ -104,7 +104,7 @@ def test_before_a_run_all_accounts_are_there_and_0(valley, law):
     assert all(set(phase.values()) == {0.0} for phase in flow.budget_by_phase.values())
     assert flow.at_rest and flow.elapsed_time == 0.0
     maps = flow.maps
-    assert maps.attrs["budget released [m3]"] == 0.0 and not maps.debris_flow__max_depth.any()
+    assert maps.attrs["budget_released"] == 0.0 and not maps.debris_flow__max_depth.any()
     assert "nothing released yet at 0 s" in repr(flow)
     flow.settle()
     assert not changed_fields(valley, before)
@@ -170,7 +170,8 @@ def test_observers_may_print_the_flow(valley):
 
     observer = Printing()
     DebrisFlow(valley, numerics=COARSE, observers=observer).run_one_step(10.0)
-    assert "moving at 5 s" in observer.seen[0] and "moving at 10 s" in observer.seen[2]
+    # at the end of the step that crosses 5 s, and of the last one
+    assert "moving at 5.0" in observer.seen[0] and "moving at 10 s" in observer.seen[2]
 
 
 def test_waiting_for_inflow_is_a_state_and_an_unfinished_component_has_none():

@@ -66,7 +66,10 @@ def kick_both(
                 slow = 0.0
             slow /= 1.0 + compliance * drag[i]
             factor = slow / speed
-            if slow < rest_speed[min(i, rest_speed.size - 1)] and slow * slow < us * us + vs * vs + ws * ws:
+            least = rest_speed[min(i, rest_speed.size - 1)]
+            if slow < least and least == np.inf:
+                factor = 0.0
+            elif slow < least and slow * slow < us * us + vs * vs + ws * ws:
                 share = part * (dt - response)  # what of the pull on the water has reached the grains
                 ex, ey, ez = dt * bx + share * (ax - bx), dt * by + share * (ay - by), dt * bz + share * (az - bz)
                 if ex * ex + ey * ey + ez * ez <= grip * grip:
@@ -99,7 +102,9 @@ def kick_both(
         factor = 1.0 / (1.0 + dt * manning[min(i, manning.size - 1)] * was)
         speed = factor * np.sqrt(u * u + v * v + w * w)
         slowest = rest_speed[min(i, rest_speed.size - 1)]
-        if speed < slowest and speed < was:
+        if speed < slowest and slowest == np.inf:
+            factor = 0.0
+        elif speed < slowest and speed < was:
             seepage = np.sqrt(ax * ax + ay * ay + az * az) * water_density * porosity[i] * thickness[i]
             if seepage <= slowest * coupling[i]:  # what drag would leave of its speed if the grains rest
                 factor = 0.0

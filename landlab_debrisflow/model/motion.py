@@ -43,7 +43,8 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
         cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
         are particles to kick; the others may be longer.
     rest_speed : ndarray, shape (n,) or (1,)
-        A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1].
+        A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1]. If it
+        is infinite, whether or not.
     """
     for i in range(mass.size):
         ax, ay, az = along_bed(i, push, ground, cosine, gravity)
@@ -58,8 +59,9 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
             if left < 0.0:  # not max(): a NaN must survive
                 left = 0.0
             left /= 1.0 + dt * drag[i] / mass[i]
-            resting = left < rest_speed[min(i, rest_speed.size - 1)] and left * left < was
-            resting = resting and ax * ax + ay * ay + az * az <= resistance * resistance
+            least = rest_speed[min(i, rest_speed.size - 1)]
+            held = left * left < was and ax * ax + ay * ay + az * az <= resistance * resistance
+            resting = left < least and (held or least == np.inf)
             factor = 0.0 if resting else left / speed
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 

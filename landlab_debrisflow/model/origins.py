@@ -24,6 +24,7 @@ class Origins:
         self._x, self._y, self._volume = np.zeros((3, 0))
         self._owner, self._node = np.zeros((2, 0), np.int64)
         self._part = np.zeros(0)
+        self.span = ()  # first and last node from which anything was taken
 
     def add(self, x, y, particle, node, part):
         """Note a release and return the numbers of its particles here, shape (n,).
@@ -42,12 +43,8 @@ class Origins:
         self._volume = np.concatenate([self._volume, np.bincount(particle, part, count)])
         self._owner = np.concatenate([self._owner, first + particle])
         self._node, self._part = np.concatenate([self._node, node]), np.concatenate([self._part, part])
+        self.span = int(self._node.min()), int(self._node.max())
         return first + np.arange(count)
-
-    @property
-    def nodes(self):
-        """Nodes from which anything was taken, shape (m,), some of them twice."""
-        return self._node
 
     def unmoved(self, origin, x, y, spacing, core):
         """Return which part of each particle goes back, shape (n,): all, if it never moved, none from a spacing on.

@@ -99,14 +99,13 @@ def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
 def fill_cells(sites: Sites, counts) -> Samples:
     """Fill every failing cell with samples, sloping with its neighbours; they are grouped by site.
 
-    A cell has as many as an even site would, and more where it is thick. The slope inside a cell is limited
-    (monotonised central), so no depth is negative and the volume of every cell is kept.
+    A cell has as many as an even site would, and at least one for each particle that it makes. The slope inside a cell
+    is limited (monotonised central), so no depth is negative and the volume of every cell is kept.
     """
     rows, columns, depth, of = sites.rows, sites.columns, sites.depth, sites.of_cell
     here, area = depth[rows, columns], sites.spacing[0] * sites.spacing[1]
-    wanted = SAMPLES_PER_PARTICLE * np.maximum(
-        counts[of] / np.bincount(of)[of], counts[of] * here * area / sites.volume[of]
-    )
+    makes = counts[of] * here * area / sites.volume[of]
+    wanted = np.maximum(SAMPLES_PER_PARTICLE * counts[of] / np.bincount(of)[of], makes)
     per_side = np.maximum(1, np.ceil(np.sqrt(wanted * (1.0 - 1e-9)))).astype(int)  # rounding asks for no more
 
     def slope(down, along):

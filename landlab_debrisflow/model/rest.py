@@ -7,13 +7,13 @@ on a counter-slope. What is arrested stays until a body that moves touches it, o
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import inner, kernel
 from ..spatial.cells import sort_into_cells
 
 MOST_UNHELD = 0.5
 """Part of the volume of a body that may lie where friction does not hold it when it is arrested."""
 
-STEPS_BETWEEN_LOOKS = 16
+STEPS_BETWEEN_LOOKS = 32
 """Steps after which bodies are told apart anew: it takes many to part or to meet."""
 
 UNKNOWN = -1
@@ -29,7 +29,6 @@ class Rest:
 
     def __init__(self):
         self.all = False  # whether nothing moves
-        self.any = False  # whether anything is arrested
         self._peak = self._volume = np.zeros(0)  # most kinetic energy [m5 s-2] and volume [m3] of each body
         self._steps = self._known = 0  # since the last look; how many particles there had ever been then
 
@@ -45,7 +44,8 @@ class Rest:
         self._peak = np.bincount(p.body, peak, bodies)
         touched = np.bincount(p.body, p.arrested == 0, bodies) > 0
         p.arrested[touched[p.body]] = 0
-        self._note(p)
+        p.rest_speed[:] = np.where(p.arrested > 0, np.inf, 0.0)
+        self.all = not touched.any()
 
     def _peak_of(self, p):
         """Return the part each particle has of the most kinetic energy of its body [m5 s-2]; new ones have none."""
@@ -59,22 +59,26 @@ class Rest:
         """Arrest the bodies of a simulation that have come to rest in the last step."""
         p, part = sim.particles, sim.numerics.rest_energy
         self._steps += 1
-        if self._steps >= STEPS_BETWEEN_LOOKS or p.roll[1] != self._known or self._is_touched(sim):
-            self.look(p)
         if p.count == 0:
-            self.all = self.any = False
+            self.all = False
             return
-        energy = np.zeros(self._peak.size)
-        slow, free = _measure(
-            p.awake, p.volume, p.velocity, p.body, p.arrested, part, self._volume, energy, self._peak, p.rest_speed
-        )  # fmt: skip
+        touched = True
+        if self._steps < STEPS_BETWEEN_LOOKS and p.roll[1] == self._known:
+            energy, slow, free, touched = self._measure(sim, part)
+        if touched:
+            self.look(p)
+            energy, slow, free, _ = self._measure(sim, part)
         self.all = free == 0
         if slow:
             self._arrest(sim, energy <= part * self._peak)
 
-    def _is_touched(self, sim) -> bool:
-        """Return whether something has changed in reach of what is arrested."""
-        return self.any and bool(np.any(sim.computed & (sim.particles.arrested > 0)))
+    def _measure(self, sim, part):
+        """Return the kinetic energy of each body, and what `_measure` returns; what has just moved counts."""
+        p, energy = sim.particles, np.zeros(self._peak.size)
+        return energy, *_measure(
+            p.awake, sim.computed, p.volume, p.velocity, p.body, p.arrested, part, self._volume, energy, self._peak,
+            p.rest_speed,
+        )  # fmt: skip
 
     def _arrest(self, sim, slow) -> None:
         """Stop those of the `slow` bodies that friction holds, and that do not move as prescribed."""
@@ -84,42 +88,40 @@ class Rest:
         unheld = np.bincount(p.body[awake], p.volume[awake] * ~held, slow.size)
         resting = (slow & (unheld <= MOST_UNHELD * self._volume))[p.body]
         p.velocity[:, resting], p.entrainment_rate[resting], p.arrested[resting] = 0.0, 0.0, 1
-        self._note(p)
+        p.rest_speed[resting] = np.inf
+        self.all = bool(p.arrested.all())
 
     def set_free(self, p) -> None:
         """Let everything move again, as if it had never moved: the ground below has changed."""
-        if self.any:
-            arrested = p.arrested > 0
-            p.body[arrested], p.arrested[arrested] = UNKNOWN, 0
-            self._known = UNKNOWN
-        self.all = self.any = False
-
-    def _note(self, p) -> None:
         arrested = p.arrested > 0
-        self.all, self.any = bool(arrested.all()), bool(arrested.any())
+        p.body[arrested], p.arrested[arrested], p.rest_speed[arrested] = UNKNOWN, 0, 0.0
+        self.all, self._known = False, UNKNOWN if arrested.any() else self._known
 
 
 @kernel
-def _measure(awake, volume, velocity, body, arrested, rest_energy, whole, energy, peak, rest_speed):
-    """Measure every body; return how many particles of slow ones are not arrested, and how many of all.
+def _measure(awake, computed, volume, velocity, body, arrested, part, whole, energy, peak, rest_speed):
+    """Measure every body; return how many particles that are free to move are in slow ones, and how many there are.
 
-    Written are the kinetic energy of each body, the most it had, and for every particle the speed at which a body has
-    the part `rest_energy` of that: below it, one that is being slowed comes to rest if friction holds it [m s-1].
+    Also whether anything has changed in reach of one that is arrested. Written are the kinetic energy of each body, the
+    most it had, and for every particle the speed at which a body has the part `part` of that: below it, one that is
+    being slowed comes to rest if friction holds it [m s-1].
     """
     for i in range(awake):
         energy[body[i]] += volume[i] * (velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
     for b in range(energy.size):
         peak[b] = max(peak[b], energy[b])
-    slow = free = 0
+    slow, free, touched = 0, 0, False
     for i in range(volume.size):
-        b = body[i]
-        least = rest_energy * peak[b]
-        rest_speed[i] = np.sqrt(least / whole[b])
         if arrested[i] == 0:
+            b = body[i]
+            least = part * peak[b]
+            rest_speed[i] = np.sqrt(least / whole[b])
             free += 1
             if energy[b] <= least:
                 slow += 1
-    return slow, free
+        elif computed[i]:
+            touched = True
+    return slow, free, touched
 
 
 def find_bodies(x, y, z, support):
@@ -145,35 +147,53 @@ def find_bodies(x, y, z, support):
     return np.unique(parent, return_inverse=True)[1]
 
 
+@inner
+def _root(parent, i):
+    while parent[i] != i:
+        parent[i] = parent[parent[i]]
+        i = parent[i]
+    return i
+
+
+@inner
+def _join_cells(x, y, z, support, order, first, last, start, stop, parent):
+    """Join those of two cells that feel each other; return whether those of the first one are then of one body."""
+    for k in range(first, last):
+        i = order[k]
+        root = _root(parent, i)
+        for s in range(start, stop):
+            j = order[s]
+            if parent[j] == root:
+                continue
+            reach = max(support[i], support[j])
+            if (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2 < reach * reach:
+                met = _root(parent, j)
+                parent[max(met, root)] = min(met, root)
+                root = min(met, root)
+    root, one = _root(parent, order[first]), True
+    for k in range(first + 1, last):
+        one &= _root(parent, order[k]) == root
+    return one
+
+
 @kernel
 def _join(x, y, z, support, columns, order, start, window, parent):
     """Join those that feel each other: write a particle that stands for its body for each of them."""
-    rows = (start.size - 1) // columns
+    one = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
     for cell in range(start.size - 1):
         row, column, w = cell // columns, cell % columns, window[cell]
-        for k in range(start[cell], start[cell + 1]):
-            i = order[k]
-            root = i
-            while parent[root] != root:
-                root = parent[root]
-            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                    if (r, q) > (row, column):
-                        continue  # a pair is looked at once
-                    for s in range(start[r * columns + q], start[r * columns + q + 1]):
-                        j = order[s]
-                        other = j
-                        while parent[other] != other:
-                            parent[other] = parent[parent[other]]
-                            other = parent[other]
-                        if other == root:
-                            continue
-                        reach = max(support[i], support[j])
-                        if (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2 < reach * reach:
-                            parent[max(other, root)] = min(other, root)
-                            root = min(other, root)
+        first, last = start[cell], start[cell + 1]
+        if first == last:
+            continue
+        one[cell] = _join_cells(x, y, z, support, order, first, last, first, last, parent)
+        for r in range(row, max(row - w, 0) - 1, -1):
+            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+                other = r * columns + q
+                if other >= cell or start[other] == start[other + 1]:  # a pair is looked at once
+                    continue
+                if one[cell] and one[other] and _root(parent, order[first]) == _root(parent, order[start[other]]):
+                    continue
+                joined = _join_cells(x, y, z, support, order, first, last, start[other], start[other + 1], parent)
+                one[cell] = joined
     for i in range(parent.size):
-        root = i
-        while parent[root] != root:
-            root = parent[root]
-        parent[i] = root
+        parent[i] = _root(parent, i)

@@ -78,9 +78,8 @@ class Simulation:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
         y, raster = self.particles.y, self.bed.nodes
         ends = [(y.min(), y.max())] if y.size else []
-        if self.origins.nodes.size:  # to which may return what never moved
-            rows = self.origins.nodes // raster.columns
-            ends.append((rows.min() * raster.dy, rows.max() * raster.dy))
+        if nodes := self.origins.span:  # to which may return what never moved
+            ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))
         ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]
         return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
 

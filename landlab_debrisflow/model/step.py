@@ -66,8 +66,6 @@ def friction_and_kick(sim, dt: float) -> None:
     yield_stress, drag = np.empty(m), np.empty(m)
     sim.physics.friction.basal_resistance(base(sim, slice(m), "friction"), yield_stress, drag)
     sim.matter.kick(sim, p.velocity, yield_stress, drag, p.rest_speed[:m], dt)
-    if sim.rest.any:
-        p.velocity[:, :m][:, p.arrested[:m] > 0] = 0.0
     if sim.walled:
         stop_at_walls(
             m, p.x, p.y, p.velocity, sim.ground, nodes.dx, nodes.dy, nodes.columns, sim.status, 2.0 * dt, p.touched_wall
@@ -162,7 +160,7 @@ NOWHERE = -1
 
 def find_ground(sim, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
-    p, before = sim.particles, sim.particles.z.copy()
+    p, before = sim.particles, sim.particles.z.copy() if dt == 0.0 else None
     sim.ground, sim.cosine = sim.bed.surface.sample(p.x, p.y), np.empty(p.count)
     owed = sim.owed if dt > 0.0 else np.empty(0)
     follow_ground(sim.ground, p.velocity, sim.cosine, p.z, owed, sim.physics.material.gravity, dt)
@@ -180,7 +178,7 @@ def interact(sim) -> None:
         sim.computed = np.zeros(0, bool)
         return
     longest, light = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness), p.light
-    longest[light] = p.usual_length[light]
+    np.copyto(longest, p.usual_length, where=light)
     mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
@@ -198,7 +196,7 @@ def interact(sim) -> None:
     sim.inflow.hold_thickness(p, sim.matter.parts)
     sim.matter.found(p, parts)
     p.smoothing_length[:] = p.next_smoothing_length
-    p.smoothing_length[light] = p.usual_length[light]
+    np.copyto(p.smoothing_length, p.usual_length, where=light)
     np.divide(p.thickness, sim.cosine, out=p.depth)
     np.multiply(p.thickness, sim.cosine, out=p.liquefaction_pressure)
     p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity

@@ -15,13 +15,13 @@ FOOT = 300.0
 def two_slopes(slow=0.0, fast=0.0, flow="one_phase", laid=0.0):
     """Return a flow on a grid with a gentle slope in the south, a steep one in the north, and a ridge between.
 
-    `slow` and `fast` are the depths that fail there [m]: some 10 m3 creep, 20 000 m3 rush. `laid` is another that
+    `slow` and `fast` are the depths that fail there [m]: 25 m3 creep in one particle, 30 000 m3 rush. `laid` is another that
     lies on the flat at the foot of the steep slope.
     """
     grid = inclined((61, 121), 5.0, 0.0)
     x, y = grid.x_of_node, grid.y_of_node
     z = np.where(y > 150.0, 0.7, 0.32) * np.maximum(0.0, FOOT - x) + 100.0 * np.exp(-(((y - 100.0) / 20.0) ** 2))
-    depth = slow * (np.hypot(x - 40.0, y - 40.0) < 7.0) + fast * (np.hypot(x - 60.0, y - 220.0) < 40.0)
+    depth = slow * (np.hypot(x - 40.0, y - 40.0) < 2.0) + fast * (np.hypot(x - 60.0, y - 220.0) < 40.0)
     depth += laid * (np.hypot(x - 450.0, y - 220.0) < 12.0)
     grid.at_node["topographic__elevation"][:] = z + depth
     release(grid, depth)

@@ -9,7 +9,7 @@ from .checks import assert_sound
 from .watch import Scene
 
 LOOKS = 20
-"""A look ends a step; at the longest steps there are 70 of them in a period."""
+"""In a period, of which the longest steps are a seventieth."""
 
 
 def build(shift=0.0, count=2000, spacing=10.0, **numerics):
@@ -25,7 +25,7 @@ def swing(*arguments, **keywords):
 def test_the_bowl_is_stable_at_every_step_allowed(courant, shift):
     """Particles so fine, and nodes so far apart, that waves rule the step."""
     scene = swing(shift, 8000, 20.0, courant_number=courant)
-    assert len(scene.steps.lengths) > 3 * LOOKS  # the looks do not
+    assert len(scene.steps.lengths) > 3 * LOOKS
     x, y, _ = scene.watch.centre[-1]
     middle = 0.5 * scene.grid.x_of_node.max()
     # a cap that swings as it is comes back after a period: measured 7e-3 m at all three steps
