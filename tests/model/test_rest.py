@@ -15,8 +15,8 @@ FOOT = 300.0
 def two_slopes(slow=0.0, fast=0.0, flow="one_phase", laid=0.0):
     """Return a flow on a grid with a gentle slope in the south, a steep one in the north, and a ridge between.
 
-    `slow` and `fast` are the depths that fail there [m]: 25 m3 creep in one particle, 30 000 m3 rush. `laid` is another that
-    lies on the flat at the foot of the steep slope.
+    `slow` and `fast` are the depths that fail there [m]: 25 m3 creep in one particle, 30 000 m3 rush. `laid` is another
+    that lies on the flat at the foot of the steep slope.
     """
     grid = inclined((61, 121), 5.0, 0.0)
     x, y = grid.x_of_node, grid.y_of_node
