@@ -195,7 +195,7 @@ STAGES = {
     "consolidate": (step, "consolidate"), "check": (step, "check"),
     "wake those disturbed": (sleep, "wake"), "fall asleep": (sleep, "fall_asleep"),
     "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (footprint.Footprint, "record"),
-    "cover": (calls.Calls, "_cover"), "settle and finish": (calls.Calls, "_settle"),
+    "cover": (calls.Calls, "_cover"), "settle and finish": (calls.Calls, "_close"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
 
