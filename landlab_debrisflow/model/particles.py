@@ -4,10 +4,6 @@ import numpy as np
 
 from ..core.variables import PARTICLE_VARIABLES
 
-LIGHT = 1.0 / 16.0
-"""Volume over the usual one of its release below which a particle is light. A site has a particle however small it is;
-buried by a flow that would get as short as it is light, and ask for such steps."""
-
 
 class Particles:
     """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
@@ -54,11 +50,6 @@ class Particles:
     def roll(self):
         """What differs whenever particles came or went: their number, and how many there ever were."""
         return self.volume.size, self._next_identity
-
-    @property
-    def light(self):
-        """Which are much smaller than usual: they have the usual smoothing length, and no say in the time step."""
-        return self.volume < LIGHT * self.usual_volume
 
     @property
     def spread(self):

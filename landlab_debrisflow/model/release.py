@@ -17,6 +17,11 @@ log = logging.getLogger("landlab_debrisflow")
 WORTH_SAYING = 0.01
 """Part of a release that lies below the lip of its scar from which on it is said."""
 
+LIGHT = 1.0 / 16.0
+"""Volume over the usual one below which a particle is light. A site has a particle however small it is; buried by a
+flow that would get as short as it is light, and ask for such steps. So it has the usual smoothing length for ever, and
+no say in the limits by growth and convergence."""
+
 
 def release_particles(sim, nodes, depth) -> slice:
     """Add particles for failing ground to a simulation and return their places; arguments as of its `release`."""
@@ -38,7 +43,7 @@ def release_particles(sim, nodes, depth) -> slice:
             released_volume=part * placed.volume, depth=placed.depth, thickness=normal, own_thickness=part * normal,
             least_thickness=part * least, porosity=material.porosity, density=material.density, origin=origin,
             smoothing_length=SMOOTHING_RATIO * np.sqrt(placed.volume / np.maximum(normal, least)),
-            usual_volume=part * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
+            light=placed.volume < LIGHT * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
     return slice(first, sim.particles.awake)
 
