@@ -209,7 +209,8 @@ class DebrisFlow(Component):
                 "new_event() starts peaks and arrival time anew, but the last event is not over: something still moves "
                 "or has yet to flow in; run_until_rest() first"
             )
-        self._outputs.restart_peaks()
+        with self._calls.interruption:
+            self._outputs.restart_peaks()
 
     @property
     def elapsed_time(self):

@@ -100,8 +100,9 @@ def test_a_wall_never_makes_faster():
 @pytest.mark.parametrize("thickness", [1e-3, 1.0, 100.0])
 def test_slopes_and_thicknesses_at_their_ends(degrees, thickness):
     scene = Scene(scenes.plane(math.tan(math.radians(degrees)), thickness), 2.0, count=300).run()
-    # a collapse on the flat gains up to 1e-2 of its kinetic energy in the 14 steps it takes by itself, 1.8e-3 in 55
-    assert_sound(scene, energy=1.5e-2)
+    # Upright sides that collapse on a flat: measured up to 1.0e-2 and 5.0e-3 (1 and 100 m, 280 to 400 particles), of first
+    # order in the step (an eighth of the Courant number: 2.0e-3 and 8e-4). Looks once cut the steps to .04 s, which hid it
+    assert_sound(scene, **({} if degrees else {"energy": 0.015}))
     if degrees:  # the middle falls with g sin(theta); the pressure moves the parts, not the whole
         fall = scene.watch.centre[0][2] - np.array(scene.watch.centre)[:, 2]
         t = np.array(scene.watch.times)[: fall.size]
