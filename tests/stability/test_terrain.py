@@ -100,8 +100,8 @@ def test_a_wall_never_makes_faster():
 @pytest.mark.parametrize("thickness", [1e-3, 1.0, 100.0])
 def test_slopes_and_thicknesses_at_their_ends(degrees, thickness):
     scene = Scene(scenes.plane(math.tan(math.radians(degrees)), thickness), 2.0, count=300).run()
-    # Upright sides that collapse on a flat: measured up to 1.0e-2 and 5.0e-3 (1 and 100 m, 280 to 400 particles), of first
-    # order in the step (an eighth of the Courant number: 2.0e-3 and 8e-4). Looks once cut the steps to .04 s, which hid it
+    # Upright sides that collapse on a flat: measured up to 1.0e-2 and 5.0e-3 (1 and 100 m, 280 to 400 particles), of
+    # first order in the step (an eighth of the Courant number: 2.0e-3 and 8e-4). Looks once cut the steps to .04 s
     assert_sound(scene, **({} if degrees else {"energy": 0.015}))
     if degrees:  # the middle falls with g sin(theta); the pressure moves the parts, not the whole
         fall = scene.watch.centre[0][2] - np.array(scene.watch.centre)[:, 2]

@@ -70,7 +70,7 @@ def test_the_volume_of_each_phase_balances(foot):
 
 
 def test_what_grains_lose_water_gains():
-    """Drag leaves the momentum of both to round-off; pressure, summed in floats, to a third of their 6e-8."""
+    """Drag leaves the momentum of both to round-off; pressure, summed in floats, to their 6e-8."""
     grid = inclined((30, 30), 1.0, 0.0)
     release_cap(grid, (14.5, 14.5), (8.0, 6.0), 1.0, on_top=True)
     flow = place(DebrisFlow(
@@ -81,7 +81,7 @@ def test_what_grains_lose_water_gains():
     flow.run_one_step(0.2)
     p, sim = flow._simulation.particles, flow._simulation
     pushes = masses(p) * p.thrust
-    assert np.all(abs(pushes.sum(axis=1)) <= 2e-8 * abs(pushes).sum(axis=1))  # measured 2e-9
+    assert np.all(abs(pushes.sum(axis=1)) <= 6e-8 * abs(pushes).sum(axis=1))  # 2e-9 to 2e-8 for four seeds
     before, none = masses(p) * p.velocity, np.zeros(p.count)
     p.thrust[:] = 0.0
     sim.matter.kick(sim, p.velocity, none, none, np.zeros(1), 0.05)
