@@ -92,6 +92,17 @@ def test_a_slow_slide_of_two_phases_does_not_stop_either():
     assert south(beside) == pytest.approx(south(alone), rel=0.02)  # steps differ
 
 
+def test_what_leans_on_a_wall_comes_to_rest():
+    """Judged by friction alone, which cannot hold it on this slope, it crept at 1e-12 m/s for ever."""
+    grid = inclined((20, 40), 5.0, 0.5)
+    hole = (abs(grid.x_of_node - 100.0) < 8.0) & (abs(grid.y_of_node - 48.0) < 20.0)
+    grid.status_at_node[hole] = grid.BC_NODE_IS_CLOSED
+    release(grid, 1.0 * (abs(grid.x_of_node - 30.0) < 8.0) * (abs(grid.y_of_node - 48.0) < 8.0))
+    flow = DebrisFlow(grid, numerics={"particle_count": 100, "settle": False})
+    assert flow.run_until_rest(200.0) is True
+    assert flow.budget["moving"] > 20.0  # it lies behind the wall
+
+
 def test_bodies_are_those_that_feel_each_other():
     rng = np.random.default_rng(0)
     for n in (1, 2, 30, 300):
