@@ -2,7 +2,7 @@
 
 Error: the basal pressure that friction sees at every stored flow step (all of the first 40 after a switch
 and every fifth), over the pressure of the bed, and the same of the depth mean; the worst of eight Peclet
-numbers 1e-3 ... 1e4, against `benchmarks/column_reference.py`, a solver of another kind converged to 2e-10.
+numbers 1e-3 ... 1e4, against `validation/cases/column_reference.py`, a solver of another kind converged to 2e-10.
 400 flow steps per erosion time. Cost: CPU time of one thread per column and step over the whole history of
 a case, median of five; the schemes take turns, so that their ratios are of one run.
 
@@ -19,10 +19,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from benchmarks.column_reference import CASES, FILE, PER_UNIT
 from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
+from validation.cases.column_reference import CASES, FILE, PER_UNIT
 
 LEVELS, SCHEMES = (11, 21, 41), ("default", "every step", "upwind", "lax_wendroff")
 REFERENCE = np.load(FILE)

@@ -19,8 +19,8 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.demo import LEVELS, MATERIAL, measure
-from landlab_debrisflow.terrains import tsing_shan_valley
+from landlab_debrisflow.cli.demo import LEVELS, MATERIAL, measure
+from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 from tests.verification.test_block import MU, G, grown_block, sliding_cap
 
 PARTICLES = 2000

@@ -2,7 +2,7 @@
 
 Every case runs with the shipped engine through its public interface and one default setting; beside it the same
 engine with fixed smoothing lengths (the paper's class of SPH), a plain finite-volume scheme and, with --peer, an
-interpreter that has avaframe 2.1, com1DFA. Norms are defined in benchmarks/flow_measure.py, what is measured where in
+interpreter that has avaframe 2.1, com1DFA. Norms are defined in validation/measure.py, what is measured where in
 flow_planes.py, flow_basins.py, flow_blocks.py. Writes benchmarks/flow.txt and docs/flow.png.
 
 One setting is not the default's: settling is off, so that there are particles to look at.
@@ -22,11 +22,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from benchmarks import com1dfa
-from benchmarks import flow_basins as basins
-from benchmarks import flow_blocks as blocks
-from benchmarks import flow_planes as planes
-from benchmarks import flow_rivals as rivals
+from validation.cases import basins as basins
+from validation.cases import blocks as blocks
+from validation.cases import planes as planes
+from validation.rivals import com1dfa
+from validation.rivals import rows as rivals
 
 STRIPS = "Ritter", "Stoker", "Mangeney", "dam break 22/21"
 
@@ -98,7 +98,7 @@ def order(results, result):
 
 def tables(results, console) -> None:
     """Print errors, then what is special to each case."""
-    errors = Table(title="Relative errors (definitions: benchmarks/flow_measure.py)", title_justify="left")
+    errors = Table(title="Relative errors (definitions: validation/measure.py)", title_justify="left")
     words = ("case", "method", "along", "all", "steps", "CPU s", "M/s")
     words += (*(f"{norm} {field}" for field in ("h", "hu") for norm in ("L1", "L2", "max")), "order")
     for word in words:

@@ -26,7 +26,7 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow.core.errors import SimulationError
-from landlab_debrisflow.model import timestep
+from landlab_debrisflow.model import time_step
 from tests.stability import scenes
 from tests.stability.watch import NoThrust, Scene
 
@@ -114,9 +114,9 @@ def gains(factors, viscosity, count=2000):
 
     The limit by node spacing, which would hold the longer steps back, is lifted.
     """
-    found, fraction = [], timestep.TERRAIN_FRACTION
+    found, fraction = [], time_step.TERRAIN_FRACTION
     for factor in factors:
-        timestep.TERRAIN_FRACTION = 1e3
+        time_step.TERRAIN_FRACTION = 1e3
         scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
         object.__setattr__(scene.flow._numerics, "courant_number", factor * LIMIT)  # past the check
         try:
@@ -125,7 +125,7 @@ def gains(factors, viscosity, count=2000):
             found.append(math.nan)
             continue
         finally:
-            timestep.TERRAIN_FRACTION = fraction
+            time_step.TERRAIN_FRACTION = fraction
         left = scene.flow.budget["outflow"] > 0.0
         found.append(math.nan if left else max(scene.watch.gain, 1e-9) / 0.0344)
     return found

@@ -16,12 +16,12 @@ import matplotlib.pyplot as plt
 from rich.console import Console
 from rich.table import Table
 
-from benchmarks import com1dfa
 from benchmarks import speed_engine as engine
 from benchmarks import speed_grids as grids
 from benchmarks import speed_machine as machine
 from benchmarks import speed_peer as peers
 from benchmarks import speed_scene as scenes
+from validation.rivals import com1dfa
 
 SUMS, STEPS = "density + force", "whole step"
 REACH = {SUMS: (7.0, 10.0), STEPS: (3.5, 7.0)}  # M particle-steps/s, one thread: to reach, ambitious

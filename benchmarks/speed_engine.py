@@ -12,15 +12,17 @@ from unittest import mock
 import numba
 import numpy as np
 
-from benchmarks.flow_planes import similarity_body
-from landlab_debrisflow import DebrisFlow, calls
-from landlab_debrisflow.demo import MATERIAL
-from landlab_debrisflow.model import footprint, release, simulation, sleep, step
+from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow.cli.demo import MATERIAL
+from landlab_debrisflow.grid import call
+from landlab_debrisflow.model import activity, peak_maps, simulation, step
+from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
+from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
 from landlab_debrisflow.spatial.summation import Moving, Sums, _pack, copy_neighbourhood, sum_over_neighbours
 from landlab_debrisflow.terrain import bed
-from landlab_debrisflow.terrains import tsing_shan_valley
+from validation.cases.planes import similarity_body
 
 FLOPS = 63
 """Floating-point operations for a pair in summation._sum, minima and maxima among them, a reciprocal root as two."""
@@ -187,15 +189,15 @@ def placed_valley(count, threads=1):
 
 
 STAGES = {
-    "placing of the release": (release, "place_particles"), "rest of the set-up": (calls.Calls, "begin"),
+    "placing of the release": (release, "place_particles"), "rest of the set-up": (call.Calls, "begin"),
     "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
     "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
     "interact": (step, "interact"),
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
     "consolidate": (step, "consolidate"), "check": (step, "check"),
-    "wake those disturbed": (sleep, "wake"), "fall asleep": (sleep, "fall_asleep"),
-    "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (footprint.Footprint, "record"),
-    "cover": (calls.Calls, "_cover"), "settle and finish": (calls.Calls, "_close"),
+    "wake those disturbed": (activity, "wake"), "fall asleep": (activity, "fall_asleep"),
+    "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (peak_maps.Footprint, "record"),
+    "cover": (call.Calls, "_cover"), "settle and finish": (call.Calls, "_close"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
 

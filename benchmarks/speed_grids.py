@@ -11,7 +11,8 @@ from landlab import RasterModelGrid
 
 from benchmarks.speed_engine import counting
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model import footprint, journal
+from landlab_debrisflow.grid import row_backup
+from landlab_debrisflow.model import peak_maps
 from landlab_debrisflow.terrain import bed
 
 
@@ -51,7 +52,7 @@ class Touched:
 @contextmanager
 def counting_nodes():
     """Count nodes that erosion shares out and that the record looks at, and those copied before a change."""
-    touched, erode, scatter, cover = Touched(), bed._erode, footprint.scatter, journal.Journal.cover
+    touched, erode, scatter, cover = Touched(), bed._erode, peak_maps.scatter, row_backup.Journal.cover
 
     def counted_erode(*arguments):
         count = erode(*arguments)
@@ -70,8 +71,8 @@ def counting_nodes():
 
     with (
         mock.patch.object(bed, "_erode", counted_erode),
-        mock.patch.object(footprint, "scatter", counted_scatter),
-        mock.patch.object(journal.Journal, "cover", counted_cover),
+        mock.patch.object(peak_maps, "scatter", counted_scatter),
+        mock.patch.object(row_backup.Journal, "cover", counted_cover),
     ):
         yield touched
 

@@ -1,6 +1,6 @@
 """AvaFrame com1DFA 2.1 and ours on the similarity solution, at equal numbers of particles and at equal error.
 
-Its number of particles follows from its kernel radius by its own particle law (benchmarks/com1dfa.py). Ours are without
+Its number of particles follows from its kernel radius by its own law (validation/rivals/com1dfa.py). Ours are without
 column and erosion. CPU time is that of the loop over time alone, one thread, for both. The norm is the relative L2 of
 h at the true time. Its state lives on a raster, ours under particles; both are compared both ways.
 """
@@ -8,9 +8,10 @@ h at the true time. Its state lives on a raster, ours under particles; both are 
 import math
 from typing import NamedTuple
 
-from benchmarks import com1dfa, exact
-from benchmarks.flow_measure import advance, body, norms
-from benchmarks.flow_planes import similarity_body
+from landlab_debrisflow.exact import flows
+from validation.cases.planes import similarity_body
+from validation.measure import advance, body, norms
+from validation.rivals import com1dfa
 
 RADII = 5.0, 4.125, 3.0, 2.0  # kernel radii [m]: 5119, some 1e4, 30 629 and 126 110 particles
 FEW = 16, 32, 64, 128, 256, 512, 1024
@@ -45,9 +46,9 @@ def ours(particles, repeats=1) -> Row:
         cpu, steps = advance(flow, 5.0)
         cpus.append(cpu)
     b, grid = body(flow), flow.grid
-    at_particles = norms(b.volume / b.h, b.h, exact.similarity(b.x / cos, b.y, flow.elapsed_time)[0])
+    at_particles = norms(b.volume / b.h, b.h, flows.similarity(b.x / cos, b.y, flow.elapsed_time)[0])
     depth = grid.at_node["debris_flow__depth"]
-    at_nodes = norms(1.0, cos * depth, exact.similarity(grid.x_of_node / cos, grid.y_of_node, flow.elapsed_time)[0])
+    at_nodes = norms(1.0, cos * depth, flows.similarity(grid.x_of_node / cos, grid.y_of_node, flow.elapsed_time)[0])
     return Row(particles, steps, min(cpus), at_particles.l2, at_nodes.l2)
 
 

@@ -1,8 +1,8 @@
 """Two phases of the engine against the converged finite-volume reference: ``python -m benchmarks.two_phase``.
 
-The cases of `two_phase_cases` that tell drag, friction and buoyancy apart, each in a strip of twelve particles between
-closed walls, so that errors fall like 1/N where they are of first order in the spacing. Relative L1 errors at the
-particles of each phase, weighted with the area A = V/h of its own thickness h:
+The cases of `validation.cases.two_phase` that tell drag, friction and buoyancy apart, each in a strip of twelve
+particles between closed walls, so that errors fall like 1/N where they are of first order in the spacing. Relative L1
+errors at the particles of each phase, weighted with the area A = V/h of its own thickness h:
 
     sum A |h - h_e| / sum A h_e,   sum A |h v - h_e v_e| / sum A |h_e v_e|,
 
@@ -18,10 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.flow_hooks import counting_steps
-from benchmarks.flow_planes import plane
-from benchmarks.two_phase_cases import CASES
 from landlab_debrisflow.physics.contracts import WATER
+from validation.cases.planes import plane
+from validation.cases.two_phase import CASES
+from validation.hooks import counting_steps
 
 ACROSS = 12  # particles of each phase
 CELLS = 2000  # of the reference

@@ -4,7 +4,7 @@
 
 Buildings are closed nodes: nothing gets in, and their faces show what ran against them. The dam is raised terrain: it
 is run up, and overtopped if it is too low. Both leave the peak impact pressure, density x speed^2, and the run-up,
-the height of the surface above the lowest bed that the matter came over (landlab_debrisflow/model/footprint.py).
+the height of the surface above the lowest bed that the matter came over (landlab_debrisflow/model/peak_maps.py).
 """
 
 import argparse
@@ -17,8 +17,8 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
+from landlab_debrisflow.plots.maps import save_figure
 from landlab_debrisflow.record.files import check_writable
-from landlab_debrisflow.record.plots import save_figure
 
 SPACING, LENGTH, WIDTH = 4.0, 480.0, 160.0  # of the grid [m]
 FOOT = 240.0  # where the channel of 25 degrees opens onto a fan of 4 [m]

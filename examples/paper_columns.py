@@ -38,9 +38,9 @@ from rich.table import Table
 from scipy.linalg import eigh
 
 from landlab_debrisflow import InputError, ParameterError, solve_column
-from landlab_debrisflow.physics.column.analytic import constant_local_peclet, front, growing_column
+from landlab_debrisflow.exact.columns import constant_local_peclet, front, growing_column
+from landlab_debrisflow.plots.maps import save_figure
 from landlab_debrisflow.record.files import check_writable
-from landlab_debrisflow.record.plots import save_figure
 
 THICKNESS = 1.0  # h0 [m]
 BED_PRESSURE = 1000.0 * 9.81 * THICKNESS  # p_b [Pa]

@@ -5,7 +5,7 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from landlab_debrisflow.physics.column.analytic import front
+from landlab_debrisflow.exact.columns import front
 
 TITLES = {
     ("growing", "Fig. 7"): "Fig. 7: Pe = 10, mostly advection",

@@ -24,10 +24,10 @@ from rich.text import Text
 from s1000_scores import MEASURES, NOISE, QUOTED, ObservedPath, dig_and_spread, measure
 
 from landlab_debrisflow import DebrisFlow, InputError
+from landlab_debrisflow.plots.maps import Layer, draw_maps, save_figure
 from landlab_debrisflow.record.datasets import join
 from landlab_debrisflow.record.files import check_writable, write_dataset
 from landlab_debrisflow.record.observers import Progress
-from landlab_debrisflow.record.plots import Layer, draw_maps, save_figure
 
 # ---- the parameters; no calibration ----
 

@@ -1,10 +1,10 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component."""
 
-from .column import solve_column
+from .columns.solve import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
 from .core.version import __version__
-from .model.hydrograph import Hydrograph
+from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
 

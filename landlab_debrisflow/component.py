@@ -6,17 +6,18 @@ from typing import ClassVar
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
-from . import doubts, inputs, summary
-from .calls import Calls
-from .citation import PAPER
 from .core.variables import NODE_FIELDS
-from .inflow_inputs import read_hydrographs
-from .model.inflow import Inflow
+from .grid import checks, doubts
+from .grid.call import Calls
+from .grid.inflow_lines import read_hydrographs
+from .grid.outputs import Outputs, check_continued
+from .model.inflow.source import Inflow
 from .model.numerics import Numerics
-from .model.physics import build_declared, build_physics
 from .model.simulation import Simulation
-from .outputs import Outputs, check_continued
+from .physics.registry import build_declared, build_physics
+from .record import summary
 from .record.attributes import of_moment
+from .record.citation import PAPER
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
 
 log = logging.getLogger("landlab_debrisflow")
@@ -87,22 +88,22 @@ class DebrisFlow(Component):
     def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
                  numerics=None, inflow=None, observers=(), continues=None):  # fmt: skip
         if not isinstance(grid, RasterModelGrid):
-            raise inputs.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
+            raise checks.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
         self._physics = build_physics(flow, friction, erosion, column, material)
         self._numerics = build_declared(Numerics, numerics, "numerics")
-        self._observers = inputs.check_observers(observers)
-        inputs.check_phases(self._physics)
+        self._observers = checks.check_observers(observers)
+        checks.check_phases(self._physics)
         self._hydrographs = read_hydrographs(inflow)
-        inputs.check_types(grid)
-        with inputs.no_new_fields(grid):
+        checks.check_types(grid)
+        with checks.no_new_fields(grid):
             super().__init__(grid)
-            inputs.check_boundaries(grid)
+            checks.check_boundaries(grid)
             odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
             odd += doubts.about_names(grid, self._physics)
             entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
             if continues is not None:
                 if not isinstance(continues, DebrisFlow):
-                    raise inputs.InputError(
+                    raise checks.InputError(
                         f"continues must be the DebrisFlow before on the same grid, got {continues!r}"
                     )
                 check_continued(continues, grid, entering)
@@ -155,7 +156,7 @@ class DebrisFlow(Component):
             nobody changes the grid, the next call goes on as if there had been no interruption: to end at the same
             time, ask for what is left of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
         """
-        if (dt := inputs.check_duration(dt)) > 0.0:
+        if (dt := checks.check_duration(dt)) > 0.0:
             self._calls.run(dt, stop_at_rest=False)
 
     def run_until_rest(self, max_duration=3600.0):
@@ -177,7 +178,7 @@ class DebrisFlow(Component):
         As `run_one_step`
             After Ctrl-C, or an observer that failed, call again to go on.
         """
-        if (duration := inputs.check_duration(max_duration, "max_duration")) > 0.0:
+        if (duration := checks.check_duration(max_duration, "max_duration")) > 0.0:
             self._calls.run(duration, stop_at_rest=True)
         return self.at_rest
 
@@ -191,7 +192,7 @@ class DebrisFlow(Component):
         """
         if not self.at_rest:
             what = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
-            raise inputs.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
+            raise checks.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
         self._calls.settle()
 
     def new_event(self):
@@ -205,7 +206,7 @@ class DebrisFlow(Component):
             If something still moves or has yet to flow in.
         """
         if not self.at_rest:
-            raise inputs.InputError(
+            raise checks.InputError(
                 "new_event() starts peaks and arrival time anew, but the last event is not over: something still moves "
                 "or has yet to flow in; run_until_rest() first"
             )

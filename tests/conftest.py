@@ -20,9 +20,8 @@ os.environ["NUMBA_CACHE_DIR"] = os.path.join(
 import numpy as np  # noqa: E402  numba must not be imported before the line above
 import pytest  # noqa: E402
 
-from landlab_debrisflow.calls import Calls  # noqa: E402
-
-from .grids import inclined, release_slab  # noqa: E402
+from landlab_debrisflow.grid.call import Calls  # noqa: E402
+from validation.grids import inclined, release_slab  # noqa: E402
 
 
 @pytest.fixture

@@ -1,10 +1,10 @@
-"""Listens to what the package finds odd (`landlab_debrisflow/doubts.py`), where nothing should be."""
+"""Listens to what the package finds odd (`landlab_debrisflow/grid/doubts.py`), where nothing should be."""
 
 import inspect
 from contextlib import ExitStack, contextmanager
 from unittest import mock
 
-from landlab_debrisflow import doubts
+from landlab_debrisflow.grid import doubts
 
 
 @contextmanager

@@ -8,10 +8,9 @@ import pytest
 from landlab import FieldError, RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model.physics import LAWS
 from landlab_debrisflow.physics.friction import Coulomb
-
-from .grids import COARSE, changed_fields, copy_fields, inclined, place
+from landlab_debrisflow.physics.registry import LAWS
+from validation.grids import COARSE, changed_fields, copy_fields, inclined, place
 
 SURGE = {
     "line_start": (20.0, 38.0), "line_end": (20.0, 58.0), "times": [5.0, 10.0], "discharge": 20.0, "velocity": 4.0,

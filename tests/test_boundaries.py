@@ -7,8 +7,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-
-from .grids import COARSE, copy_fields, dry_block, inclined, place, release_slab
+from validation.grids import COARSE, copy_fields, dry_block, inclined, place, release_slab
 
 Z, SOIL = "topographic__elevation", "soil__depth"
 

@@ -6,8 +6,7 @@ from numpy.testing import assert_allclose
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError
-
-from .grids import COARSE, inclined, place, release_cap
+from validation.grids import COARSE, inclined, place, release_cap
 
 
 def sloping():

@@ -7,8 +7,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow, InputError
-
-from .grids import COARSE, changed_fields, copy_fields, inclined, place, release_slab
+from validation.grids import COARSE, changed_fields, copy_fields, inclined, place, release_slab
 
 RELEASE, Z, SOIL = "debris_flow__release_depth", "topographic__elevation", "soil__depth"
 

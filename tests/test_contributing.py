@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from landlab.bmi import wrap_as_bmi
 
-from landlab_debrisflow import DebrisFlow, ParameterError, laws_page
-from landlab_debrisflow.model.physics import LAWS
-
-from .grids import COARSE
+from landlab_debrisflow import DebrisFlow, ParameterError
+from landlab_debrisflow.cli import laws
+from landlab_debrisflow.physics.registry import LAWS
+from validation.grids import COARSE
 
 CONTRIBUTING = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```", CONTRIBUTING, re.DOTALL)
@@ -81,7 +81,7 @@ def test_it_gets_a_name(outside, slope, monkeypatch):
     model = wrap_as_bmi(DebrisFlow)()
     model.initialize(YAML)
     assert model._base._physics.erosion == outside[0].ExcessShear(threshold=20.0)
-    page = laws_page.markdown()
+    page = laws.markdown()
     assert "### erosion: excess_shear" in page and "Source: Partheniades (1965)." in page
     assert "`e_R = k max(0, tau - tau_c), tau = (f/8) rho v^2`" in page
 
@@ -100,7 +100,7 @@ def test_an_object_with_the_method_will_do(slope):
 
 
 def test_the_command_for_the_page_is_the_one_there_is():
-    assert f"`{laws_page.COMMAND}`" in CONTRIBUTING
+    assert f"`{laws.COMMAND}`" in CONTRIBUTING
 
 
 def test_the_shown_files_are_in_the_style_of_the_project():

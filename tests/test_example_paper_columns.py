@@ -11,7 +11,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import InputError
-from landlab_debrisflow.physics.column.analytic import growing_column
+from landlab_debrisflow.exact.columns import growing_column
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 LEVEL = 0.1  # between 11 levels

@@ -7,7 +7,7 @@ from landlab.io import esri_ascii
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import InputError
-from landlab_debrisflow.terrains import tsing_shan_valley
+from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 from tests.test_examples import load
 
 SHORT = {"erodible_length": 200.0, "runout_length": 400.0, "width": 200.0}

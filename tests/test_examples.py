@@ -12,8 +12,9 @@ from landlab import RasterModelGrid
 from landlab.io import esri_ascii
 from numpy.testing import assert_allclose
 
-from landlab_debrisflow import InputError, cli, demo
-from landlab_debrisflow.model.physics import LAWS
+from landlab_debrisflow import InputError
+from landlab_debrisflow.cli import demo, main
+from landlab_debrisflow.physics.registry import LAWS
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -34,7 +35,7 @@ def load(name):
 
 
 def test_demo_shows_that_the_ale_column_runs_farther(tmp_path, capsys):
-    assert cli.main(["demo", "--particles", "150", "--output-dir", str(tmp_path)]) == 0
+    assert main.main(["demo", "--particles", "150", "--output-dir", str(tmp_path)]) == 0
     told = capsys.readouterr()
     assert told.err == ""  # no progress without a terminal
     for words in (
@@ -63,7 +64,7 @@ def test_demo_shows_that_the_ale_column_runs_farther(tmp_path, capsys):
 def test_user_errors_are_one_line_and_code_2_before_anything_runs(words, said, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo.DebrisFlow, "run_until_rest", lambda self: pytest.fail("it ran"))
-    assert cli.main(["demo", *words]) == 2
+    assert main.main(["demo", *words]) == 2
     told = capsys.readouterr()
     assert told.out == "" and told.err.count("\n") == 1
     assert told.err.startswith("landlab-debrisflow: ") and said in told.err
@@ -72,7 +73,7 @@ def test_user_errors_are_one_line_and_code_2_before_anything_runs(words, said, t
 
 def test_info_lists_every_law_and_parameter(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
-    assert cli.main(["info"]) == 0
+    assert main.main(["info"]) == 0
     told = capsys.readouterr().out
     for kind, laws in LAWS.items():
         for name, law in laws.items():
@@ -86,7 +87,7 @@ def test_info_lists_every_law_and_parameter(capsys, monkeypatch):
 
 def test_a_command_is_needed(capsys):
     with pytest.raises(SystemExit) as stop:
-        cli.main([])
+        main.main([])
     assert stop.value.code == 2
     assert "command" in capsys.readouterr().err
 

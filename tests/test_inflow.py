@@ -6,8 +6,8 @@ from landlab.bmi import wrap_as_bmi
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
+from validation.grids import COARSE, changed_fields, copy_fields, inclined, release_slab
 
-from .grids import COARSE, changed_fields, copy_fields, inclined, release_slab
 from .twins import Failed, failing
 
 Z = "topographic__elevation"

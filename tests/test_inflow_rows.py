@@ -6,8 +6,7 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow, Hydrograph
 from landlab_debrisflow.model import step
-
-from .grids import COARSE, inclined
+from validation.grids import COARSE, inclined
 
 Z = "topographic__elevation"
 LINE = {"line_start": (20.0, 38.0), "line_end": (20.0, 58.0)}

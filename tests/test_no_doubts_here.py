@@ -12,9 +12,10 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from landlab_debrisflow import DebrisFlow, demo
+from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow.cli import demo
 from landlab_debrisflow.model.simulation import Simulation
-from landlab_debrisflow.terrains import tsing_shan_valley
+from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 
 from .suspicions import suspicions
 from .test_examples import load, write_rasters

@@ -6,8 +6,8 @@ from landlab import RasterModelGrid
 from scipy.optimize import brentq
 
 from landlab_debrisflow import DebrisFlow
+from validation.grids import changed_fields, copy_fields, dry_block, place, release, release_cap
 
-from .grids import changed_fields, copy_fields, dry_block, place, release, release_cap
 from .twins import Failed, failing
 
 Z, IMPACT, RUN_UP = "topographic__elevation", "debris_flow__max_impact_pressure", "debris_flow__max_run_up"

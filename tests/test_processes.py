@@ -12,10 +12,9 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow, Hydrograph, Material, Numerics, SimulationError
 from landlab_debrisflow.core.parameters import NodeValues, on_nodes
-from landlab_debrisflow.model.physics import LAWS, build_physics
+from landlab_debrisflow.physics.registry import LAWS, build_physics
 from landlab_debrisflow.spatial.cells import over_cells, sort_into_cells
-
-from .grids import COARSE, copy_fields
+from validation.grids import COARSE, copy_fields
 
 SURGE = {
     "line_start": (20.0, 30.0), "line_end": (20.0, 60.0), "times": [0.0, 9.0], "discharge": 5.0, "velocity": 2.0,

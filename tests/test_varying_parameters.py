@@ -9,10 +9,9 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError, ParameterError
 from landlab_debrisflow.model import step
-from landlab_debrisflow.model.physics import LAWS
 from landlab_debrisflow.physics.friction import Coulomb
-
-from .grids import inclined, place, release, release_slab
+from landlab_debrisflow.physics.registry import LAWS
+from validation.grids import inclined, place, release, release_slab
 
 SLOPE, G = 0.5, 9.81
 FIELD = "coulomb__angle"

@@ -5,8 +5,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-
-from .grids import dry_block, place, release_slab
+from validation.grids import dry_block, place, release_slab
 
 SPACING, SLOPE, SPEED = 5.0, 0.5, 30.0
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow import (
+from landlab_debrisflow import (  # fmt: skip
     DebrisFlow,
     Hydrograph,
     InputError,
@@ -11,14 +11,13 @@ from landlab_debrisflow import (
     Numerics,
     ParameterError,
     solve_column,
-)  # fmt: skip
+)
 from landlab_debrisflow.core.parameters import NodeValues
-from landlab_debrisflow.model.physics import LAWS, build_law
 from landlab_debrisflow.physics.column import ALE
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
+from landlab_debrisflow.physics.registry import LAWS, build_law
 from landlab_debrisflow.record.observers import Snapshots
-
-from .grids import COARSE, changed_fields, copy_fields, release_slab
+from validation.grids import COARSE, changed_fields, copy_fields, release_slab
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"
 

@@ -10,8 +10,7 @@ from landlab.components import DepthDependentDiffuser, FlowAccumulator, SpaceLar
 
 from landlab_debrisflow import DebrisFlow, InputError
 from landlab_debrisflow.record.observers import EVERY_STEP
-
-from .grids import COARSE, release_slab
+from validation.grids import COARSE, release_slab
 
 Z, SOIL, ROCK = "topographic__elevation", "soil__depth", "bedrock__elevation"
 

@@ -8,9 +8,8 @@ import numpy as np
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
 from landlab_debrisflow.record.observers import EVERY_STEP
-from landlab_debrisflow.spatial.across import Partners
-
-from .grids import inclined, release_slab
+from landlab_debrisflow.spatial.cross_summation import Partners
+from validation.grids import inclined, release_slab
 
 SURGES = {
     "line_start": (20.0, 38.0), "line_end": (20.0, 58.0), "times": [1.0, 3.0, 5.0, 40.0, 41.0, 44.0],

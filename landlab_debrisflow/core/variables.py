@@ -59,7 +59,7 @@ PARTICLE_VARIABLES = (
     Variable("column_memory", "-", "what the column law remembers", written=False, width=COLUMN_MEMORY),
     Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
     Variable("inflow_row", "-", "row of the inflow it still moves with, -1: flows by itself", "i8", -1, written=False),
-    Variable("origin", "-", "number among the released (model/origins.py), -1: flowed in", "i8", -1, written=False),
+    Variable("origin", "-", "number among the released (release/origins.py), -1: flowed in", "i8", -1, written=False),
     Variable("body", "-", "number of the body it is of (model/rest.py), -1: not known yet", "i8", -1, written=False),
     Variable("arrested", "-", "1 if its body has come to rest", "i1", 0, written=False),
     Variable("rest_speed", "m s-1", "speed below which it comes to rest if friction holds it", written=False),

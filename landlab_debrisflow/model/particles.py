@@ -9,7 +9,7 @@ class Particles:
     """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
 
     Scalars have shape (n,), vectors (3, n), columns (n, levels), their memory (n, width). The first
-    ``awake`` particles are awake, the others sleep (model/sleep.py); ``identity`` tells who is who.
+    ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` tells who is who.
 
     Parameters
     ----------

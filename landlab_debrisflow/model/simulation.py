@@ -3,22 +3,22 @@
 import numpy as np
 
 from ..core.errors import SimulationError
-from ..physics.column.start import initial_profile
+from ..physics.column.initial import initial_profile
+from ..physics.registry import Physics
 from ..terrain.bed import Bed
-from . import loading, sleep, step
-from .inflow import Inflow
-from .mixture import Mixture
-from .motion import CLOSED
+from . import activity, bed_load, step
+from .inflow.source import Inflow
+from .kinematics import CLOSED
 from .numerics import Numerics
-from .origins import Origins
 from .outflow import Outflow
 from .particles import Particles
-from .physics import Physics
-from .release import release_particles
+from .phases.one_phase import Single
+from .phases.two_phase import Mixture
+from .release.origins import Origins
+from .release.release import release_particles
 from .rest import Rest
-from .single import Single
 from .stopped import Stopped
-from .timestep import Pace
+from .time_step import Pace
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -72,7 +72,7 @@ class Simulation:
         self._changed |= changed
         if changed:
             self.rest.set_free(self.particles)
-        loading.press(self)
+        bed_load.press(self)
 
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
@@ -96,7 +96,7 @@ class Simulation:
         p, material = self.particles, self.physics.material
         new = release_particles(self, nodes, depth)
         self._find_everything(FIRST_SWEEPS)
-        loading.press(self)
+        bed_load.press(self)
         load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
@@ -110,7 +110,7 @@ class Simulation:
     def _find_everything(self, sweeps: int = 1) -> None:
         """Find ground, thickness and forces anew where particles or terrain changed by other hands."""
         p = self.particles
-        sleep.wake_all(self)
+        activity.wake_all(self)
         self.granted, self.granted_ratio = np.zeros((2, p.count))
         step.find_ground(self)
         p.still_steps[:] = 0
@@ -168,8 +168,8 @@ class Simulation:
             step.advance(self, dt)
             self.time = end if dt == left else self.time + dt
             self._steps += 1
-            if self.matter.sleeps and self._steps % sleep.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
-                sleep.fall_asleep(self)
+            if self.matter.sleeps and self._steps % activity.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
+                activity.fall_asleep(self)
             self.rest.judge(self)
             if after_step is not None:
                 after_step(began)
@@ -179,7 +179,7 @@ class Simulation:
 
     def catch_up(self) -> None:
         """Bring the columns of particles asleep to the present."""
-        sleep.catch_up(self)
+        activity.catch_up(self)
 
     def wait(self, end: float) -> None:
         """While nothing moves, let time pass until `end` [s] or until something flows in."""

@@ -20,13 +20,13 @@ from ..physics.contracts import (
 )
 from ..spatial.cells import sort_into_cells
 from ..spatial.summation import SMOOTHING_RATIO, Sums
-from . import loading, sleep
-from .motion import basal_state, count_still_steps, disturb, drift, follow_ground, stop_at_walls
-from .timestep import survey, viscous_share
+from . import activity, bed_load
+from .kinematics import basal_state, count_still_steps, disturb, drift, follow_ground, stop_at_walls
+from .time_step import survey, viscous_share
 from .walls import mirror
 
 STEPS_TO_SLEEP = 4
-"""Steps after which what did not change (`motion.STILL`) is left out of the sums over neighbours: the
+"""Steps after which what did not change (`kinematics.STILL`) is left out of the sums over neighbours: the
 smoothing length has then settled."""
 
 BY_EROSION = np.array([BASE_BY_EROSION], np.int8)
@@ -49,8 +49,8 @@ def advance(sim, dt: float) -> None:
     sim.inflow.enter(sim, sim.time + dt)
     find_ground(sim, dt)
     interact(sim)
-    sleep.wake(sim, sleep.disturbed(sim))
-    loading.press(sim, dt)
+    activity.wake(sim, activity.disturbed(sim))
+    bed_load.press(sim, dt)
     consolidate(sim, dt)
     friction_and_kick(sim, 0.5 * dt)
     sim.inflow.hold(sim, sim.time + dt)
@@ -190,7 +190,7 @@ def interact(sim) -> None:
         state, changed = mirror(state, changed, sim.bed.nodes, sim.status, p.touched_wall)
     cells = sort_into_cells(state.x, state.y, 2.0 * state.smoothing_length, changed)
     sim.computed = cells.computed[: p.count]
-    sleep.catch_up(sim, sleep.disturbed(sim))  # under the thickness they slept under
+    activity.catch_up(sim, activity.disturbed(sim))  # under the thickness they slept under
     sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
     parts = sim.physics.flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     sim.inflow.hold_thickness(p, sim.matter.parts)

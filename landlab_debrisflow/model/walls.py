@@ -10,7 +10,7 @@ from ..core.jit import kernel
 from ..physics.contracts import FlowState
 from ..spatial.summation import SMOOTHING_RATIO
 from ..spatial.transfer import Nodes
-from .motion import CLOSED, stop_at_walls
+from .kinematics import CLOSED, stop_at_walls
 
 
 def mirror(state: FlowState, changed, nodes: Nodes, status, touched):

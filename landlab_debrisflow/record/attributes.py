@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.parameters import NodeValues
 from ..core.version import __version__
-from ..model.physics import LAWS
+from ..physics.registry import LAWS
 
 OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
 """How the names begin of what is true at one moment of one run only."""

@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 
 from ..core.variables import NODE_FIELDS, PARTICLE_VARIABLES
-from ..model.motion import CLOSED
-from ..physics.column.peclet import consolidation_time, erosion_time
-from .attributes import (
+from ..model.kinematics import CLOSED
+from ..physics.column.diagnostics import consolidation_time, erosion_time
+from .attributes import (  # fmt: skip
     NO_FILL,
     OF_A_MOMENT,
     at_nodes,
@@ -18,7 +18,7 @@ from .attributes import (
     of_laws,
     of_moment,
     of_parameters,
-)  # fmt: skip
+)
 
 ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
 """Maps that tell of closed nodes, too: what ran against their faces, 0 if nothing did."""

@@ -53,7 +53,7 @@ class Moving(NamedTuple):
     y: np.ndarray
     z: np.ndarray
     velocity: np.ndarray  # (3, n) [m s-1]
-    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release.py
+    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release/release.py
     smoothing_length: np.ndarray  # (n,) [m]
     longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
     strength: np.ndarray  # (n,) thrust over thickness^2, Omega and reference density: inertia g_n / (2 Omega) [m s-2]

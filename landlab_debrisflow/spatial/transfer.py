@@ -18,7 +18,7 @@ WIDEST = 4.0
 """Largest half-width of a tent in node spacings."""
 
 REACH = 6
-"""Nodes within which a particle writes, also after a step (model/timestep.py)."""
+"""Nodes within which a particle writes, also after a step (model/time_step.py)."""
 
 MOST_NODES = 100
 """Room for the nodes under one tent; there are at most (2 `WIDEST` + 1)^2."""

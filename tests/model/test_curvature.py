@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.model.motion import basal_state
+from landlab_debrisflow.model.kinematics import basal_state
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 

@@ -7,8 +7,8 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError
+from validation.grids import changed_fields, copy_fields, inclined, release_slab
 
-from ..grids import changed_fields, copy_fields, inclined, release_slab
 from ..twins import Failed, failing
 
 FIELD = "bed__excess_pore_pressure"

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, Numerics, ParameterError
-from landlab_debrisflow.model.footprint import Footprint
-
-from ..grids import COARSE, copy_fields, dry_block, inclined, release_cap
+from landlab_debrisflow.model.peak_maps import Footprint
+from validation.grids import COARSE, copy_fields, dry_block, inclined, release_cap
 
 
 def test_the_number_of_particles():

@@ -5,8 +5,7 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model.rest import find_bodies
-
-from ..grids import dry_block, inclined, release
+from validation.grids import dry_block, inclined, release
 
 FOOT = 300.0
 """Where both slopes of `two_slopes` end [m]."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.model.motion import CLOSED
+from landlab_debrisflow.model.kinematics import CLOSED
 from landlab_debrisflow.model.walls import mirror
 from landlab_debrisflow.physics.contracts import FlowState
 from landlab_debrisflow.physics.flow import OnePhase

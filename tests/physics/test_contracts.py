@@ -7,13 +7,14 @@ import re
 import numpy as np
 import pytest
 
-from landlab_debrisflow import Material, Numerics, laws_page
+from landlab_debrisflow import Material, Numerics
+from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.model.physics import LAWS, METHOD, build_law, build_physics
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, Voellmy
+from landlab_debrisflow.physics.registry import LAWS, METHOD, build_law, build_physics
 
 ALL = [(kind, name) for kind, laws in LAWS.items() for name in laws]
 DECLARED = [law for laws in LAWS.values() for law in laws.values()] + [Material, Numerics]

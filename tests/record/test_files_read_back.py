@@ -12,13 +12,12 @@ import xarray as xr
 
 from landlab_debrisflow import DebrisFlow, Material, Numerics, __version__
 from landlab_debrisflow.core.parameters import NodeValues, declared, from_mapping, parameter
-from landlab_debrisflow.model.physics import LAWS
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Coulomb
+from landlab_debrisflow.physics.registry import LAWS
 from landlab_debrisflow.record.files import write_dataset
 from landlab_debrisflow.record.observers import Snapshots
-
-from ..grids import inclined, release_slab
+from validation.grids import inclined, release_slab
 
 FEW, SHAPE = {"particle_count": 20}, (12, 30)
 NODES = SHAPE[0] * SHAPE[1]

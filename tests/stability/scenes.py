@@ -3,7 +3,8 @@
 import numpy as np
 from landlab import RasterModelGrid
 
-from ..grids import inclined, release, release_cap, release_slab
+from validation.grids import inclined, release, release_cap, release_slab
+
 from .watch import G
 
 

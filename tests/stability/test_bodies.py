@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial import cKDTree
 
 from landlab_debrisflow import DebrisFlow
+from validation.grids import inclined, release, release_slab
 
-from ..grids import inclined, release, release_slab
 from . import scenes
 from .checks import assert_sound
 from .watch import Scene

@@ -8,10 +8,10 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model.numerics import Numerics
-from landlab_debrisflow.model.physics import LAWS
 from landlab_debrisflow.physics.material import Material
+from landlab_debrisflow.physics.registry import LAWS
+from validation.grids import inclined, release_slab
 
-from ..grids import inclined, release_slab
 from .watch import FINITE
 
 INFINITE = 1e6

@@ -5,7 +5,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from landlab import RasterModelGrid
 
-from ..grids import release
+from validation.grids import release
+
 from .watch import Scene
 
 LAWS = st.fixed_dictionaries(

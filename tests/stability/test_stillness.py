@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
+from validation.grids import dry_block, inclined, place, release_cap
 
-from ..grids import dry_block, inclined, place, release_cap
 from . import scenes
 from .checks import assert_sound
 from .watch import G, Scene

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from benchmarks import flow_blocks
 from landlab_debrisflow import DebrisFlow
-
-from ..grids import centre_of_mass, dry_block, inclined, place, release_cap
+from validation.cases import blocks
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap
 
 G = 9.81
 MU = 0.3
@@ -111,7 +110,7 @@ def test_a_block_that_erodes_follows_the_closed_form():
 
 def test_a_block_on_its_own_pore_pressure():
     """Saturated, closed base: friction grows as the pressure drains at the surface (theory, section 6)."""
-    found = flow_blocks.consolidating_block(400)
+    found = blocks.consolidating_block(400)
     # measured .0026, .0018 and -.0056: pressure falls with the square root of time at first, and steps grow from small
     # ones; what it is in the end is known to what a column may be wrong by, .3/10^2 of the load. Without drainage the
     # speed would be .59 larger, without pressure .26 less.

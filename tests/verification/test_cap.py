@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import flow_planes
 from landlab_debrisflow import DebrisFlow
-
-from ..grids import dry_block, inclined, place, release, release_cap
+from validation.cases import planes
+from validation.grids import dry_block, inclined, place, release, release_cap
 
 ANGLE = math.radians(30.0)
 COS = math.cos(ANGLE)
@@ -56,7 +55,7 @@ def test_a_ridge_spreads_at_the_exact_rate_whatever_its_friction(friction_angle)
 
 @pytest.mark.parametrize("degrees", [0.0, 45.0])
 def test_a_circular_cap_keeps_its_shape_whatever_the_slope(degrees):
-    found = flow_planes.cap(500, degrees)
+    found = planes.cap(500, degrees)
     # measured 3.0e-3 and 2.6e-3 at most, and .018, .017 of h, .025, .024 of hu in the frame of the centre; with 2000
     # particles .009 and .019: the width of the kernel
     assert abs(found.scalars["radius along, error"]) < 5e-3 and abs(found.scalars["radius across, error"]) < 5e-3
@@ -65,7 +64,7 @@ def test_a_circular_cap_keeps_its_shape_whatever_the_slope(degrees):
 
 
 def test_a_cap_with_friction_follows_the_similarity_solution():
-    found = flow_planes.similarity(500)
+    found = planes.similarity(500)
     # 35 degrees, friction 25; measured .010 and .013, of which .006 and .008 are the solution's own: it linearises
     # friction
     assert found.h.l1 < 0.015 and found.hu.l1 < 0.02

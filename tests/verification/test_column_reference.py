@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks.column_reference import CASES, COARSE, solve
-from landlab_debrisflow.physics.column.analytic import consolidation, growing_column
+from landlab_debrisflow.exact.columns import consolidation, growing_column
+from validation.cases.column_reference import CASES, COARSE, solve
 
 ERODED = np.array([1.0, 40.0, 400.0]) / 400.0
 CLOSED = np.array([420.0, 440.0, 1200.0]) / 400.0

@@ -1,7 +1,7 @@
 """Theory, section 6, line by line, about columns, through `solve_column`: to the digits printed, and with what order.
 
 Undrained loading, a drained base, the literal source of one resolution and the digits of the closed forms themselves
-are in `tests/test_solve_column.py` and `tests/physics/column`.
+are in `tests/columns/test_solve.py` and `tests/physics/column`.
 """
 
 from itertools import pairwise
@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import simpson
 
 from landlab_debrisflow import solve_column
-from landlab_debrisflow.physics.column.analytic import consolidation, constant_local_peclet, front, growing_column
+from landlab_debrisflow.exact.columns import consolidation, constant_local_peclet, front, growing_column
 
-from ..physics.column.test_analytic import TABLE
-from ..physics.column.test_analytic import XI as HEIGHTS
+from ..exact.test_columns import TABLE
+from ..exact.test_columns import XI as HEIGHTS
 
 XI = np.array(HEIGHTS)
 LOADING = 990.0 * 9.81

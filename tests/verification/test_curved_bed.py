@@ -11,8 +11,7 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
-
-from ..grids import dry_block, place, release_cap
+from validation.grids import dry_block, place, release_cap
 
 G, RADIUS, START, MIDDLE = 9.81, 100.0, np.radians(-30.0), 70.0
 

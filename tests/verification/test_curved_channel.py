@@ -1,6 +1,6 @@
 """A cap runs down a channel that bends: curvature must neither take nor give energy."""
 
-from benchmarks.flow_basins import curved_channel
+from validation.cases.basins import curved_channel
 
 
 def test_a_bend_does_no_work():

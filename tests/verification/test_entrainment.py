@@ -7,8 +7,7 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
-
-from ..grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
 
 G, ANGLE, MU, RATE = 9.81, math.radians(30.0), 0.21, 3e-3
 PULL = G * (math.sin(ANGLE) - MU * math.cos(ANGLE))

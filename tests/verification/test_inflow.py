@@ -7,7 +7,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model.inflow import Source
+from landlab_debrisflow.model.inflow.source import Source
 
 ANGLE, SPEED, THICKNESS, SPACING = math.radians(15.0), 5.0, 0.5, 2.0
 

@@ -1,6 +1,6 @@
 """A lake over an uneven floor. Slope-normal equations know no level lake: g sin^3(theta) is left over."""
 
-from benchmarks.flow_basins import lake_damped, lake_rough
+from validation.cases.basins import lake_damped, lake_rough
 
 
 def test_a_damped_lake_becomes_level():

@@ -12,8 +12,7 @@ import pytest
 from landlab_debrisflow import DebrisFlow, Material
 from landlab_debrisflow.model import step
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
-
-from ..grids import inclined, place, release
+from validation.grids import inclined, place, release
 
 G, STEEP, GENTLE = 9.81, math.radians(20.0), math.radians(6.0)
 RATIO = 0.4  # excess pore pressure over liquefaction

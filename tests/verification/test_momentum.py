@@ -8,8 +8,7 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
-
-from ..grids import dry_block, inclined, place, release_cap, release_slab
+from validation.grids import dry_block, inclined, place, release_cap, release_slab
 
 G = 9.81
 

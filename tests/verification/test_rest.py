@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from benchmarks import flow_blocks
 from landlab_debrisflow import DebrisFlow
-
-from ..grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
+from validation.cases import blocks
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
 
 G, MU, ANGLE = 9.81, 0.4, math.radians(15.0)
 SPEED = 10.0
@@ -66,7 +65,7 @@ def test_a_sliding_slab_stops_in_time_and_stays(sliding):
 
 
 def test_a_slab_that_finds_itself_on_gentler_ground_stops():
-    found = flow_blocks.stopping_slab(300)
+    found = blocks.stopping_slab(300)
     # measured +.016 and -1.9e-4: steps get shorter as the flow slows down, so a stop is not resolved to a step any more
     assert abs(found.scalars["time error"]) < 0.023 and abs(found.scalars["travel error"]) < 3e-4
     assert found.scalars["speed left [m/s]"] == 0.0 and found.scalars["moved after [m]"] == 0.0

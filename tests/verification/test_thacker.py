@@ -1,9 +1,9 @@
 """Water in a parabolic basin (Thacker, 1981): order of the scheme where the ground is curved and the edge moves.
 
-2.25 periods, so that it moves as fast as it ever does; relative errors as benchmarks/flow_measure.py defines them.
+2.25 periods, so that it moves as fast as it ever does; relative errors as validation/measure.py defines them.
 """
 
-from benchmarks.flow_basins import thacker_curved, thacker_planar
+from validation.cases.basins import thacker_curved, thacker_planar
 
 
 def test_a_flat_surface_swings_to_and_fro():

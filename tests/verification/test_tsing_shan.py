@@ -6,7 +6,7 @@ All figures with the noise over particles and offsets: `python -m benchmarks.tsi
 import numpy as np
 import pytest
 
-from landlab_debrisflow.terrains import tsing_shan_valley
+from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 from tests.test_examples import load
 
 PARTICLES = 200

@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from benchmarks.flow_planes import plane
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.contracts import WATER
 from landlab_debrisflow.physics.flow import TwoPhase
-
-from ..grids import inclined, place, release, release_cap, release_slab
+from validation.cases.planes import plane
+from validation.grids import inclined, place, release, release_cap, release_slab
 
 G, RHO_S, RHO_W, N = 9.81, 2650.0, 1000.0, 0.4
 M_S, M_W = RHO_S * (1.0 - N), RHO_W * N  # per thickness

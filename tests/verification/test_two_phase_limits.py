@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from benchmarks import two_phase
-from benchmarks.flow_planes import plane
-from benchmarks.two_phase_cases import CASES
-from landlab_debrisflow.physics.column.analytic import consolidation
+from landlab_debrisflow.exact.columns import consolidation
 from landlab_debrisflow.physics.contracts import WATER
+from validation.cases.planes import plane
+from validation.cases.two_phase import CASES
 
 from .test_two_phase import RHO_W, G, basin
 

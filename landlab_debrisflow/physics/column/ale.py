@@ -4,8 +4,8 @@ from typing import ClassVar
 
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
-from .scheme import BED_CONTACT, LOADING
-from .schemes import ADVANCE, advance, check_scheme, synchronise
+from .schemes.choices import BED_CONTACT, LOADING
+from .schemes.registry import ADVANCE, advance, check_scheme, synchronise
 
 
 @declared

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.across import Across, Crossing, cells_of, sum_across
+from ...spatial.cross_summation import Across, Crossing, cells_of, sum_across
 from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 

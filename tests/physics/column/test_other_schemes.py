@@ -6,8 +6,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.special import erfc
 
 from landlab_debrisflow.core.errors import ParameterError
+from landlab_debrisflow.exact.columns import consolidation, growing_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.column.analytic import consolidation, growing_column
 from landlab_debrisflow.physics.contracts import BASE_PRESCRIBED
 
 from .driver import LOAD_PER_METRE, WATER_TO_BUOYANT, Columns, eta

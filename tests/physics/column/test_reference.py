@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from landlab_debrisflow.exact.columns import consolidation, constant_local_peclet, growing_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.column.analytic import consolidation, constant_local_peclet, growing_column
-from landlab_debrisflow.physics.column.peclet import basal_peclet_number
-from landlab_debrisflow.physics.column.start import initial_profile
+from landlab_debrisflow.physics.column.diagnostics import basal_peclet_number
+from landlab_debrisflow.physics.column.initial import initial_profile
 
 from .driver import LOAD_PER_METRE, Columns, eta
 

@@ -8,8 +8,8 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.erosion import LiquefiedBed
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap
 
-from ...grids import centre_of_mass, dry_block, inclined, place, release_cap
 from ..test_contracts import basal_state
 
 G = 9.81

@@ -8,8 +8,8 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.erosion import ShearExcess
+from validation.grids import dry_block, inclined, release_slab
 
-from ...grids import dry_block, inclined, release_slab
 from ..test_contracts import basal_state
 
 

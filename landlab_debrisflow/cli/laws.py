@@ -1,0 +1,133 @@
+"""What the declarations say of laws and parameters, for the command line and for ``docs/laws.md``.
+
+The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula, after a colon what that is;
+a section ``References`` is its source.
+"""
+
+import dataclasses
+import inspect
+import math
+import re
+import typing
+
+from ..model.inflow.hydrograph import Hydrograph
+from ..model.numerics import Numerics
+from ..physics.material import Material
+from ..physics.registry import LAWS, METHOD, Physics
+
+COMMAND = "landlab-debrisflow info --markdown > docs/laws.md"
+
+INTRODUCTION = f"""# Laws and parameters
+
+<!-- Written by `{COMMAND}` from the declarations; a test compares. -->
+
+A law is chosen by the keyword of its kind: by name, with parameters, as in
+`DebrisFlow(grid, friction={{"law": "voellmy", "turbulent_coefficient": 500.0}})`, or as an object of its class. The
+first of a kind is the default. Where *in space* says yes, an array over nodes or the name of a field at nodes will do
+for the number. Bounds belong to what is allowed. A law of your own: [CONTRIBUTING.md](../CONTRIBUTING.md).
+"""
+
+HEADINGS = ("parameter", "unit", "default", "allowed", "in space", "meaning")
+
+
+class Entry(typing.NamedTuple):
+    """What a declared class says of itself."""
+
+    title: str  # "friction: voellmy", or the keyword of what is no law
+    cls: type
+    formula: str  # "" for what is no law
+    summary: str  # what it is, in a line; may be empty for a law
+    details: str  # further paragraphs
+    source: str  # "" if there is none
+    rows: list  # of its parameters, one str for each of HEADINGS
+
+
+def law_entries(kind: str) -> list[Entry]:
+    """Return what the laws of a kind say of themselves, the default first."""
+    return [_entry(f"{kind}: {name}", law, has_formula=True) for name, law in LAWS[kind].items()]
+
+
+def other_entries() -> list[Entry]:
+    """Return the same of the other keywords whose parameters are declared."""
+    others = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
+    return [_entry(keyword, cls, has_formula=False) for keyword, cls in others.items()]
+
+
+def markdown() -> str:
+    """Return the page of all laws and parameters."""
+    parts = [INTRODUCTION]
+    contracts = typing.get_type_hints(Physics)
+    for kind in LAWS:
+        what = inspect.cleandoc(contracts[kind].__doc__).splitlines()[0]
+        parts.append(f"## {kind}\n\n{what} A law of this kind has the method `{METHOD[kind]}`.\n")
+        parts += map(_section, law_entries(kind))
+    parts.append("## Other keywords\n")
+    parts += map(_section, other_entries())
+    return "\n".join(parts)
+
+
+def _entry(title, cls, has_formula: bool) -> Entry:
+    first, *details = _paragraphs(cls.__doc__)
+    formula, _, summary = first.partition(": ") if has_formula else ("", "", first)
+    formula = formula if summary else formula.removesuffix(".")
+    details, source = _split_off_references(details)
+    rows = [_row(parameter) for parameter in dataclasses.fields(cls)]
+    return Entry(title, cls, formula, summary, "\n\n".join(details), source, rows)
+
+
+def _paragraphs(docstring) -> list[str]:
+    """Return the paragraphs, lines joined; a section of numpydoc begins one with its heading, still underlined."""
+    return [" ".join(part.split()) for part in re.split(r"\n\s*\n", inspect.cleandoc(docstring))]
+
+
+def _split_off_references(paragraphs):
+    """Return the paragraphs before the first section, and the text of the section References."""
+    sections = [k for k, words in enumerate(paragraphs) if re.match(r"\w+ ---+", words)]
+    sources = [words for words in paragraphs if words.startswith("References ---")]
+    source = re.sub(r"^References -+ ?", "", sources[0]) if sources else ""
+    return paragraphs[: sections[0]] if sections else paragraphs, source
+
+
+def _section(entry: Entry) -> str:
+    paragraphs = [
+        f"### {entry.title}",
+        ": ".join(filter(None, (f"`{entry.formula}`" if entry.formula else "", entry.summary))),
+        entry.details,
+        f"Source: {entry.source}" if entry.source else "",
+        f"Class `{entry.cls.__module__}.{entry.cls.__qualname__}`" + (":" if entry.rows else "; no parameters."),
+        _table(entry.rows),
+    ]
+    return "\n\n".join(filter(None, paragraphs)) + "\n"
+
+
+def _table(rows) -> str:
+    if not rows:
+        return ""
+    lines = [HEADINGS, ["---"] * len(HEADINGS), *([f"`{name}`", *rest] for name, *rest in rows)]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in lines)
+
+
+def _row(parameter) -> tuple[str, ...]:
+    meta = parameter.metadata
+    in_space = "yes" if meta["varies"] else ""
+    return (parameter.name, meta["unit"], _plain(parameter.default), _allowed(meta), in_space, meta["meaning"])
+
+
+def _allowed(meta) -> str:
+    if meta["choices"]:
+        return ", ".join(meta["choices"])
+    if meta["kind"] is bool:
+        return "true, false"
+    low, high = meta["bounds"]
+    interval = f"{low:g} or more" if low > -math.inf else "any"
+    if high < math.inf:
+        interval = f"{low:g} to {high:g}"
+    return {int: "integer, ", tuple: "list, "}.get(meta["kind"], "") + interval
+
+
+def _plain(value) -> str:
+    if value is None:
+        return "not set"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else f"{value:.6g}"

@@ -1,0 +1,1 @@
+"""Columns of excess pore pressure without a flow: ``solve_column``."""

@@ -1,0 +1,300 @@
+"""What `solve_column` is given, checked: a refusal says which argument, got, allowed and what to do."""
+
+import dataclasses
+from numbers import Real
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.errors import ParameterError
+from ..core.hints import did_you_mean, give_number, same_word
+from ..physics.column import ALE, Classical, ConstantRatio
+from ..physics.column.initial import initial_profile
+from ..physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
+
+DRAINED = 1 + max(BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED)  # laws know it as prescribed with 0 Pa
+BASE = {
+    "by_erosion": BASE_BY_EROSION, "prescribed": BASE_PRESCRIBED, "impermeable": BASE_IMPERMEABLE, "drained": DRAINED,
+}  # fmt: skip
+STARTS = ("zero", "linear", "uniform", "basal_layer")
+WORDS = {"law": ("ale", "classical", "constant_ratio"), "advance": ("lazy", "every_step")}
+
+
+class Number(NamedTuple):
+    """One number, or one per column."""
+
+    unit: str
+    low: float
+    high: float
+    open: bool  # whether the lower bound itself is refused
+    timed: bool  # whether it may be a function of time
+    remedy: str
+
+
+SURFACE = "give a finite pressure over the hydrostatic one, negative for suction"
+NUMBERS = {
+    "thickness": Number("m", 0.0, np.inf, True, False, "give the slope-normal thickness at time 0"),
+    "entrainment_rate": Number(
+        "m s-1", 0.0, np.inf, False, True, "a column that gets thinner without losing soil has a divergence_rate > 0"
+    ),
+    "coefficient_of_consolidation": Number("m2 s-1", 0.0, np.inf, False, False, "give 0 for no diffusion"),
+    "basal_pressure": Number("Pa", -np.inf, np.inf, False, True, SURFACE),
+    "initial_pressure": Number("Pa", -np.inf, np.inf, False, False, SURFACE),
+    "divergence_rate": Number("s-1", -np.inf, np.inf, False, True, "give a finite rate, negative where flow converges"),
+    "loading": Number("Pa m-1", 0.0, np.inf, False, False, "give rho' g cos(theta), or 0 to leave loading out"),
+    "porosity_source": Number("Pa s-1", -np.inf, np.inf, False, True, "give a finite rate of pressure"),
+    "basal_pressure_ratio": Number("-", 0.0, 1.0, False, True, "0 is a dry bed, 1 a liquefied one"),
+}
+OTHERS = {
+    "times": Number("s", 0.0, np.inf, False, False, "the columns start at time 0; for example times=[10.0, 100.0]"),
+    "initial_layer_fraction": Number("-", 0.0, 1.0, False, False, "it is a part of the thickness"),
+    "step": Number("s", 0.0, np.inf, True, False, "leave it None to have it chosen"),
+}
+
+
+def refuse(message: str):
+    """Raise ParameterError on behalf of `solve_column`."""
+    raise ParameterError(f"solve_column: {message}")
+
+
+class History:
+    """An argument of `NUMBERS`, or "base": one per column, or a function of time [s], checked at every call."""
+
+    def __init__(self, name: str, given: Any):
+        self.name, self.given = name, given
+        self.varies = callable(given) and (name == "base" or NUMBERS[name].timed)
+        self.value = self._read(given(0.0), " at t = 0 s") if self.varies else self._read(given)
+
+    def spread(self, count: int) -> None:
+        """Make it one per column."""
+        self.value = np.array(np.broadcast_to(self.value, (count,)))
+
+    def at(self, time: float) -> np.ndarray:
+        """Return it at a time [s], shape (column,)."""
+        if not self.varies:
+            return self.value
+        value, count = self._read(self.given(time), f" at t = {time:g} s"), self.value.size
+        if value.size not in (1, count):
+            shape = f"returned shape {value.shape} at t = {time:g} s"
+            refuse(f"{self.name} {shape}; it must return one number, or {count}, one per column, at every time")
+        return np.array(np.broadcast_to(value, (count,)))
+
+    def _read(self, value, when=""):
+        if self.name == "base":
+            return _contacts(value, when)
+        return numbers(self.name, NUMBERS[self.name], value, when)
+
+
+def numbers(name: str, allowed: Number, value, when="", each="column") -> np.ndarray:
+    """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
+    array = _array(value)
+    if array is None or array.ndim > 1 or array.size == 0:
+        got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
+        refuse(f"{name} must be one number or one per {each}, got {got}{when}; {allowed.remedy}")
+    inside = (array >= allowed.low) & (array <= allowed.high) & np.isfinite(array)
+    bad = np.flatnonzero(~inside | (allowed.open & (array == allowed.low)))
+    if bad.size:
+        left = "(" if allowed.open or np.isinf(allowed.low) else "["
+        right = ")" if np.isinf(allowed.high) else "]"
+        unit = "" if allowed.unit == "-" else f" {allowed.unit}"
+        where = f" for {each} {bad[0]}" if array.ndim else ""
+        refuse(
+            f"{name} must lie in {left}{allowed.low:g}, {allowed.high:g}{right}{unit}, got {array.flat[bad[0]]:g}"
+            f"{where}{when}; {allowed.remedy}"
+        )
+    return array
+
+
+def _array(value):
+    """Return real numbers as an array of floats, or None if they are none."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        return None
+    return array.astype(float) if array.dtype.kind in "iuf" else None
+
+
+def _contacts(value, when="") -> np.ndarray:
+    words = np.asarray(value, dtype=object)
+    bad = [word for word in words.flat if not isinstance(word, str) or word not in BASE]
+    if bad or words.ndim > 1 or words.size == 0:
+        got = f"{bad[0]!r}{did_you_mean(bad[0], BASE)}" if bad else f"shape {words.shape}"
+        refuse(f"base must be one of {', '.join(BASE)}, or one of these per column; got {got}{when}")
+    return np.array([BASE[word] for word in words.flat], np.int8).reshape(words.shape)
+
+
+class Inputs(NamedTuple):
+    """What `solve_column` was given, checked and spread over n columns."""
+
+    times: np.ndarray  # of output [s]
+    law: Any  # a ColumnLaw
+    profile: np.ndarray  # (n, levels), at time 0 [Pa]
+    thickness: np.ndarray  # (n,), at time 0 [m]
+    coefficient_of_consolidation: np.ndarray  # (n,) [m2 s-1]
+    loading: np.ndarray  # (n,), all 0 or all > 0 [Pa m-1]
+    pressure_scale: np.ndarray  # (n,), what a law may call liquefaction pressure without loading [Pa]
+    entrainment_rate: History  # [m s-1]
+    divergence_rate: History  # [s-1]
+    porosity_source: History  # [Pa s-1]
+    base: History  # values of BASE
+    bed: History  # pressure [Pa], or ratio [-]
+    bed_is_ratio: bool
+    bounded: bool
+    step: float | None  # longest step asked for [s]
+
+    def liquefaction_pressure(self, thickness) -> np.ndarray:
+        """Return the load at the base [Pa]."""
+        return self.loading * thickness if self.loading[0] > 0.0 else self.pressure_scale
+
+    def bed_pressure(self, time: float, thickness) -> np.ndarray:
+        """Return the pressure of the bed [Pa]."""
+        return self.bed.at(time) * (self.loading * thickness if self.bed_is_ratio else 1.0)
+
+
+def read_inputs(given: dict[str, Any]) -> Inputs:
+    """Check the arguments of `solve_column`, by name.
+
+    Raises
+    ------
+    ParameterError
+        If one is not usable, or two do not go together.
+    """
+    times = _times(given["times"])
+    for name, words in WORDS.items():
+        if (word := same_word(given[name], words)) is None:
+            refuse(f"{name} must be one of {', '.join(words)}; got {given[name]!r}{did_you_mean(given[name], words)}")
+        given[name] = word
+    if not isinstance(given["bounded"], bool):
+        refuse(f"bounded must be true or false, got {given['bounded']!r}")
+    for name in ("initial_layer_fraction", "step"):
+        if given[name] is not None and numbers(name, OTHERS[name], given[name]).ndim:
+            refuse(f"{name} must be one number, got {given[name]!r}")
+    absent = [name for name in ("initial_pressure", "basal_pressure_ratio") if given[name] is None]
+    histories = {name: History(name, given[name]) for name in NUMBERS if name not in absent}
+    histories["base"] = History("base", given["base"])
+    _agree(given, histories)
+    law, profile = _law(given, histories), _profile_given(given)
+    shapes = {name: history.value.shape for name, history in histories.items()}
+    if profile is not None:
+        shapes["initial"] = profile.shape[:-1]
+    count = _count({name: shape for name, shape in shapes.items() if shape})
+    for history in histories.values():
+        history.spread(count)
+    value = {name: history.value for name, history in histories.items()}
+    bed, is_ratio = histories.get("basal_pressure_ratio"), "basal_pressure_ratio" in histories
+    inputs = Inputs(
+        times, law, profile, value["thickness"], value["coefficient_of_consolidation"], value["loading"], None,
+        *(histories[name] for name in ("entrainment_rate", "divergence_rate", "porosity_source", "base")),
+        bed if is_ratio else histories["basal_pressure"], is_ratio, given["bounded"], given["step"],
+    )  # fmt: skip
+    bed = inputs.bed_pressure(0.0, inputs.thickness)
+    if profile is None:
+        profile = _start(given, inputs, value.get("initial_pressure", bed))
+    profile = np.array(np.broadcast_to(profile, (count, given["levels"])))
+    scale = np.maximum(np.abs(bed), np.abs(profile).max(axis=1))
+    return inputs._replace(profile=profile, pressure_scale=np.where(scale > 0.0, scale, 1.0))
+
+
+def _times(times) -> np.ndarray:
+    if times is None:
+        refuse(f"times is missing: give the times of output [s], increasing and >= 0; {OTHERS['times'].remedy}")
+    times = np.atleast_1d(numbers("times", OTHERS["times"], times, each="output"))
+    bad = np.flatnonzero(np.diff(times) <= 0.0)
+    if bad.size:
+        one, other = times[bad[0] : bad[0] + 2]
+        refuse(f"times must increase, got {one:g} s and then {other:g} s for output {bad[0] + 1}; use np.unique(times)")
+    return times
+
+
+def _agree(given, histories) -> None:
+    """Refuse what does not go together."""
+    loading, ratio = histories["loading"].value, given["basal_pressure_ratio"]
+    if loading.any() != loading.all():
+        refuse(f"loading must be 0 in all columns or > 0 in all, got {loading}; solve the two kinds one by one")
+    needs = {
+        "bounded=True": given["bounded"],
+        "basal_pressure_ratio": ratio is not None,
+        "loading_source='proportional'": given["loading_source"] == "proportional",
+        "source_includes_erosion=True": given["source_includes_erosion"] is True,
+        "law='constant_ratio'": given["law"] == "constant_ratio",
+    }
+    for what, asked in needs.items():
+        if asked and not loading.any():
+            refuse(f"{what} needs loading > 0 Pa m-1, got loading=0; give loading=rho' g cos(theta)")
+    if ratio is not None and not (isinstance(given["basal_pressure"], Real) and given["basal_pressure"] == 1.0):
+        refuse(
+            f"basal_pressure must be left out where basal_pressure_ratio is given, got {given['basal_pressure']!r}; "
+            "the bed pressure is then ratio times loading times thickness"
+        )
+    if given["law"] == "constant_ratio" and (callable(ratio) or np.size(ratio) != 1 or ratio is None):
+        refuse(f"law='constant_ratio' needs basal_pressure_ratio as one number in [0, 1], got {ratio!r}")
+    if given["source_includes_erosion"] is True and given["loading_source"] != "overburden":
+        refuse(f"source_includes_erosion needs loading_source='overburden', got {given['loading_source']!r}")
+    if given["advance"] == "every_step" and given["tolerance"] is not None:
+        refuse(f"tolerance is for advance='lazy' only, got {given['tolerance']!r} with 'every_step'; leave it None")
+
+
+def _law(given, histories):
+    """Return the law, with its own checks of its parameters."""
+    names = ("levels", "scheme", "bed_contact", "loading_source", "source_includes_erosion")
+    parameters = {name: given[name] for name in names}
+    if given["advance"] == "every_step" or given["tolerance"] is not None:
+        parameters["tolerance"] = 0.0 if given["advance"] == "every_step" else given["tolerance"]
+    law = (Classical if given["law"] == "classical" else ALE)(**parameters)  # ALE also where only to check
+    if given["law"] == "constant_ratio":
+        return ConstantRatio(ratio=float(histories["basal_pressure_ratio"].value.item()))
+    return law if histories["loading"].value.any() else dataclasses.replace(law, loading_source="none")
+
+
+def _count(shapes) -> int:
+    """Return the number of columns."""
+    counts = {shape[0] for shape in shapes.values()} - {1}
+    if len(counts) > 1:
+        each = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        refuse(f"arguments of different numbers of columns: {each}; give each one number, or one per column")
+    return counts.pop() if counts else 1
+
+
+def _profile_given(given):
+    """Return `initial` if it is an array, else None."""
+    initial, levels = given["initial"], given["levels"]
+    if isinstance(initial, str):
+        if initial not in STARTS:
+            hint = did_you_mean(initial, STARTS)
+            refuse(f"initial must be one of {', '.join(STARTS)} or an array over levels [Pa]; got {initial!r}{hint}")
+        if initial != "zero":
+            return None
+    if given["initial_pressure"] is not None:
+        word = "'zero'" if isinstance(initial, str) else "an array"
+        refuse(
+            f"initial_pressure must be left None where initial is {word}, got {given['initial_pressure']!r}; "
+            "it is for 'linear', 'uniform' and 'basal_layer'"
+        )
+    array = np.zeros(levels) if isinstance(initial, str) else _array(initial)
+    if array is None or array.ndim not in (1, 2) or array.shape[-1] != levels or array.size == 0:
+        got = repr(initial) if array is None else f"shape {array.shape}"
+        refuse(
+            f"initial must be one of {', '.join(STARTS)} or pressures [Pa] of shape ({levels},) or (column, {levels}) "
+            f"as levels={levels}, index 0 at the base; got {got}"
+        )
+    if not np.isfinite(array).all():
+        bad = tuple(int(index) for index in np.argwhere(~np.isfinite(array))[0])
+        refuse(f"initial must be finite, got {array[bad]} at index {bad}")
+    if (surface := array[..., -1][array[..., -1] != 0.0]).size:
+        refuse(
+            f"initial must be 0 Pa at the surface, the last level, got {surface[0]:g}; index 0 is the base: reverse it "
+            "if it runs downward"
+        )
+    return array
+
+
+def _start(given, inputs, pressure) -> np.ndarray:
+    """Return the profile a word means, with `pressure` at the base [Pa]."""
+    levels, shape = given["levels"], given["initial"]
+    if inputs.loading[0] > 0.0:
+        load = inputs.loading * inputs.thickness
+    else:  # none that the pressure could exceed at any level; a power of two, so that the ratio loses no digit
+        load = np.exp2(np.ceil(np.log2(np.maximum(np.abs(pressure), 1e-300))) + np.ceil(np.log2(levels)))
+    profile = initial_profile(load, levels, pressure / load, shape, given["initial_layer_fraction"])
+    profile[:, -1] = 0.0  # also where there is suction
+    return profile

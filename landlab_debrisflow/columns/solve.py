@@ -1,0 +1,253 @@
+"""Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
+
+import math
+from numbers import Real
+
+import numpy as np
+import xarray as xr
+
+from ..core.variables import COLUMN_MEMORY
+from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
+from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
+from ..physics.material import Material
+from ..record.attributes import NO_FILL, described, heading, quantity
+from .arguments import DRAINED, NUMBERS, OTHERS, History, Inputs, read_inputs, refuse
+
+CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
+TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
+BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
+WATER_TO_BUOYANT = Material().water_density / Material().buoyant_density
+
+VARIABLES = {
+    "excess_pore_pressure": ("Pa", "excess pore pressure"),
+    "thickness": ("m", "slope-normal thickness"),
+    "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base, as friction feels it"),
+    "basal_peclet_number": ("-", "erosion rate times thickness over coefficient of consolidation"),
+    "front_height": ("-", "height over thickness of the front between old soil and new"),
+    "front_age": ("s", "time since the column first eroded"),
+    "consolidation_time": ("s", "thickness squared over coefficient of consolidation"),
+    "erosion_time": ("s", "thickness over erosion rate"),
+    "clipped_pressure": ("Pa m", "pressure taken off by the bounds times thickness, so far"),
+}
+
+
+def solve_column(
+    thickness=1.0, entrainment_rate=0.01, coefficient_of_consolidation=1e-3, basal_pressure=1.0, times=None,
+    initial="zero", initial_pressure=None, initial_layer_fraction=0.1, base="by_erosion", bed_contact="dirichlet",
+    divergence_rate=0.0, loading=0.0, loading_source="overburden", porosity_source=0.0,
+    source_includes_erosion=False, bounded=False, law="ale", scheme="default", levels=11, advance="lazy", step=None,
+    tolerance=None, basal_pressure_ratio=None,
+) -> xr.Dataset:  # fmt: skip
+    """Solve for the excess pore pressure in columns that erode, strain and consolidate.
+
+    ``dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S`` with ``dh/dt = e_R - D h`` and p = 0 at the
+    surface (Pastor et al., 2022, eq. 35). All lengths are slope-normal. "Per column" means one number, or
+    one for each of n columns. The columns do not act on each other, but take the same time steps.
+
+    Parameters
+    ----------
+    thickness : float or array_like, shape (column,)
+        h at time 0, > 0 [m].
+    entrainment_rate : float, array_like or function of time
+        e_R >= 0, per column [m s-1]. A function gets the time [s] and returns one number or one per column.
+    coefficient_of_consolidation : float or array_like
+        c_v >= 0, per column [m2 s-1].
+    basal_pressure : float, array_like or function of time
+        Excess pore pressure of the bed, per column [Pa].
+    times : array_like, shape (time,)
+        Times of output, increasing [s]; the columns start at time 0. Required.
+    initial : {"zero", "linear", "uniform", "basal_layer"} or array_like, shape (levels,) or (column, levels)
+        Pressure at time 0: a word, or at levels, index 0 at the base and 0 at the surface [Pa]. With
+        `loading`, "uniform" and "basal_layer" are nowhere more than what liquefies the grains there.
+    initial_pressure : float or array_like, optional
+        Of such a word, at the base, per column [Pa]; the pressure of the bed at time 0 if None.
+    initial_layer_fraction : float
+        Thickness of the basal layer over that of the column, in [0, 1] [-].
+    base : {"by_erosion", "prescribed", "impermeable", "drained"}, array_like of them or function of time
+        Whether the bed prescribes the pressure of the base while the column erodes (and is impermeable
+        else), always or never; "drained" prescribes 0. Per column.
+    bed_contact : {"dirichlet", "flux"}
+        Whether a base that erodes takes the pressure of the bed, or only what new soil brings.
+    divergence_rate : float, array_like or function of time
+        D, the strain rate at which a column spreads and thins, per column [s-1].
+    loading : float or array_like
+        ``rho' g cos(theta)`` >= 0, per column [Pa m-1]; liquefaction pressure is loading times thickness.
+        0, in all columns, leaves the source by loading out.
+    loading_source : {"overburden", "proportional", "none"}
+        What a change of thickness by strain does to the pressure, if there is a loading.
+    porosity_source : float, array_like or function of time
+        Pressure made everywhere in the column by a change of porosity, per column [Pa s-1].
+    source_includes_erosion : bool
+        Load grains by soil that comes in below them too (eqs. 19 and 38 to the letter); to replicate only.
+    bounded : bool
+        Hold the pressure between suction, with the densities of `Material`, and liquefaction.
+    law : {"ale", "classical", "constant_ratio"}
+        "constant_ratio" has the pressure ``basal_pressure_ratio * loading * y`` at the depth y, whatever the
+        start, the base and the diffusion are.
+    scheme : str
+        How the equation is solved; see `ALE`.
+    levels : int
+        Number of levels, base and surface included, in [3, 1001].
+    advance : {"lazy", "every_step"}
+        Whether a column may be left alone until it is due.
+    step : float, optional
+        Longest time step [s]. If None, no column grows or strains by more than 1/400 in one step, and at least
+        400 steps cover the times if anything is a function of time or the scheme is not the default one.
+        Rates are taken at the middle of a step, pressures of the bed at its end.
+    tolerance : float, optional
+        Error of the pressure, over liquefaction pressure, that laziness aims at [-]; None is that of the law. It is
+        no bound: below 1e-2 the error falls more slowly than the tolerance (7e-4 for 1e-4, at worst).
+    basal_pressure_ratio : float, array_like or function of time, optional
+        In [0, 1], per column [-]: the pressure of the bed is this times loading times the present thickness.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``excess_pore_pressure(time, column, level)``; over ``time`` and ``column``: ``thickness``,
+        ``basal_excess_pore_pressure`` (what friction feels), ``basal_peclet_number``, ``front_height`` (0
+        until something eroded), ``front_age`` (NaN until then), ``consolidation_time``, ``erosion_time``,
+        ``clipped_pressure``; ``initial_peclet_number(column)``, the paper's Pe0. The coordinate ``level`` is
+        xi, 0 at the base and 1 at the surface. Units are in the attributes, as are the parameters that are
+        one number or word. The base level stands for half a cell: it takes the pressure of a base that
+        has just begun to be prescribed when that half cell is filled.
+
+    Raises
+    ------
+    ParameterError
+        If an argument is not usable or does not go with another, if a function of time returns what is not
+        usable, or if a column thins to nothing.
+
+    Examples
+    --------
+    The paper's column erodes twice its thickness: new soil fills it to 2/3, and carries the bed's pressure.
+
+    >>> column = solve_column(entrainment_rate=0.01, coefficient_of_consolidation=1e-4, times=[0.0, 200.0])
+    >>> column.basal_peclet_number.values.ravel().round(6).tolist()
+    [100.0, 300.0]
+    >>> column.front_height.values.ravel().round(6).tolist()
+    [0.0, 0.666667]
+    >>> column.excess_pore_pressure.sel(time=200.0, level=[0.0, 0.5, 1.0]).values.ravel().round(1).tolist()
+    [1.0, 1.0, 0.0]
+    """
+    given = dict(locals())
+    inputs = read_inputs(given)
+    columns, output = _Columns(inputs), []
+    for time in inputs.times:
+        columns.advance_to(float(time))
+        output.append(columns.look())
+    return _dataset(inputs, given, output)
+
+
+class _Columns:
+    """Columns under way; the volume is over 1 m2 at time 0, so that it grows by erosion only."""
+
+    def __init__(self, inputs: Inputs):
+        self.inputs, self.time, n = inputs, 0.0, inputs.thickness.size
+        self.thickness, self.volume = inputs.thickness.copy(), inputs.thickness.copy()
+        self.state = ColumnState(inputs.profile.copy(), np.zeros((n, COLUMN_MEMORY)), np.zeros(n))
+        self.base = np.zeros(n)
+        self.first_eroded = np.where(inputs.entrainment_rate.at(0.0) > 0.0, 0.0, np.nan)
+        inputs.law.advance(self.state, self.forcing(0.0, np.zeros(n)), 0.0, self.base)
+        self.varies = any(isinstance(field, History) and field.varies for field in inputs)
+
+    def advance_to(self, end: float) -> None:
+        """Take steps that land on `end` [s]."""
+        while self.time < end:
+            left = end - self.time
+            dt = self._longest_step(left)
+            if dt < TOO_SHORT * self.inputs.times[-1]:
+                refuse(
+                    f"at t = {self.time:g} s a step of {dt:.3g} s is needed, too short for times up to "
+                    f"{self.inputs.times[-1]:g} s; lower entrainment_rate or divergence_rate, or give a longer step"
+                )
+            steps = math.ceil(left / dt * (1.0 - 1e-9))
+            self._step(end if steps == 1 else self.time + left / steps)
+
+    def _longest_step(self, left: float) -> float:
+        inputs = self.inputs
+        if inputs.step is not None:
+            return min(left, inputs.step)
+        dt = left
+        if self.varies or getattr(inputs.law, "scheme", "default") != "default":
+            dt = min(dt, CHANGE * inputs.times[-1])
+        for _ in range(100):  # the rates are those of the middle, which comes nearer with a shorter step
+            middle = self.time + 0.5 * dt
+            growth, strain = inputs.entrainment_rate.at(middle) / self.thickness, inputs.divergence_rate.at(middle)
+            fastest = max(growth.max(), np.abs(strain).max()) / CHANGE
+            if dt * fastest <= 1.0 + 1e-9:
+                break
+            dt = 1.0 / fastest
+        return dt
+
+    def _step(self, end: float) -> None:
+        """Advance to `end` [s]: thickness and volume exactly for rates that are constant in the step."""
+        inputs, dt, middle = self.inputs, end - self.time, 0.5 * (self.time + end)
+        rate, strain = inputs.entrainment_rate.at(middle), inputs.divergence_rate.at(middle) * dt
+        with np.errstate(over="ignore"):  # refused below
+            gain = np.divide(np.expm1(strain), strain, out=np.ones_like(strain), where=strain != 0.0)
+            growth = rate * dt / self.thickness * gain  # of the volume
+            thickness = self.thickness * np.exp(-strain) * (1.0 + growth)
+            entrained = self.volume * growth
+            volume = self.volume + entrained
+        low, high = BOUNDS
+        bad = np.flatnonzero(~((thickness > low) & (thickness < high) & (volume < high)))
+        if bad.size:
+            refuse(
+                f"thickness of column {bad[0]} became {thickness[bad[0]]:g} m, without strain {volume[bad[0]]:g} m, at "
+                f"t = {end:g} s; both must stay in ({low:g}, {high:g}): lower divergence_rate or entrainment_rate, or "
+                "end times before that"
+            )
+        self.thickness, self.volume = thickness, volume
+        self.first_eroded = np.where(np.isnan(self.first_eroded) & (rate > 0.0), self.time, self.first_eroded)
+        self.time = end
+        inputs.law.advance(self.state, self.forcing(end, entrained, middle), dt, self.base)
+
+    def forcing(self, time: float, entrained, middle: float | None = None) -> ColumnForcing:
+        """Return what a law is told of a step that ends at `time`."""
+        inputs, middle = self.inputs, time if middle is None else middle
+        base, bed = inputs.base.at(middle), inputs.bed_pressure(time, self.thickness)
+        return ColumnForcing(
+            self.volume, self.thickness, inputs.liquefaction_pressure(self.thickness), entrained,
+            np.where(base == DRAINED, 0.0, bed), np.where(base == DRAINED, np.int8(BASE_PRESCRIBED), base),
+            inputs.porosity_source.at(middle), inputs.coefficient_of_consolidation, WATER_TO_BUOYANT, inputs.bounded,
+        )  # fmt: skip
+
+    def look(self) -> dict[str, np.ndarray]:
+        """Return what is put out, on copies: a look does not advance a column that is left alone."""
+        inputs, rate = self.inputs, self.inputs.entrainment_rate.at(self.time)
+        state = ColumnState(*(array.copy() for array in self.state))
+        inputs.law.synchronise(state, self.forcing(self.time, np.zeros_like(self.base)))
+        coefficient = inputs.coefficient_of_consolidation
+        return {
+            "excess_pore_pressure": state.profile,
+            "thickness": self.thickness,
+            # nothing has been in contact with the bed yet at time 0
+            "basal_excess_pore_pressure": self.base.copy() if self.time > 0.0 else state.profile[:, 0],
+            "basal_peclet_number": basal_peclet_number(rate, self.thickness, coefficient),
+            "front_height": 1.0 - inputs.thickness / self.volume,
+            "front_age": self.time - self.first_eroded,
+            "consolidation_time": consolidation_time(self.thickness, coefficient),
+            "erosion_time": erosion_time(self.thickness, rate),
+            "clipped_pressure": state.clipped,
+        }
+
+
+def _dataset(inputs: Inputs, given, output) -> xr.Dataset:
+    """Return the output as a Dataset."""
+    data = {}
+    for name, (unit, words) in VARIABLES.items():
+        dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
+        data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))
+    start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
+    data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
+    height = "height above the base over thickness, 0 at the base, 1 at the surface"
+    coordinates = {
+        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
+        "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
+        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
+    }
+    attributes, units = heading(), {name: number.unit for name, number in (NUMBERS | OTHERS).items()}
+    for name, value in given.items():
+        if isinstance(value, str | Real):
+            attributes |= quantity(name, value, units.get(name, "-"))
+    return xr.Dataset(data, coordinates, attributes)

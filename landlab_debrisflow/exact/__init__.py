@@ -1,0 +1,1 @@
+"""Exact solutions in closed form, of columns and of flows."""

@@ -1,0 +1,1 @@
+"""The border to Landlab: all that touches a RasterModelGrid. Nothing of Landlab passes further down."""

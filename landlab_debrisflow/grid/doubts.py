@@ -1,0 +1,184 @@
+"""What can be computed, but is hardly meant: units, coordinates, names of fields. Each doubt is one sentence to log."""
+
+import dataclasses
+import difflib
+from collections.abc import Iterator
+from numbers import Real
+
+import numpy as np
+from scipy.ndimage import find_objects, label
+
+from ..core.parameters import NodeValues
+from ..core.variables import NODE_FIELDS
+from .checks import CLOSED, where
+from .fills import is_fill, written
+
+LOWEST, HIGHEST = -12000.0, 9000.0  # of the ground on Earth [m]
+UPRIGHT = 10.0  # relief over extent above which no whole DEM is [-]
+DEGREES_BELOW = 0.01  # node spacing that may be one of degrees [m]
+LEAST_ANGLE = 2.0  # [deg]
+DENSITIES = 500.0, 8000.0  # [kg m-3]
+LARGEST_GROWTH = 1.0  # [m-1]
+FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
+
+
+# ---- parameters ----
+
+
+def about_parameters(grid, physics) -> Iterator[str]:
+    """Yield what is odd about the parameters of laws and material; a 0 that means "none" is not."""
+    for kind in ("flow", "friction", "erosion", "column", "material"):
+        law = getattr(physics, kind)
+        for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
+            values = _values(grid, law, field)
+            if values.size and (words := _odd(field, values)):
+                yield f"{kind}: {field.name} {words}"
+
+
+def _values(grid, law, field):
+    """Return the values a parameter has at nodes in use, or its one value, without zeros, shape (n,)."""
+    value, used = getattr(law, field.name), grid.status_at_node != CLOSED
+    if isinstance(value, str) and field.metadata.get("varies"):
+        value = grid.at_node[value][used]
+    elif isinstance(value, NodeValues):
+        value = value.values[used]
+    elif isinstance(value, bool) or not isinstance(value, Real):
+        return np.empty(0)
+    values = np.atleast_1d(np.asarray(value, float))
+    return values[values != 0.0]
+
+
+def _odd(field, values) -> str:
+    """Return what is odd about values of a parameter, none of them 0, or nothing."""
+    unit, least, most = field.metadata.get("unit"), values.min(), values.max()
+    if unit == "deg" and field.metadata["bounds"][0] == 0.0 and most < LEAST_ANGLE and np.any(values % 1.0):
+        return f"is {most:g} degrees at most: was it meant in radians? {most:g} rad are {np.degrees(most):.3g} deg"
+    if unit == "kg m-3" and (least < DENSITIES[0] or most > DENSITIES[1]):
+        value = least if least < DENSITIES[0] else most
+        return f"is {value:g} kg m-3: was it meant in g/cm3? Densities of grains and water lie between 500 and 8000"
+    if field.name == "growth_rate" and most > LARGEST_GROWTH:
+        return f"is {most:g} per metre of path: was it meant per km, or in %? Published rates lie around 1e-3 m-1"
+    if field.name == "coefficient_of_consolidation" and most > FASTEST_CONSOLIDATION:
+        return f"is {most:g} m2 s-1: was it meant per year? {most:g} m2 per year are {most / 3.156e7:.2g} m2 s-1"
+    return ""
+
+
+# ---- coordinates and elevations ----
+
+
+def about_coordinates(grid) -> Iterator[str]:
+    """Yield what is odd about the coordinates of the grid; what is upright in metres is ground in degrees or km."""
+    corner, spacing = np.array(grid.xy_of_lower_left), np.array([grid.dx, grid.dy])
+    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _ends(grid)
+    on_globe = bool(np.all(np.abs([corner, corner + extent]) <= [[360.0, 90.0]] * 2))
+    fine, far = spacing.max() < DEGREES_BELOW, bool(np.any(np.abs(corner) > 10.0 * extent))
+    upright = spacing.max() < 1.0 and high - low > UPRIGHT * extent.max() and low >= LOWEST and high <= HIGHEST
+    named = any(str(unit).lower().startswith(("deg", "°")) for unit in grid.axis_units)
+    if named or (on_globe and (upright or (fine and far))):
+        yield (
+            f"the coordinates of the grid look like degrees (nodes every {grid.dx:.3g} from {corner[0]:g}, "
+            f"{corner[1]:g}): all lengths are in m; project the DEM, for instance to UTM, before it is read"
+        )
+    elif upright:
+        yield (
+            f"the ground falls by {high - low:.4g} m over {extent.max():.4g} m: are the coordinates of the grid in "
+            "km? All lengths are in m"
+        )
+
+
+def about_elevations(grid) -> Iterator[str]:
+    """Yield what is odd about the height of the ground."""
+    low, high = _ends(grid)
+    if low < LOWEST or high > HIGHEST:
+        yield (
+            f"topographic__elevation goes from {low:g} to {high:g} m, which is nowhere on Earth: was it meant in "
+            "another unit? All lengths are in m"
+        )
+
+
+def _ends(grid) -> tuple[float, float]:
+    """Return the lowest and the highest elevation at nodes in use [m], without what is refused when it is read."""
+    z = grid.at_node["topographic__elevation"]
+    ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
+    if np.any((z < LOWEST) | (z > HIGHEST), where=ground):
+        ground &= ~is_fill(z)
+    return (float(z.min(where=ground, initial=np.inf)), float(z.max(where=ground, initial=-np.inf)))
+
+
+# ---- names ----
+
+RELEASE = "debris_flow__release_depth"
+OUR_NAMES = tuple(field.name for field in NODE_FIELDS)
+UNSAID = {"debris", "flow", "landslide", "initial", "depth", "thickness", "height", "m"}
+"""Words of a field's name that say nothing about which field is meant."""
+
+ALIKE = 0.85
+"""Likeness of what is left of two names from which on one may be meant by the other [-]."""
+
+
+def about_names(grid, physics) -> Iterator[str]:
+    """Yield fields that look like inputs of ours which are missing; the release may come later."""
+    laws = (physics.friction, physics.erosion)
+    read = {getattr(law, f.name) for law in laws if dataclasses.is_dataclass(law) for f in dataclasses.fields(law)}
+    missing = [f.name for f in NODE_FIELDS if "in" in f.intent and f.name not in grid.at_node and f.name != RELEASE]
+    for name in sorted(set(grid.at_node) - set(OUR_NAMES) - read):
+        ours = max(missing, key=lambda ours: _likeness(name, ours), default="")
+        if name in misnamed(grid, ours):
+            yield (
+                f"the grid has no field {ours!r}, but one named {name!r}: was it meant? It is not read; "
+                f"grid.add_field({ours!r}, grid.at_node[{name!r}], at='node')"
+            )
+
+
+def misnamed(grid, ours: str) -> list[str]:
+    """Return names of fields with values > 0 that one of our names was perhaps meant by."""
+    alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _likeness(name, ours) >= ALIKE]
+    return [name for name in alike if np.any(np.nan_to_num(grid.at_node[name]) > 0)]
+
+
+def _likeness(name: str, ours: str) -> float:
+    """Return how alike two names are, as they are or without what is left unsaid, from 0 to 1."""
+    one, other = ([word for word in n.lower().replace("-", "_").split("_") if word] for n in (name, ours))
+    pairs = (one, other), tuple([word for word in n if word not in UNSAID] for n in (one, other))
+    return max((difflib.SequenceMatcher(None, *map("_".join, p)).ratio() for p in pairs if all(p)), default=0.0)
+
+
+# ---- release ----
+
+
+def about_nothing(grid, soil) -> str:
+    """Return what stands in the way of a release where none was found, as the end of a sentence."""
+    if names := misnamed(grid, RELEASE):
+        return f"; {names[0]!r} is not read: was it meant? grid.at_node[{RELEASE!r}][:] = grid.at_node[{names[0]!r}]"
+    ids = "mass__wasting_id"
+    marked = np.count_nonzero(grid.at_node[ids] > 0) if ids in grid.at_node else 0
+    if marked and soil is None:
+        return f"; {ids} > 0 at {marked} nodes lets the soil fail there, but the grid has no soil__depth: add it"
+    if marked:
+        return f"; {ids} > 0 at {marked} nodes lets the soil fail there, but soil__depth is 0 at all of them"
+    return ""
+
+
+def about_release(grid, nodes, depth) -> Iterator[str]:
+    """Yield which site is deepest for its width, if deeper than wide; `depth` [m] fails at some nodes."""
+    if nodes.size == 0 or depth.max() <= min(grid.dx, grid.dy):
+        return
+    failing = np.zeros(grid.number_of_nodes)
+    failing[nodes] = depth
+    failing = failing.reshape(grid.shape)
+    sites, _ = label(failing > 0.0, np.ones((3, 3)))
+    worst = 1.0
+    for number, box in enumerate(find_objects(sites), 1):
+        rows, columns = (side.stop - side.start for side in box)
+        width = float(min(rows * grid.dy, columns * grid.dx))
+        site = np.where(sites[box] == number, failing[box], 0.0)
+        if site.max() > worst * width:
+            worst = site.max() / width
+            row, column = np.unravel_index(site.argmax(), site.shape)
+            node = (box[0].start + row) * grid.number_of_node_columns + box[1].start + column
+            deepest, narrow = site.max(), width
+    if worst > 1.0 and not any(about_coordinates(grid)):  # of which it would be the consequence
+        yield (
+            f"a release is deeper than it is wide, {written(round(float(deepest), 3))} m on {narrow:g} m around "
+            f"{where(grid, node)}: was the depth meant in cm or mm? A flow of such a shape is not shallow"
+        )

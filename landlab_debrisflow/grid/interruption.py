@@ -1,0 +1,92 @@
+"""What asks a call to end early: Ctrl-C, or an observer that fails. Both wait for the end of the step."""
+
+import logging
+import signal
+import threading
+from contextlib import contextmanager
+
+from ..core.errors import InputError
+
+log = logging.getLogger("landlab_debrisflow")
+
+
+class Interruption:
+    """Entered by every call, which then asks it between two steps whether it is `wanted`.
+
+    Ctrl-C is noted instead of raised while a call runs in the main thread, unless somebody has put a handler of
+    their own in place of Python's. A second one is raised at once, but not in what is `held`: in a step it undoes the
+    call like any failure there, in an observer it is a failure of that.
+
+    Attributes
+    ----------
+    failure : BaseException or None
+        The first thing that an observer raised in this call.
+
+    Raises
+    ------
+    InputError
+        When entered again from inside.
+    """
+
+    def __init__(self):
+        self.failure = None
+        self._running = self._handles = self._asked = self._raised = False
+        self._held = 0
+
+    def __enter__(self):
+        if self._running:
+            raise InputError(
+                "a call of run_one_step, run_until_rest or settle came while another one runs, as from an observer; "
+                "observe(flow) may look at the flow but not run it: call when the run has ended"
+            )
+        self._asked, self._raised, self.failure, self._held = False, False, None, 0
+        main = threading.current_thread() is threading.main_thread()
+        self._handles = main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if self._handles:
+            signal.signal(signal.SIGINT, self._note)
+        self._running = True
+        return self
+
+    def __exit__(self, *_):
+        self._held, self._running = 1, False
+        if self._handles:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    @contextmanager
+    def held(self):
+        """Let what happens inside come to its end, however often somebody asks."""
+        self._held += 1
+        try:
+            yield
+        finally:
+            self._held -= 1
+
+    def note(self, failure: BaseException) -> None:
+        """Take down that an observer failed, if only because Ctrl-C was raised in it."""
+        self._raised = False
+        if self.failure is None:
+            self.failure = failure
+        else:
+            self.failure.add_note(f"another observer failed, too: {failure!r}")
+
+    @property
+    def wanted(self) -> bool:
+        """Whether the call shall end after the step."""
+        return self._asked or self.failure is not None
+
+    def raise_cause(self, time: float, done: bool) -> None:
+        """Raise what the call was interrupted for, if it was, and say when [s], and what to do if it is not done."""
+        cause = KeyboardInterrupt() if self.failure is None and self._asked else self.failure
+        if cause is None:
+            return
+        then = "the call had come to its end" if done else "run_until_rest() or run_one_step(dt) goes on from there"
+        words = f"{type(cause).__name__} at {time:.6g} s: everything computed until then is kept, and {then}"
+        log.warning("%s", words)
+        cause.add_note(words)
+        raise cause
+
+    def _note(self, number, frame):
+        if self._asked and not self._held and not self._raised:
+            self._raised = True  # whoever hears of it must not be disturbed again
+            raise KeyboardInterrupt
+        self._asked = True

@@ -1,0 +1,171 @@
+"""The output fields of a component: in its grid, or put aside while those of another component are there.
+
+They start at nothing, whatever stood in the fields, unless the component continues an earlier one. Several components
+on one grid never mix: the fields are those of the component that was built or called last, and every other one has its
+own put aside, as nodes and values where something came.
+"""
+
+import logging
+from contextlib import contextmanager
+from weakref import WeakKeyDictionary, ref
+
+import numpy as np
+
+from ..core.errors import InputError
+from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX
+from ..model.peak_maps import PEAKS
+
+log = logging.getLogger("landlab_debrisflow")
+
+ERODED, DEPOSIT = (OUTPUT_PREFIX + name for name in ("eroded_depth", "deposit_depth"))
+
+STARTS = {field.name: field.start for field in NODE_FIELDS if field.intent == "out"}
+"""Value of every output field where nothing came."""
+
+_holders = WeakKeyDictionary()
+"""By grid, a weak reference to the `Outputs` that its fields hold."""
+
+
+class Outputs:
+    """The output fields of one component.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        Gets the fields that it does not have.
+    simulation : Simulation
+        Whose outputs they are.
+    continues : Outputs, optional
+        Of an earlier component, from which these go on.
+    """
+
+    def __init__(self, grid, simulation, continues=None):
+        self._grid, self._simulation, self._told = grid, simulation, False
+        self._aside = {} if continues is None else continues._written()  # None: they are in the fields
+        self.show()
+        for field in self._fields():
+            if field.name not in grid.at_node:
+                values = np.zeros(grid.number_of_nodes)  # costs nothing where nothing is written, unlike grid.add_zeros
+                if field.start:
+                    values[:] = field.start
+                grid.add_field(field.name, values, at="node", units=field.unit)
+        if "debris_flow__release_depth" not in grid.at_node:
+            grid.add_zeros("debris_flow__release_depth", at="node", units="m")
+
+    def __setstate__(self, state):
+        vars(self).update(state)
+        if self._aside is None:  # a copy came with a copy of the grid, whose fields hold what it wrote
+            _holders[self._grid] = ref(self)
+
+    def show(self) -> None:
+        """Have them in the fields of the grid."""
+        if self._aside is None:
+            return
+        holder, at, standing = _holders.get(self._grid, lambda: None)(), self._grid.at_node, _not_at_start(self._grid)
+        if holder is not None:
+            holder._aside = standing
+            self._tell_of(holder)
+        for name, (nodes, _) in standing.items():
+            at[name][nodes] = STARTS[name]
+        for name, (nodes, values) in self._aside.items():
+            at[name][nodes] = values
+        self._aside = None
+        _holders[self._grid] = ref(self)
+
+    @contextmanager
+    def shown(self):
+        """Have them in the fields of the grid from now on; if anything goes wrong inside, those that stood there."""
+        before = _holders.get(self._grid, lambda: None)()
+        self.show()
+        try:
+            yield
+        except BaseException:
+            if before is not None:
+                before.show()
+            raise
+
+    def maps(self, accounts) -> dict:
+        """Return what maps show, by name over nodes: elevation, soil and release of now, and the outputs.
+
+        Depths eroded and deposited are those of the `accounts`, whatever others made of the fields.
+        """
+        at, count = self._grid.at_node, self._grid.number_of_nodes
+        shown = {name: at[name] for name in ("topographic__elevation", "soil__depth", "debris_flow__release_depth")
+                 if name in self._grid.at_node}  # fmt: skip
+        for field in self._fields():
+            shown[field.name] = at[field.name] if self._aside is None else np.full(count, field.start)
+        for name, (nodes, values) in (self._aside or {}).items():
+            if name in shown:
+                shown[name][nodes] = values
+        return shown | accounts
+
+    def restart_peaks(self) -> None:
+        """Put peaks and arrival time back to their start; what lies somewhere runs up from there."""
+        self.show()
+        self._simulation.particles.lowest_z[:] = self._simulation.particles.z
+        for field in self._fields():
+            if field.name.removeprefix(OUTPUT_PREFIX) in PEAKS:
+                self._grid.at_node[field.name][:] = field.start
+
+    def _fields(self):
+        """Return the declarations of the fields that the component writes."""
+        phases = self._simulation.physics.two_phases
+        return [field for field in NODE_FIELDS if field.name in STARTS and (phases or not field.optional)]
+
+    def _written(self):
+        return _not_at_start(self._grid) if self._aside is None else self._aside
+
+    def _tell_of(self, other) -> None:
+        """Warn once of debris that another component carries, of which nothing is in the elevation."""
+        if (volume := float(other._simulation.particles.volume.sum())) and not self._told:
+            self._told = True
+            log.warning(
+                "another DebrisFlow on this grid carries %.4g m3 that have not settled: this one does not feel them, "
+                "nor are they in elevation; settle() them before, or put elevation and soil back",
+                volume,
+            )
+
+
+def _not_at_start(grid) -> dict:
+    """Return nodes and values, by name, where the output fields of a grid are not at their start."""
+    written = {}
+    for name, start in STARTS.items():
+        if name in grid.at_node:
+            nodes = np.flatnonzero(grid.at_node[name] != start)
+            written[name] = nodes, grid.at_node[name][nodes]
+    return written
+
+
+def check_continued(earlier, grid, inflow) -> None:
+    """Refuse to continue an earlier component that has not come to its end, or elsewhere.
+
+    Parameters
+    ----------
+    earlier : DebrisFlow
+    grid : RasterModelGrid
+    inflow : Inflow
+        Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
+
+    Raises
+    ------
+    InputError
+        If it cannot be continued; nothing was changed.
+    """
+    if earlier.grid is not grid:
+        raise InputError("continues: the earlier DebrisFlow is on another grid; build the new one on earlier.grid")
+    before = earlier._simulation
+    if not before.inflow.over:
+        raise InputError(
+            f"continues: the inflow of the earlier DebrisFlow is not over, the next of it enters at "
+            f"{before.inflow.next_time:.4g} s of its elapsed time; run it to its end first"
+        )
+    if before.particles.count:
+        raise InputError(
+            f"continues: the earlier DebrisFlow still carries {before.particles.volume.sum():.4g} m3 that have not "
+            "settled; run_until_rest() and settle() it first"
+        )
+    if inflow.next_time < before.time:
+        raise InputError(
+            f"continues: the inflow begins at {inflow.next_time:.4g} s, but elapsed_time goes on from "
+            f"{before.time:.4g} s; add that to its times"
+        )

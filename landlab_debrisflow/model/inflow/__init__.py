@@ -1,0 +1,1 @@
+"""Debris that flows in over lines: hydrographs, and the rows of particles made of them."""

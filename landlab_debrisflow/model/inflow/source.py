@@ -1,0 +1,278 @@
+"""Rows of particles that enter across a line, as hydrographs say.
+
+All particles of a hydrograph have the same volume, and a whole number of them is its volume exactly. They
+enter in rows: a row stands for the volume that crosses the line while it passes, and its middle crosses
+the line at the time at which half of that has. When which row enters is known from the beginning and
+does not depend on time steps.
+
+A free surface right behind the line would push the flow back. So, as with the inflow buffers usual in
+SPH (Lastiwka et al. 2009; Federico et al. 2012), particles keep the prescribed velocity and thickness
+until they have passed a strip as long as their support: what flows freely has all its neighbours.
+"""
+
+import numpy as np
+
+from ...core.errors import InputError
+from ...physics.column.initial import initial_profile
+from ...physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing, ColumnState
+from ...spatial.summation import SMOOTHING_RATIO
+from ..release.placing import THICKNESS_RANGE
+from .hydrograph import Hydrograph, Integral
+
+FREE = -1
+"""Number of the row of a particle that flows by itself."""
+
+LEAST_FALL = 1e-6
+"""Slope across the line below which the ground does not say where it falls to [-]."""
+
+
+PARTS_OF_A_ROW = 4
+"""Of equal volume, over which its thickness is averaged."""
+
+
+class Source:
+    """One hydrograph: its line, and its rows one after the other.
+
+    Parameters
+    ----------
+    hydrograph : Hydrograph
+    particle_volume : float
+        Wanted volume of a particle [m3].
+    lower_left : array_like, shape (2,)
+        Map coordinates of the lower left node [m].
+    """
+
+    def __init__(self, hydrograph: Hydrograph, particle_volume: float, lower_left):
+        self.hydrograph = hydrograph
+        self.start, self.end = np.subtract([hydrograph.line_start, hydrograph.line_end], lower_left)
+        self.times = np.array(hydrograph.times)
+        self.discharge, self.velocity = hydrograph.series("discharge", "velocity")
+        self.entered, self.way = Integral(self.times, self.discharge), Integral(self.times, self.velocity)
+        self.particles = max(1, round(self.entered.total / particle_volume))
+        self.particle_volume = self.entered.total / self.particles
+        self.strip = 2.0 * SMOOTHING_RATIO * np.sqrt(self.particle_volume / hydrograph.largest_thickness)
+        towards = hydrograph.direction
+        self.towards = None if towards is None else np.array([np.cos(np.radians(towards)), np.sin(np.radians(towards))])
+
+    @property
+    def y_range(self):
+        """Least and largest y where it may enter [m]."""
+        ends = self.start[1], self.end[1]
+        return min(ends) - self.strip, max(ends) + self.strip
+
+    def rows(self):
+        """Return time [s] and thickness [m] of every row and how many particles are in it."""
+        rows, before, each = [], 0, self.particle_volume
+        while before < self.particles:
+            count = 1
+            for _ in range(8):  # thickness and number in the row follow from each other
+                fit = self.hydrograph.width * np.sqrt(self._row(before, count)[1] / each)
+                count = min(max(1, round(fit)), self.particles - before)
+            rows.append((*self._row(before, count), count))
+            before += count
+        return rows
+
+    def _row(self, before, count):
+        """Return when half of a row has crossed the line [s], and its thickness, in the mean over the row [m].
+
+        Not the thickness then, which may be nothing between two surges that share a row.
+        """
+        time = self.entered.when((before + 0.5 * count) * self.particle_volume)
+        parts = before + count * (np.arange(PARTS_OF_A_ROW) + 0.5) / PARTS_OF_A_ROW
+        times = [self.entered.when(part * self.particle_volume) for part in parts]
+        discharge, velocity = self.at(times, self.discharge), self.at(times, self.velocity)
+        thickness = np.divide(discharge, velocity, out=np.zeros(len(times)), where=velocity > 0.0)
+        return time, thickness.mean() / self.hydrograph.width
+
+    def at(self, time, values):
+        """Return the value at some time of a quantity given at the hydrograph's."""
+        return np.interp(time, self.times, values)
+
+    def aim(self, surface) -> None:
+        """Find out to which side of the line the ground falls, if the hydrograph does not say.
+
+        Raises
+        ------
+        InputError
+            If it falls to neither.
+        """
+        if self.hydrograph.direction is not None:
+            return
+        along = self.end - self.start
+        left = np.array([-along[1], along[0]]) / np.hypot(*along)
+        share = (np.arange(64) + 0.5) / 64
+        slope = surface.sample(*(self.start[:, None] + share * along[:, None]))[1:3].mean(axis=1)
+        if abs(fall := left @ slope) < LEAST_FALL:
+            h, degrees = self.hydrograph, np.degrees(np.arctan2(left[1], left[0]))
+            raise InputError(
+                f"inflow: the ground falls to neither side of the line from {h.line_start} to {h.line_end} m; "
+                f"give its direction: {degrees:.4g} or {(degrees + 180.0) % 360.0:.4g} deg from east"
+            )
+        self.towards = -left * np.sign(fall)
+
+
+class Inflow:
+    """All that enters a simulation.
+
+    Parameters
+    ----------
+    hydrographs : sequence of Hydrograph
+    numerics : Numerics, optional
+        Its `particle_count` is that of all hydrographs together, its `particle_spacing` that where the
+        inflow is thickest.
+    lower_left : array_like, shape (2,)
+        Map coordinates of the lower left node [m].
+    """
+
+    def __init__(self, hydrographs=(), numerics=None, lower_left=(0.0, 0.0)):
+        self.sources = []
+        if hydrographs:
+            total, thickest = sum(h.volume for h in hydrographs), max(h.largest_thickness for h in hydrographs)
+            volume = total / numerics.count_for(total / thickest)
+            self.sources = [Source(h, volume, lower_left) for h in hydrographs]
+        rows = sorted((*row, k) for k, source in enumerate(self.sources) for row in source.rows())
+        self._time, self._thickness, count, source = (np.array(c) for c in zip(*rows, strict=True)) if rows else (
+            np.zeros(0), np.zeros(0), np.zeros(0, int), np.zeros(0, int)
+        )  # fmt: skip
+        self._count, self._source = count, source
+        self._each = np.array([s.particle_volume for s in self.sources])[source]
+        self._sum = np.concatenate([[0.0], np.cumsum(count * self._each)])
+        self._place = np.zeros(source.size, int)  # number of the row among those of its source
+        for k in range(len(self.sources)):
+            self._place[source == k] = np.arange(np.count_nonzero(source == k))
+        self.rows_entered = 0
+
+    @property
+    def over(self) -> bool:
+        """Whether all has entered."""
+        return self.rows_entered == self._time.size
+
+    @property
+    def next_time(self) -> float:
+        """When the next row enters [s]; infinite if there is none."""
+        return np.inf if self.over else float(self._time[self.rows_entered])
+
+    @property
+    def latest_step(self) -> float:
+        """Time until which a step may go [s]: no more than a row's distance behind the next one that enters."""
+        if self.over:
+            return np.inf
+        source, time = self.sources[self._source[self.rows_entered]], self.next_time
+        distance = source.strip / (2.0 * SMOOTHING_RATIO)
+        return time + distance / max(source.at(time, source.velocity), 1e-300)
+
+    def latest(self, time: float) -> float:
+        """Return until when a step that begins at `time` may go [s]: `latest_step`, but past no bend of a series."""
+        soon = time + 1e-9 * (1.0 + abs(time))
+        return min([self.latest_step, *(float(t) for source in self.sources for t in source.times if t > soon)])
+
+    @property
+    def volume(self) -> float:
+        """Volume of the rows that have entered so far [m3]."""
+        return float(self._sum[self.rows_entered])
+
+    def aim(self, surface) -> None:
+        """Direct the sources before the first row enters; see `Source.aim`."""
+        for source in self.sources if self.rows_entered == 0 else ():
+            source.aim(surface)
+
+    def enter(self, sim, time: float) -> bool:
+        """Let in what crosses the line until `time` [s], moved on to where it is then, and set free what has passed.
+
+        Returns
+        -------
+        bool
+            Whether anything entered.
+        """
+        first = self.rows_entered
+        self.rows_entered = max(first, int(np.searchsorted(self._time, time, side="right")))
+        for row in range(first, self.rows_entered):
+            self._add(sim, row, time)
+        if self.sources:
+            self._set_free(sim.particles, time)
+        return self.rows_entered > first
+
+    def hold(self, sim, time: float) -> None:
+        """Give the particles in the strips the velocity prescribed at `time` [s]."""
+        held = self.held(sim.particles)
+        if held.size == 0:
+            return
+        velocity, towards = self._prescribed(sim.particles.inflow_row[held], time)
+        fall = np.einsum("in,in->n", towards, sim.ground[1:3, held])
+        sim.particles.velocity[:, held] = velocity / np.sqrt(1.0 + fall**2) * np.array([*towards, fall])
+
+    def hold_thickness(self, p, parts) -> None:
+        """Give the particles in the strips the thickness they entered with; `parts` are those of the matter."""
+        held = self.held(p)
+        part = np.array([part for _, part in parts])[p.phase[held]]
+        p.share[held] = part
+        thickness = part * self._thickness[p.inflow_row[held]]
+        p.own_thickness[held], p.gradient_term[held] = thickness, 1.0
+        p.next_smoothing_length[held] = _smoothing_length(p.volume[held], thickness, p.least_thickness[held])
+
+    def held(self, p):
+        """Return which particles move as prescribed; they are awake."""
+        return np.flatnonzero(p.inflow_row[: p.awake] != FREE) if self.sources else np.zeros(0, int)
+
+    def _prescribed(self, rows, time):
+        """Return velocity [m s-1] and direction, shape (2, n), for particles of some rows."""
+        velocity = np.array([source.at(time, source.velocity) for source in self.sources])
+        towards = np.array([source.towards for source in self.sources])
+        return velocity[self._source[rows]], towards[self._source[rows]].T
+
+    def _set_free(self, p, time):
+        held = self.held(p)
+        rows = p.inflow_row[held]
+        for k, source in enumerate(self.sources):
+            passed = source.way(time) - source.way(self._time[rows]) >= source.strip
+            stopped = time >= source.times[-1] or source.at(time, source.discharge) == 0.0
+            p.inflow_row[held[(self._source[rows] == k) & (passed | stopped)]] = FREE
+
+    def _add(self, sim, row, time):
+        """Let one row in."""
+        p, material, source = sim.particles, sim.physics.material, self.sources[self._source[row]]
+        count, thickness, volume = self._count[row], self._thickness[row], self._each[row]
+        # rows are shifted by half a particle against each other, and none reaches beyond the line
+        share = (np.arange(count) + (0.5 if count == 1 else (0.25, 0.75)[self._place[row] % 2])) / count
+        x, y = source.start[:, None] + share * (source.end - source.start)[:, None]
+        fall = source.towards @ sim.bed.surface.sample(x, y)[1:3]
+        step = (source.way(time) - source.way(self._time[row])) / np.sqrt(1.0 + fall**2)
+        x, y = x + step * source.towards[0], y + step * source.towards[1]
+        ground = sim.bed.surface.sample(x, y)
+        slant = np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        load = material.buoyant_density * material.gravity * thickness / slant
+        ratio = material.initial_pressure_ratio
+        if source.hydrograph.pressure_ratio is not None:
+            ratio = source.at(self._time[row], *source.hydrograph.series("pressure_ratio"))
+        profile = initial_profile(
+            load, p.levels, ratio, material.initial_pressure_profile, material.basal_layer_fraction
+        )  # fmt: skip
+        least = THICKNESS_RANGE * source.hydrograph.largest_thickness
+        length = _smoothing_length(volume, thickness, least)
+        for phase, part in sim.matter.parts:
+            borne = load if phase == MIXTURE else np.zeros(count)
+            new = p.append(
+                count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * volume,
+                released_volume=part * volume, depth=thickness * slant, thickness=thickness,
+                own_thickness=part * thickness, least_thickness=part * least, smoothing_length=length,
+                next_smoothing_length=length, liquefaction_pressure=borne,
+                excess_pore_pressure=profile if phase == MIXTURE else 0.0, porosity=material.porosity,
+                porosity_before=material.porosity, density=material.density, inflow_row=row,
+            )  # fmt: skip
+            self._start_columns(sim, new, borne)
+
+    def _start_columns(self, sim, new, load):
+        p, material, nothing = sim.particles, sim.physics.material, np.zeros(load.size)
+        p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
+        c_v = sim.matter.coefficient_of_consolidation(p, new)
+        forcing = ColumnForcing(
+            p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),
+            np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,
+        )  # fmt: skip
+        state = ColumnState(p.excess_pore_pressure[new], p.column_memory[new], p.column_clipped[new])
+        sim.physics.column.advance(state, forcing, 0.0, p.basal_excess_pore_pressure[new])
+        sim.granted, sim.granted_ratio = np.append(sim.granted, nothing), np.append(sim.granted_ratio, nothing)
+
+
+def _smoothing_length(volume, thickness, least):
+    return SMOOTHING_RATIO * np.sqrt(volume / np.maximum(thickness, least))

@@ -1,0 +1,1 @@
+"""One phase or two: what the number of phases changes in a step."""

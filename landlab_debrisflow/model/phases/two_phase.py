@@ -1,0 +1,217 @@
+"""What a flow of two phases does besides: grains and water drag each other, share the soil, and squeeze the pores.
+
+The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
+is dragged along. All is exchanged between grains and their partners among the water (`spatial.across.find_partners`),
+with weights that sum to 1, so what one gives the other gets, to the last digit. `Single` is the same for one phase.
+"""
+
+import numpy as np
+
+from ...core.jit import kernel
+from ...physics.contracts import MIXTURE, WATER
+from ...spatial.cross_summation import find_partners
+from .. import walls
+from ..kinematics import kick
+from ..time_step import NOT_STIFF
+from .exchange import kick_both, make_whole, share_soil
+
+STEPS_BETWEEN_LOOKS = 16
+"""Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
+of it is followed, which can be fast, and drains at `DRAINAGE`."""
+
+DRAINAGE = 3.0
+"""Rate at which the mean is lost in between, over c_v/h^2: a steady source S then gives S h^2/(3 c_v), as in
+a column."""
+
+STEPS_WITH_PARTNERS = 4
+"""Steps for which grains keep their partners among the water: in so few nothing gets far."""
+
+LEAST = 1e-6
+"""Least part of the volume that either phase is taken to have."""
+
+
+class Mixture:
+    """The two phases of a simulation.
+
+    Parameters
+    ----------
+    physics : Physics
+        With a flow law of two phases.
+    """
+
+    sleeps = False
+    """It would save 1 to 2 %, and partners would have to follow."""
+
+    def __init__(self, physics):
+        self.law, self.material, self.column = physics.flow, physics.material, physics.column
+        porosity = self.material.porosity
+        self.parts = ((MIXTURE, 1.0 - porosity), (WATER, porosity))
+        self.own_part = 1.0 - self.material.soil_porosity
+        self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
+        self.drainage = None  # [s-1]
+        self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
+        self._steps = 0
+
+    def density(self, p):
+        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+        return np.where(p.phase == WATER, self.material.water_density, self.material.solid_density)
+
+    def solid_volume(self, p):
+        """Return the volume of the grains in each particle, shape (n,) [m3]."""
+        return p.volume * (p.phase != WATER)
+
+    def coefficient_of_consolidation(self, p, which: slice):
+        """Return that of the columns of some particles [m2 s-1]: the drag between phases is that within a column."""
+        return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
+
+    def found(self, p, cells) -> None:
+        """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
+        material, law = self.material, self.law
+        _mix(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
+        np.divide(p.own_thickness, p.share, out=p.thickness)
+        self.coupling = law.drag_coefficient(p.porosity, material) * p.thickness
+        self.drainage = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
+        self.manning = np.zeros(1)
+        if law.manning_coefficient > 0.0:
+            self.manning = material.gravity * law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
+        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
+            self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
+            make_whole(*self.partners, p.porosity, p.volume)
+            self._found_for, self._found = p.roll, 0
+        self._found += 1
+
+    def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+        """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
+
+        Parameters
+        ----------
+        sim : Simulation
+        velocity : ndarray, shape (3, n)
+            Changed in place [m s-1].
+        yield_stress, drag, rest_speed
+            As for `kinematics.kick`; the resistance is that of the mixture, and grains bear it.
+        dt : float
+            [s]
+        """
+        p, material = sim.particles, self.material
+        kick_both(
+            *self.partners, p.phase, velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, self.coupling,
+            p.porosity, self.manning, p.thickness, p.volume, material.solid_density, material.water_density,
+            material.gravity, rest_speed, dt,
+        )  # fmt: skip
+        _hold_back(velocity, p.light)
+
+    def held(self, sim, which: slice, yield_stress, drag):
+        """Return which grains friction and walls would hold at rest, and which water drag; `which` are all."""
+        p, none, at_rest = sim.particles, np.zeros(sim.particles.count), np.zeros(1)
+        velocity, pull = np.zeros((2, 3, none.size))
+        self.kick(sim, velocity, yield_stress, drag, at_rest, 1.0)
+        free = _size(velocity)
+        walls.bear(sim, which, velocity, sim.ground)
+        left = _size(velocity)
+        leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # along the wall friction holds it
+        kick(pull, p.thrust, sim.ground, sim.cosine, none, none, none + 1.0, self.material.gravity, at_rest, 1.0)
+        walls.bear(sim, which, pull, sim.ground)
+        seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
+        return np.where(p.phase == WATER, seeping <= p.rest_speed * self.coupling, leaning | (left == 0.0))
+
+    def refuse_soil(self, rate) -> None:
+        """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""
+        takes = np.zeros(rate.size, bool)
+        takes[self.partners.of[self.partners.count > 0]] = True
+        rate[~takes] = 0.0
+
+    def take_up(self, sim) -> None:
+        """Give water its part of the soil of which the grains took theirs; from here on the flow changes porosity."""
+        p, slip_ratio = sim.particles, self.material.basal_slip_ratio
+        if sim.granted.any():
+            water = 1.0 / self.own_part - 1.0  # over the grains in the soil
+            share_soil(*self.partners, sim.granted, water, p.volume, p.velocity, 1.0 - slip_ratio)
+        p.porosity_before[:] = p.porosity
+
+    def force(self, sim, forced, dt: float):
+        """Return the forcing of the columns with what two phases make of it.
+
+        Water that leaves relative to the grains lets their skeleton take up the load: with dn/dt the rate by
+        relative motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
+        """
+        p = sim.particles
+        if dt == 0.0:
+            return forced
+        gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
+        gain[sim.inflow.held(p)] = 0.0
+        gain[p.phase == WATER] = 0.0
+        return forced._replace(porosity_source=gain / dt)
+
+    def follow(self, sim, forced, dt: float) -> None:
+        """Follow the depth mean of the pore pressure through a step with a source: thrust depends on it."""
+        p = sim.particles
+        if self._steps % STEPS_BETWEEN_LOOKS == 0:
+            profile = sim.columns_now()
+            mean = (profile.sum(axis=1) - 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
+            np.copyto(p.mean_excess_pore_pressure, mean, where=p.phase != WATER)
+            dt = 0.0
+        weight = self.material.water_density * self.material.gravity
+        gained = dt if self.column.stores_pressure else 0.0
+        _follow(
+            p.phase, gained, forced.porosity_source, weight, p.thickness, sim.cosine, p.liquefaction_pressure,
+            self.drainage, p.mean_excess_pore_pressure,
+        )  # fmt: skip
+        self._steps += 1
+
+    def celerity_squared(self, sim, dt: float):
+        """Return by how much the square of the celerity is higher as the skeleton is stiff, shape (n,) [m2 s-2].
+
+        Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
+        of a velocity in a step of `dt` seconds, and drainage what is reached of a pressure.
+        """
+        if not self.column.stores_pressure or sim.particles.count == 0:
+            return NOT_STIFF
+        p, material = sim.particles, self.material
+        n = p.porosity
+        lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
+        x = dt * self.coupling / (p.thickness * n * n) * lightness
+        return self.law.stiffness * lightness * _reached(x) * _reached(dt * self.drainage)
+
+
+def _size(vectors):
+    return np.sqrt((vectors**2).sum(axis=0))
+
+
+def _hold_back(velocity, light) -> None:
+    """Let light particles be no faster than the fastest of the others, in place.
+
+    Drag is exchanged with the mean of the partners, in which what weighs next to nothing does not count.
+    """
+    if light.any():
+        speed = _size(velocity)
+        fastest = speed[~light].max(initial=0.0)
+        velocity[:, light] *= np.minimum(1.0, fastest / np.maximum(speed[light], 1e-300))
+
+
+def _reached(x):
+    """Return (1 - exp(-x))/x: what of a gain is left after a time in which x times of it are lost."""
+    x = np.maximum(x, 1e-12)
+    return -np.expm1(-x) / x
+
+
+@kernel
+def _mix(phase, share, solid_density, water_density, porosity, density):
+    for i in range(phase.size):
+        share[i] = min(max(share[i], LEAST), 1.0 - LEAST)
+        porosity[i] = share[i] if phase[i] == WATER else 1.0 - share[i]
+        # water presses on no grains: with its own density there is nothing that could be liquefied
+        mixed = solid_density + porosity[i] * (water_density - solid_density)
+        density[i] = water_density if phase[i] == WATER else mixed
+
+
+@kernel
+def _follow(phase, dt, source, weight, thickness, cosine, liquefaction_pressure, drainage, mean):
+    """Add the source to the mean of grains while it drains, and hold it between suction and liquefaction."""
+    for i in range(phase.size):
+        if phase[i] != WATER:
+            x = dt * drainage[i]
+            lost = -np.expm1(-x)
+            gained = (1.0 - lost) * mean[i] + dt * source[min(i, source.size - 1)] * (lost / x if x > 1e-12 else 1.0)
+            lowest, highest = -0.5 * weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
+            mean[i] = min(max(gained, lowest), highest)

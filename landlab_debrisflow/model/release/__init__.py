@@ -1,0 +1,1 @@
+"""Failing ground becomes particles."""

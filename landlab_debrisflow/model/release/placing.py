@@ -1,0 +1,247 @@
+"""Places for particles of equal volume: a relaxed lattice, because the noise of random seeding weakens friction.
+
+Failing cells are filled with samples that carry their volume. A k-d tree cuts the samples of every site into as many
+parts of equal volume as it has particles; then the particles repel each other while the samples hold them in place.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...spatial.cells import sort_into_cells
+from ...spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
+from ...terrain.surface import Surface
+from .sites import Sites
+
+THICKNESS_RANGE = 1.0 / 64.0
+"""Thickness over that of the thickest part of a site, below which the smoothing length grows no more: a particle
+without neighbours has no thickness of its own."""
+
+SAMPLES_PER_PARTICLE = 4
+SWEEPS = 30
+STEP = 0.5
+"""Length of one relaxation step in l^2 times the logarithmic gradient: half of what is stable."""
+
+WITHIN = 0.5 - 1e-6
+"""Part of a node spacing that a particle stands at most from the node it fails with: also in map coordinates, which
+are rounded, the nearest node is a failing one."""
+
+
+class Placed(NamedTuple):
+    """Particles of a release, and what of which cell each stands for."""
+
+    x: np.ndarray  # (n,) from the lower left node [m]
+    y: np.ndarray
+    depth: np.ndarray  # (n,) thickness that fails in the cell each stands in [m]
+    volume: np.ndarray  # (n,) [m3]
+    site: np.ndarray  # (n,)
+    particle: np.ndarray  # (m,) which particle, sorted
+    cell: np.ndarray  # (m,) stands for a part of which failing cell
+    part: np.ndarray  # (m,) of this volume [m3]
+
+
+class Samples(NamedTuple):
+    """Points in failing cells that carry their volume."""
+
+    x: np.ndarray  # (m,) from the centre of the corner cell [m]
+    y: np.ndarray
+    volume: np.ndarray  # (m,) [m3]
+    cell: np.ndarray  # (m,) the failing cell
+    group: np.ndarray  # (m,) what they are a part of
+
+    def take(self, places) -> "Samples":
+        """Return some of them, in some order."""
+        return Samples(*(values[places] for values in self))
+
+    def centres(self, count: int):
+        """Return the centres of `count` groups, x and y [m], and their volumes [m3]."""
+        total = np.bincount(self.group, self.volume, count)
+        x, y = (np.bincount(self.group, self.volume * values, count) for values in (self.x, self.y))
+        return x / total, y / total, total
+
+
+def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
+    """Place particles so that each stands for an equal part of the volume of its site.
+
+    Parameters
+    ----------
+    sites : Sites
+    counts : ndarray of int, shape (sites,)
+        Number of particles of each.
+    surface : Surface
+        The ground below the release.
+
+    Returns
+    -------
+    Placed
+    """
+    count, site = int(counts.sum()), np.repeat(np.arange(counts.size), counts)
+    volume = sites.volume[site] / counts[site]
+    samples = cut_equally(fill_cells(sites, counts), counts)
+    x, y, _ = samples.centres(count)
+    # the centre of a group that straddles a notch may lie outside: use one of its samples
+    outside = sites.at(x, y)[0] != site
+    one = np.zeros(count, np.int64)
+    one[samples.group] = np.arange(samples.x.size)
+    x[outside], y[outside] = samples.x[one[outside]], samples.y[one[outside]]
+    several = np.flatnonzero(counts[site] > 1)  # one alone stands where it should
+    if several.size:
+        held_by = _coarsened(samples, count, site)
+        held_by = held_by.take(counts[held_by.group] > 1)
+        x[several], y[several] = _relax(
+            x[several], y[several], volume[several], site[several], held_by, sites, surface
+        )  # fmt: skip
+    x, y, depth = _on_the_map(x, y, sites)
+    particle, cell, part = _merged(samples, sites.of_cell.size)
+    return Placed(x, y, depth, volume, site, particle, cell, part)
+
+
+def fill_cells(sites: Sites, counts) -> Samples:
+    """Fill every failing cell with samples, sloping with its neighbours; they are grouped by site.
+
+    A cell has as many as an even site would, and at least one for each particle that it makes. The slope inside a cell
+    is limited (monotonised central), so no depth is negative and the volume of every cell is kept.
+    """
+    rows, columns, depth, of = sites.rows, sites.columns, sites.depth, sites.of_cell
+    here, area = depth[rows, columns], sites.spacing[0] * sites.spacing[1]
+    makes = counts[of] * here * area / sites.volume[of]
+    wanted = np.maximum(SAMPLES_PER_PARTICLE * counts[of] / np.bincount(of)[of], makes)
+    per_side = np.maximum(1, np.ceil(np.sqrt(wanted * (1.0 - 1e-9)))).astype(int)  # rounding asks for no more
+
+    def slope(down, along):
+        back, forth = here - depth[rows - down, columns - along], depth[rows + down, columns + along] - here
+        limited = np.minimum(np.minimum(2.0 * abs(back), 2.0 * abs(forth)), 0.5 * abs(back + forth))
+        return np.where(np.sign(back) == np.sign(forth), np.sign(forth) * limited, 0.0)
+
+    slope_y, slope_x = slope(1, 0), slope(0, 1)
+    # both slopes together must leave the corners above zero
+    fall = 0.5 * (abs(slope_x) + abs(slope_y))
+    scale = np.minimum(1.0, here / np.maximum(fall, 1e-300))
+    slope_y, slope_x = scale * slope_y, scale * slope_x
+    cell = np.repeat(np.arange(rows.size), per_side**2)
+    k = per_side[cell]
+    number = np.arange(cell.size) - np.repeat(np.cumsum(per_side**2) - per_side**2, per_side**2)
+    oy, ox = (number // k + 0.5) / k - 0.5, (number % k + 0.5) / k - 0.5
+    volume = (here[cell] + slope_x[cell] * ox + slope_y[cell] * oy) * area / k**2
+    x, y = (columns[cell] + ox) * sites.spacing[0], (rows[cell] + oy) * sites.spacing[1]
+    return Samples(x, y, volume, cell, of[cell].astype(np.int64)).take(volume > 0.0)
+
+
+def cut_equally(samples: Samples, parts) -> Samples:
+    """Cut every group of samples into a number of parts of equal volume, always across its longer side (a k-d tree).
+
+    A sample that a cut meets is divided, so the parts are equal whatever the samples are.
+
+    Parameters
+    ----------
+    samples : Samples
+    parts : ndarray of int, shape (groups,)
+        Number of parts of each group.
+
+    Returns
+    -------
+    Samples
+        Grouped by part; the parts of a group follow each other.
+    """
+    parts = np.array(parts)
+    while parts.max() > 1:
+        group = samples.group
+        low_x, high_x = _extent(samples.x, group, parts.size)
+        low_y, high_y = _extent(samples.y, group, parts.size)
+        wide = (high_x - low_x >= high_y - low_y)[group]
+        along, across = np.where(wide, samples.x, samples.y), np.where(wide, samples.y, samples.x)
+        samples = samples.take(np.lexsort((across, along, group)))
+        group, volume = samples.group, samples.volume
+        total = np.bincount(group, volume, parts.size)
+        relative = volume / total[group]  # sums of all groups alike: a small site is cut as exactly as a large one
+        upto = (np.cumsum(relative, dtype=np.longdouble) - group).astype(float)  # parts are equal to 1e-13, not 1e-11
+        left_parts = parts // 2
+        cut = (left_parts / parts)[group]
+        left = np.clip((cut - (upto - relative)) / relative, 0.0, 1.0)  # part of each sample that is left of the cut
+        left[left < SLIVER], left[left > 1.0 - SLIVER] = 0.0, 1.0
+        left[(parts == 1)[group]] = 1.0
+        first = np.cumsum(np.where(parts > 1, 2, 1)) - np.where(parts > 1, 2, 1)  # new number of each group
+        goes_left, goes_right = np.flatnonzero(left > 0.0), np.flatnonzero(left < 1.0)
+        both = np.concatenate([goes_left, goes_right])
+        divided = np.concatenate([(left * volume)[goes_left], (volume - left * volume)[goes_right]])
+        number = np.concatenate([first[group[goes_left]], first[group[goes_right]] + 1])
+        samples = samples.take(both)._replace(volume=divided, group=number)
+        split = np.ones(first[-1] + (2 if parts[-1] > 1 else 1), np.int64)
+        split[first] = np.where(parts > 1, left_parts, 1)
+        split[first[parts > 1] + 1] = (parts - left_parts)[parts > 1]
+        parts = split
+    return samples
+
+
+SLIVER = 1e-13
+"""Part of a sample that is not cut off: so much is rounding."""
+
+
+def _extent(values, group, groups):
+    low, high = np.full(groups, np.inf), np.full(groups, -np.inf)
+    np.minimum.at(low, group, values)
+    np.maximum.at(high, group, values)
+    return low, high
+
+
+def _coarsened(samples: Samples, count: int, site) -> Samples:
+    """Return samples grouped by site, some per particle if there are far more: particles need not see each cell."""
+    if samples.x.size > 2 * SAMPLES_PER_PARTICLE * count:
+        samples = cut_equally(samples, np.full(count, SAMPLES_PER_PARTICLE))
+        x, y, volume = samples.centres(SAMPLES_PER_PARTICLE * count)
+        group = np.repeat(np.arange(count), SAMPLES_PER_PARTICLE)
+        samples = Samples(x, y, volume, np.zeros(x.size, np.int64), group)
+    return samples._replace(group=site[samples.group])
+
+
+def _merged(samples: Samples, cells: int):
+    """Return particle, cell and volume of every pair of which the one stands for a part of the other."""
+    pair, place = np.unique(samples.group * cells + samples.cell, return_inverse=True)
+    return *np.divmod(pair, cells), np.bincount(place, samples.volume)
+
+
+def _on_the_map(x, y, sites: Sites):
+    """Return coordinates from the lower left node [m], well inside the cell each particle stands in, and its depth."""
+    placed = []
+    for values, spacing, corner in ((x, sites.spacing[0], sites.corner[1]), (y, sites.spacing[1], sites.corner[0])):
+        node = np.floor(values / spacing + 0.5) + corner
+        placed.append(np.clip(values + corner * spacing, (node - WITHIN) * spacing, (node + WITHIN) * spacing))
+    return *placed, sites.at(x, y)[1]
+
+
+def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface):
+    """Let the particles repel each other while the samples, with negative volume, hold them in place.
+
+    The force is the gradient of the distance between the particles' thickness and the samples', both
+    seen through the smoothing kernel, so edges and uneven depths are at rest when the particles stand
+    for the samples best. Particles do not leave the failing cells of their site.
+    """
+    n, x0, y0 = x.size, sites.corner[1] * sites.spacing[0], sites.corner[0] * sites.spacing[1]
+    per_particle = np.zeros(sites.volume.size)
+    per_particle[site] = volume
+
+    def length_and_ground(px, py, of):
+        ground = surface.sample(px + x0, py + y0)
+        cosine = 1.0 / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        here = np.maximum(sites.at(px, py)[1], THICKNESS_RANGE * sites.thickest[of])  # as in a flow
+        return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, ground[0]
+
+    sample_length, _, sample_z = length_and_ground(samples.x, samples.y, samples.group)
+    volumes = np.concatenate([volume, -samples.volume])
+    rest, ones = np.zeros((3, volumes.size)), np.ones(volumes.size)
+    sums = Sums(np.empty(n), np.empty(n), np.empty(n), np.empty((3, n)), np.empty(n))  # holes are not moved
+    push = sums.acceleration
+    for _ in range(SWEEPS):
+        length, cosine, z = length_and_ground(x, y, site)
+        lengths = np.concatenate([length, sample_length])
+        px, py = np.concatenate([x, samples.x]), np.concatenate([y, samples.y])
+        pz = np.concatenate([z, sample_z])
+        cells = sort_into_cells(px, py, 2.0 * lengths)
+        moving = Moving(px, py, pz, rest, volumes, lengths, lengths, 0.5 * ones, ones, ones, rest[0], ones)
+        sum_over_neighbours(cells, moving, 0.0, sums)
+        step = STEP * length**2 / (sites.at(x, y)[1] * cosine)
+        step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0], push[1]), 1e-300))
+        new_x, new_y = x + step * push[0], y + step * push[1]
+        inside = sites.at(new_x, new_y)[0] == site
+        x, y = np.where(inside, new_x, x), np.where(inside, new_y, y)
+    return x, y

@@ -1,0 +1,105 @@
+"""Sites of a release: failing cells that touch along a side, each with its own volume and its own particles."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy import ndimage
+
+from ...spatial.transfer import Nodes
+
+NEIGHBOURS = tuple((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0))
+
+
+class Sites(NamedTuple):
+    """Failing cells of a raster by site; arrays over cells are in the order of their nodes."""
+
+    label: np.ndarray  # (rows, columns) number of the site, -1 where nothing fails, with one such cell all round
+    depth: np.ndarray  # (rows, columns) vertical thickness that fails [m], likewise
+    corner: tuple[int, int]  # row and column in the raster of the cell at [0, 0]
+    spacing: tuple[float, float]  # node spacing (dx, dy) [m]
+    rows: np.ndarray  # (cells,) row of every failing cell, counted from the corner
+    columns: np.ndarray  # (cells,)
+    of_cell: np.ndarray  # (cells,) its site
+    volume: np.ndarray  # (sites,) [m3]
+    thickest: np.ndarray  # (sites,) largest depth [m]
+
+    def at(self, x, y):
+        """Return the site of points (from the centre of the corner cell [m]), shape (n,), and the depth there [m]."""
+        rows = np.clip(np.floor(y / self.spacing[1] + 0.5).astype(int), 0, self.label.shape[0] - 1)
+        columns = np.clip(np.floor(x / self.spacing[0] + 0.5).astype(int), 0, self.label.shape[1] - 1)
+        return self.label[rows, columns], self.depth[rows, columns]
+
+
+def find_sites(nodes, depth, raster: Nodes) -> Sites:
+    """Tell the sites of a release apart.
+
+    Parameters
+    ----------
+    nodes : ndarray of int, shape (cells,)
+        Where ground fails, sorted.
+    depth : ndarray, shape (cells,)
+        Vertical thickness that fails there, > 0 [m].
+    raster : Nodes
+
+    Returns
+    -------
+    Sites
+
+    Notes
+    -----
+    Cells that meet at a corner only are two sites: nothing could flow through such a neck.
+    """
+    rows, columns = np.divmod(nodes, raster.columns)
+    corner = int(rows.min()) - 1, int(columns.min()) - 1
+    rows, columns = rows - corner[0], columns - corner[1]
+    failing = np.zeros((rows.max() + 2, columns.max() + 2))
+    failing[rows, columns] = depth
+    label, count = ndimage.label(failing > 0.0)
+    label -= 1
+    of_cell = label[rows, columns]
+    volume = np.bincount(of_cell, depth, count) * raster.area
+    thickest = np.zeros(count)
+    np.maximum.at(thickest, of_cell, depth)
+    spacing = float(raster.dx), float(raster.dy)
+    return Sites(label, failing, corner, spacing, rows, columns, of_cell, volume, thickest)
+
+
+def share_particles(volume, particle_volume: float):
+    """Return how many particles each site gets, shape (sites,): as its volume asks for, and at least one.
+
+    Examples
+    --------
+    >>> share_particles(np.array([400.0, 30.0, 1e-15]), 10.0)
+    array([40,  3,  1])
+    """
+    return np.maximum(1, np.rint(volume / particle_volume)).astype(int)
+
+
+def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Nodes) -> float:
+    """Return the volume of a release that lies below the lowest ground beside its site [m3].
+
+    So much cannot leave the scar by itself: a depth that is the same everywhere digs a pit with a wall below it.
+
+    Parameters
+    ----------
+    sites : Sites
+    nodes, depth : ndarray, shape (cells,)
+        As for `find_sites`.
+    elevation : ndarray, shape (nodes,)
+        Of the ground after the failure [m].
+    closed : ndarray of bool, shape (nodes,)
+        Nodes over which nothing can leave.
+    raster : Nodes
+    """
+    lip = np.full(sites.volume.size, np.inf)
+    rows = elevation.size // raster.columns
+    for down, along in NEIGHBOURS:
+        r, c = sites.rows + down, sites.columns + along
+        beside = sites.label[r, c] != sites.of_cell
+        r, c = r + sites.corner[0], c + sites.corner[1]
+        beside &= (r >= 0) & (r < rows) & (c >= 0) & (c < raster.columns)
+        there, site = (r * raster.columns + c)[beside], sites.of_cell[beside]
+        usable = ~closed[there]
+        np.minimum.at(lip, site[usable], elevation[there[usable]])
+    lip = np.where(np.isfinite(lip), lip, -np.inf)[sites.of_cell]  # walls all round: that is no pit
+    return float(np.clip(lip - elevation[nodes], 0.0, depth).sum() * raster.area)

@@ -1,0 +1,1 @@
+"""How the equation of the column is solved."""

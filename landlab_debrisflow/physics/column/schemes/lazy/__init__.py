@@ -1,0 +1,1 @@
+"""The default scheme: columns are advanced when somebody needs them."""

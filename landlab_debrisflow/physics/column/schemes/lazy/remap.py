@@ -1,0 +1,66 @@
+"""What erosion does to a column: grains keep their depth while new soil comes in at the base.
+
+With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before
+over the volume after: exactly, over any interval (theory, section 3; eq. 35 of Pastor et al., 2022,
+integrated). What is interpolated is the effective stress where grains bear their overburden, so that a
+liquefied grain stays so. No new extreme appears. Interpolation does not keep the content of the column
+to the last digit; to put back what it lost makes an error of the first order in the width of a level.
+"""
+
+from .....core.jit import inner
+
+
+@inner
+def interpolate(values, ratios, cells, position):
+    """Return the cubic through four of ``values``, held between the two that enclose ``position``.
+
+    Its ratio to the position is held as well, between that of the two (beside the surface, of the two next to it).
+    """
+    low = min(int(position), cells - 1)
+    if cells < 3:
+        cubic = values[low] + (position - low) * (values[low + 1] - values[low])
+    else:
+        first = min(max(low - 1, 0), cells - 3)
+        x = position - first
+        cubic = 0.5 * (
+            (x - 2.0) * (x - 3.0) * (x * values[first + 1] - (x - 1.0) / 3.0 * values[first])
+            + x * (x - 1.0) * ((x - 2.0) / 3.0 * values[first + 3] - (x - 3.0) * values[first + 2])
+        )
+    cubic = min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+    one, other = ratios[max(low, 1)], ratios[low + 1 if low > 0 else 2]
+    return min(max(cubic, min(one, other) * position), max(one, other) * position)
+
+
+@inner
+def stretch_profile(profile, i, stretch, load, new_load, weight, scale, entry, new_entry, work):
+    """Stretch one column.
+
+    Parameters
+    ----------
+    profile : ndarray, shape (n, levels)
+        Row ``i`` is written [Pa].
+    stretch : float
+        Volume before over volume after, < 1.
+    load, new_load : float
+        Overburden at the base before and after [Pa].
+    weight, scale : float
+        ``weight * load * eta - p`` is carried along with the grains, times ``scale``.
+    entry, new_entry : float
+        The same of the soil that comes in first and last, at the base [Pa].
+    work : ndarray, shape (2, levels)
+        Scratch.
+    """
+    cells = profile.shape[1] - 1
+    old, ratios = work[0], work[1]
+    width, pull = 1.0 / cells, 1.0 / stretch
+    for k in range(cells + 1):  # counted from the surface
+        m = cells - k
+        old[m] = scale * (weight * load * (m * width) - profile[i, k])
+        ratios[m] = old[m] / max(m, 1)
+    for m in range(cells + 1):
+        eta = m * width
+        if eta <= stretch:
+            carried = interpolate(old, ratios, cells, m * pull)
+        else:  # soil that came in when the base was where this level is now
+            carried = entry + (eta - stretch) / (1.0 - stretch) * (new_entry - entry)
+        profile[i, cells - m] = weight * new_load * eta - carried

@@ -1,0 +1,77 @@
+"""An implicit scheme of first order, bounded for any step.
+
+Finite volumes around the levels, in time backward Euler, in space Patankar's hybrid differencing (1980, chapter 5):
+central up to a cell Péclet number of 2, beyond it upwind and without diffusion. The matrix has no positive value
+off its diagonal and rows that sum to one, so that no new extreme appears. One solve per step.
+
+The step grows the column by ``e = V1/V0 - 1``. With that, rather than the logarithm, what enters through the base
+and leaves through the surface is what the content changes by, to rounding.
+"""
+
+import numpy as np
+
+from ....core.jit import inner, kernel
+from .stepwise import CONTACT, GROWTH, INFLOW, PASSED, PRESCRIBED, begin_step, end_step
+
+
+@kernel
+def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
+    """Advance all columns by one step of the flow.
+
+    Parameters
+    ----------
+    columns : ColumnState
+        Written in place.
+    forcing : ColumnForcing
+        The step.
+    dt : float
+        Duration [s].
+    basal_pressure : ndarray, shape (n,)
+        Written: the excess pore pressure that friction feels [Pa].
+    scheme : Scheme
+        Which law it is.
+    """
+    steps = begin_step(columns, forcing, dt, scheme)
+    profile, beds = columns.profile, forcing.bed_pressure
+    cells = profile.shape[1] - 1
+    work = np.empty(cells)
+    for i in range(profile.shape[0]):
+        contact, growth, bed = steps[i, CONTACT], steps[i, GROWTH], beds[min(i, beds.size - 1)]
+        if contact == PRESCRIBED:
+            profile[i, 0] = bed
+        inflow = growth * cells if contact == INFLOW else 0.0
+        advection = growth if scheme.stretching else 0.0
+        _solve(profile, i, advection, steps[i, PASSED] * cells * cells, contact == PRESCRIBED, inflow, bed, work)
+    end_step(columns, forcing, basal_pressure)
+
+
+@inner
+def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
+    """Solve for one column at the end of the step, by the algorithm of Thomas from the base to the surface.
+
+    ``advection`` is the Courant number of the face that lies one cell below the surface, to which those of the
+    others are in proportion, ``diffusion`` the cell Fourier number. Through the base comes ``inflow`` times what
+    the bed has more than the base: ``c_v p_x = -e_R (p_b - p)``.
+    """
+    cells = profile.shape[1] - 1
+    up, down = _face(advection * (cells - 0.5), diffusion)
+    work[0] = 0.0
+    if not held:  # the base level has half a cell
+        whole = 1.0 / (1.0 + 2.0 * (down + inflow))
+        profile[i, 0] = (profile[i, 0] + 2.0 * inflow * bed) * whole
+        work[0] = 2.0 * down * whole
+    for k in range(1, cells):
+        from_below = up
+        up, down = _face(advection * (cells - k - 0.5), diffusion)
+        whole = 1.0 / (1.0 + down + from_below * (1.0 - work[k - 1]))
+        profile[i, k] = (profile[i, k] + from_below * profile[i, k - 1]) * whole
+        work[k] = down * whole
+    for k in range(cells - 1, -1, -1):
+        profile[i, k] += work[k] * profile[i, k + 1]
+
+
+@inner
+def _face(courant, diffusion):
+    """Return how much of the level below a face acts on the one above, and the other way."""
+    down = max(diffusion - 0.5 * courant, 0.0)
+    return down + courant, down

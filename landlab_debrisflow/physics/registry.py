@@ -1,0 +1,124 @@
+"""The bundle of chosen laws, and the one place that builds laws from names."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..core.errors import ParameterError
+from ..core.hints import did_you_mean, plain, same_word
+from ..core.parameters import from_mapping
+from .column import ALE, Classical, ConstantRatio, NoExcessPressure
+from .contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
+from .erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
+from .flow import OnePhase, TwoPhase
+from .friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
+from .material import Material
+
+LAWS = {
+    "flow": {"one_phase": OnePhase, "two_phase": TwoPhase},
+    "friction": {
+        "coulomb": Coulomb,
+        "voellmy": Voellmy,
+        "bingham": Bingham,
+        "herschel_bulkley": HerschelBulkley,
+        "mu_i": MuI,
+    },
+    "erosion": {"growth": Growth, "shear_excess": ShearExcess, "liquefied_bed": LiquefiedBed, "none": NoErosion},
+    "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
+}
+"""Every law by kind and name; the first of a kind is the default."""
+
+METHOD = {
+    "flow": "interact",
+    "friction": "basal_resistance",
+    "erosion": "entrainment_rate",
+    "column": "advance",
+}
+"""The method that makes an object a law of its kind."""
+
+
+@dataclass(frozen=True)
+class Physics:
+    """What is simulated: one law of each kind and the material."""
+
+    flow: FlowLaw
+    friction: FrictionLaw
+    erosion: ErosionLaw
+    column: ColumnLaw
+    material: Material
+
+    @property
+    def two_phases(self) -> bool:
+        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
+        return hasattr(self.flow, "drag_coefficient")
+
+
+def build_physics(flow=None, friction=None, erosion=None, column=None, material=None) -> Physics:
+    """Build the bundle; each argument is a law, a name, a mapping of plain values, or None for the default.
+
+    Raises
+    ------
+    ParameterError
+        If a law or key is unknown (the message lists the legal ones) or a value out of bounds.
+    """
+    return Physics(
+        build_law("flow", flow),
+        build_law("friction", friction),
+        build_law("erosion", erosion),
+        build_law("column", column),
+        build_declared(Material, material, "material"),
+    )
+
+
+def build_law(kind: str, value):
+    """Return the law of some kind that `value` stands for; the case of its name does not matter.
+
+    Examples
+    --------
+    >>> build_law("friction", {"law": "voellmy", "turbulent_coefficient": 300})
+    Voellmy(basal_friction_angle=30.96375653207352, cohesion=0.0, turbulent_coefficient=300.0)
+    >>> build_law("friction", "MU_I").inertial_number
+    0.279
+    >>> build_law("flow", "plough")
+    Traceback (most recent call last):
+        ...
+    landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase, two_phase
+    """
+    laws, value = LAWS[kind], plain(value)
+    if value is None:
+        value = next(iter(laws))
+    if isinstance(value, str):
+        value = {"law": value}
+    if isinstance(value, Mapping):
+        values = dict(value)
+        if "law" not in values:
+            hint = "".join(did_you_mean(key, ("law",)) for key in values)
+            known = ", ".join(laws)
+            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {known}; got {value!r}{hint}")
+        name = values.pop("law")
+        if (known := same_word(plain(name), laws)) is None:
+            raise ParameterError(f"{kind}: unknown law {name!r}{did_you_mean(name, laws)}; allowed: {', '.join(laws)}")
+        return from_mapping(laws[known], values, laws)
+    if isinstance(value, type) and callable(getattr(value, METHOD[kind], None)):
+        raise ParameterError(f"{kind}: {value.__name__} is no {kind} law but the class of one; give {value.__name__}()")
+    if isinstance(value, type) or not callable(getattr(value, METHOD[kind], None)):
+        raise ParameterError(
+            f"{kind}: {value!r} is no {kind} law (it has no method {METHOD[kind]!r}); "
+            f"give an object, a mapping with 'law', or one of {', '.join(laws)}"
+        )
+    return value
+
+
+def build_declared(cls, value, keyword: str):
+    """Return an instance of a declared class from an instance, a mapping or None.
+
+    Raises
+    ------
+    ParameterError
+        If `value` is something else.
+    """
+    if isinstance(value, cls):
+        return value
+    if value is None or isinstance(value, Mapping):
+        return from_mapping(cls, value or {})
+    hint = f"; give {cls.__name__}(), not the class" if value is cls else ""
+    raise ParameterError(f"{keyword} must be a {cls.__name__} or a mapping, got {value!r}{hint}")

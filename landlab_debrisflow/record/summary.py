@@ -1,0 +1,52 @@
+"""A component in a few lines: its state, its laws and its budget, as text and as a table for notebooks."""
+
+from html import escape
+
+from ..physics.registry import LAWS
+
+
+def text(flow) -> str:
+    """Return state, laws and budget, one line each."""
+    if (rows := _rows(flow)) is None:
+        return object.__repr__(flow)
+    return "\n  ".join([f"DebrisFlow: {rows.pop('state')}", *(f"{name}: {words}" for name, words in rows.items())])
+
+
+def html(flow) -> str:
+    """Return the same as a table."""
+    rows = _rows(flow) or {"state": "under construction"}
+    cells = "".join(
+        f'<tr><th style="text-align:left">{escape(name)}</th><td style="text-align:left">{escape(words)}</td></tr>'
+        for name, words in rows.items()
+    )
+    return f"<table><caption>DebrisFlow</caption>{cells}</table>"
+
+
+def _rows(flow) -> dict[str, str] | None:
+    """Return what is to be told by name, or None if the component is not complete."""
+    if "_calls" not in vars(flow):
+        return None
+    budget = ", ".join(f"{name} {volume:.6g}" for name, volume in flow.budget.items())
+    laws = ", ".join(f"{kind} {_name(kind, getattr(flow._physics, kind))}" for kind in LAWS)
+    rows, columns = flow.grid.shape
+    return {
+        "state": f"{_state(flow)} at {flow.elapsed_time:.6g} s",
+        "particles": f"{flow._simulation.particles.count} on {rows} x {columns} nodes",
+        "laws": laws,
+        "budget [m3]": budget,
+    }
+
+
+def _state(flow) -> str:
+    simulation, budget = flow._simulation, flow.budget
+    if not simulation.idle:
+        return "moving"
+    if not simulation.inflow.over:
+        return "waiting for inflow"
+    if simulation.particles.count:
+        return "at rest, not settled"
+    return "at rest" if budget["released"] + budget["inflow"] > 0.0 else "nothing released yet"
+
+
+def _name(kind: str, law) -> str:
+    return next((name for name, known in LAWS[kind].items() if type(law) is known), type(law).__name__)

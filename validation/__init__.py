@@ -1,0 +1,1 @@
+"""Cases with known solutions, measures and rivals, for tests and benchmarks."""

@@ -1,0 +1,1 @@
+"""Cases with a solution, exact or converged."""
