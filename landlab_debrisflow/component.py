@@ -8,9 +8,8 @@ from landlab.core.model_component import classproperty
 
 from .core.variables import NODE_FIELDS
 from .grid import checks, doubts
-from .grid.call import Calls
+from .grid.call import GridCall
 from .grid.inflow_lines import read_hydrographs
-from .grid.outputs import Outputs, check_continued
 from .model.inflow.source import Inflow
 from .model.numerics import Numerics
 from .model.simulation import Simulation
@@ -95,7 +94,7 @@ class DebrisFlow(Component):
         checks.check_phases(self._physics)
         self._hydrographs = read_hydrographs(inflow)
         checks.check_types(grid)
-        with checks.no_new_fields(grid):
+        with no_new_fields(grid):
             super().__init__(grid)
             checks.check_boundaries(grid)
             odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
@@ -106,13 +105,9 @@ class DebrisFlow(Component):
                     raise checks.InputError(
                         f"continues must be the DebrisFlow before on the same grid, got {continues!r}"
                     )
-                check_continued(continues, grid, entering)
+                checks.check_continued(continues, grid, entering)
             self._simulation = Simulation(self._physics, self._numerics, entering)
-            self._calls = Calls(self, self._simulation)
-            if continues is not None:
-                self._calls.continue_from(continues._calls)
-            # last, because what is refused changes nothing
-            self._outputs = Outputs(grid, self._simulation, None if continues is None else continues._outputs)
+            self._call = GridCall(self, None if continues is None else continues._call)
         for doubt in (*odd, *doubts.about_parameters(grid, self._physics)):
             log.warning("%s", doubt)
 
@@ -157,7 +152,7 @@ class DebrisFlow(Component):
             time, ask for what is left of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
         """
         if (dt := checks.check_duration(dt)) > 0.0:
-            self._calls.run(dt, stop_at_rest=False)
+            self._call.run(dt, stop_at_rest=False)
 
     def run_until_rest(self, max_duration=3600.0):
         """Run the whole event.
@@ -179,7 +174,7 @@ class DebrisFlow(Component):
             After Ctrl-C, or an observer that failed, call again to go on.
         """
         if (duration := checks.check_duration(max_duration, "max_duration")) > 0.0:
-            self._calls.run(duration, stop_at_rest=True)
+            self._call.run(duration, stop_at_rest=True)
         return self.at_rest
 
     def settle(self):
@@ -193,7 +188,7 @@ class DebrisFlow(Component):
         if not self.at_rest:
             what = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
             raise checks.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
-        self._calls.settle()
+        self._call.settle()
 
     def new_event(self):
         """Start the maps of peaks (``max_...``) and the arrival time anew.
@@ -210,8 +205,7 @@ class DebrisFlow(Component):
                 "new_event() starts peaks and arrival time anew, but the last event is not over: something still moves "
                 "or has yet to flow in; run_until_rest() first"
             )
-        with self._calls.interruption:
-            self._outputs.restart_peaks()
+        self._call.restart_peaks()
 
     @property
     def elapsed_time(self):
@@ -230,7 +224,7 @@ class DebrisFlow(Component):
         Each is measured on its own: release field, hydrographs, soil field, particles, elevation field,
         particles that left. ``moving`` counts all particles, also those at rest but not settled.
         """
-        return self._calls.ledger.budget(self._simulation)
+        return self._call.budget
 
     @property
     def budget_by_phase(self):
@@ -238,7 +232,7 @@ class DebrisFlow(Component):
 
         What of the released, inflowing and eroded volume is of which phase follows from the porosities.
         """
-        return self._calls.ledger.budget_by_phase(self._simulation)
+        return self._call.budget_by_phase
 
     @property
     def outflow_by_edge(self):
@@ -265,6 +259,6 @@ class DebrisFlow(Component):
         Closed nodes are missing (NaN), except in the maps of impact pressure and run-up, which tell what ran against
         them, and where something was left before they were closed.
         """
-        shown = self._outputs.maps(self._calls.accounts())
+        shown = self._call.maps()
         moment = of_moment(self.elapsed_time, self._simulation.particles, self.budget)
         return maps_dataset(self.grid, shown, self._physics, self._numerics, self._hydrographs, moment)

@@ -1,15 +1,37 @@
-"""The accounts of volume: every term is measured on its own, none is the rest of the others."""
+"""Volume budget: every term is measured on its own, none is the remainder of the others."""
 
-from .row_backup import Journal
+from copy import copy
+from typing import NamedTuple
+
+from .row_backup import RowBackup
+
+CARRIED_OVER = ("released", "inflow", "eroded")
+"""Terms of which an earlier component's volume keeps the phases it had then."""
 
 
-class Ledger:
+class ModelVolumes(NamedTuple):
+    """Volumes that the model measures [m3]: of particles, hydrographs and outflow, and what of them are grains."""
+
+    moving: float
+    inflow: float
+    outflow: float
+    moving_solid: float
+    settled_solid: float
+    outflow_solid: float
+
+
+class VolumeBudget:
     """Volumes taken from and given to the ground, measured as differences of its fields.
 
     Parameters
     ----------
     area : float
         Map area of a node [m2].
+
+    Attributes
+    ----------
+    released, deposited : float
+        Volume taken by releases, and laid down, so far [m3].
     """
 
     def __init__(self, area: float):
@@ -17,57 +39,63 @@ class Ledger:
         self.released = self.deposited = 0.0
         self._eroded = 0.0  # in earlier calls
         self._core = self._soil = None
-        self._earlier = dict.fromkeys(("released", "inflow", "eroded"), (0.0, 0.0))
+        self._earlier = dict.fromkeys(CARRIED_OVER, (0.0, 0.0))
 
-    def continue_from(self, earlier: "Ledger", simulation) -> None:
-        """Begin with the accounts of an earlier ledger; `simulation`, of which they are, holds no particles any more.
+    def copy(self) -> "VolumeBudget":
+        """Return an independent copy, which goes on measuring the same soil."""
+        other = copy(self)
+        other._soil = None if self._soil is None else self._soil.copy()
+        return other
 
-        Of which phase volumes were is what they were then, of another material perhaps.
+    def continue_from(self, earlier: "VolumeBudget", volumes: ModelVolumes, material) -> None:
+        """Begin with the terms of an earlier budget whose component holds no particles any more.
+
+        Phases of volumes are those they had then, of another material perhaps.
         """
-        whole, solid = earlier.budget(simulation), earlier.budget_by_phase(simulation)["solid"]
-        self._earlier = {name: (whole[name], solid[name]) for name in self._earlier}
+        whole, solid = earlier.terms(volumes), earlier.terms_by_phase(volumes, material)["solid"]
+        self._earlier = {name: (whole[name], solid[name]) for name in CARRIED_OVER}
         self.released, self._eroded, self.deposited = (whole[name] for name in ("released", "eroded", "deposited"))
 
-    def watch_soil(self, core, soil: Journal | None) -> None:
-        """Measure erosion as the fall of the soil depth in a journal, on core nodes, from now on; None: no more."""
+    def measure_erosion(self, core, soil: RowBackup | None) -> None:
+        """Measure erosion as the decrease of the soil depth at `core` nodes from now on; None: stop measuring."""
         self._eroded = self.eroded
         self._core, self._soil = core, soil
 
-    def cover(self, first: int, last: int) -> None:
-        """Keep some rows of the soil that is measured, if any; see `Journal.cover`."""
+    def keep_rows(self, first: int, last: int) -> None:
+        """Keep rows of the soil that is measured, if any; see `RowBackup.keep_rows`."""
         if self._soil is not None:
-            self._soil.cover(first, last)
+            self._soil.keep_rows(first, last)
 
     @property
     def eroded(self) -> float:
         """Volume eroded so far [m3], also in the middle of a call."""
-        return self._eroded + (0.0 if self._soil is None else self._soil.fall(0, self._core) * self._area)
+        return self._eroded + (0.0 if self._soil is None else self._soil.decrease(0, self._core) * self._area)
 
-    def count_deposit(self, core, elevation: Journal) -> None:
-        """Count by how much volume the elevation kept in a journal has risen on core nodes."""
-        self.deposited -= elevation.fall(0, core) * self._area
+    def count_deposit(self, core, elevation: RowBackup) -> None:
+        """Add the volume by which a kept elevation has risen at `core` nodes."""
+        self.deposited -= elevation.decrease(0, core) * self._area
 
-    def budget(self, simulation) -> dict[str, float]:
+    def terms(self, volumes: ModelVolumes) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""
-        moving = float(simulation.particles.volume.sum())
-        inflow, outflow = self._earlier["inflow"][0] + simulation.inflow.volume, simulation.outflow.total
+        moving, outflow = volumes.moving, volumes.outflow
+        inflow = self._earlier["inflow"][0] + volumes.inflow
         return {
             "released": self.released, "inflow": inflow, "eroded": self.eroded, "moving": moving,
             "deposited": self.deposited, "outflow": outflow,
             "residual": self.released + inflow + self.eroded - moving - self.deposited - outflow,
         }  # fmt: skip
 
-    def budget_by_phase(self, simulation) -> dict[str, dict[str, float]]:
-        """Return the budgets of grains and of what is between them [m3]; settled grains are those of the particles."""
-        whole, material = self.budget(simulation), simulation.physics.material
+    def terms_by_phase(self, volumes: ModelVolumes, material) -> dict[str, dict[str, float]]:
+        """Return the terms of grains and of the fluid between them [m3]; settled grains are those of the particles."""
+        whole = self.terms(volumes)
         porosity = dict.fromkeys(("released", "inflow"), material.porosity) | {"eroded": material.soil_porosity}
-        parts = {
+        solids = {
             name: solid + (1.0 - porosity[name]) * (whole[name] - volume)
             for name, (volume, solid) in self._earlier.items()
         }
-        parts["moving"] = float(simulation.matter.solid_volume(simulation.particles).sum())
-        parts["deposited"], parts["outflow"] = simulation.settled_solid, simulation.outflow.solid
-        phases = {"solid": parts, "water": {name: whole[name] - part for name, part in parts.items()}}
+        solids["moving"] = volumes.moving_solid
+        solids["deposited"], solids["outflow"] = volumes.settled_solid, volumes.outflow_solid
+        phases = {"solid": solids, "water": {name: whole[name] - solid for name, solid in solids.items()}}
         for terms in phases.values():
             came = terms["released"] + terms["inflow"] + terms["eroded"]
             terms["residual"] = came - terms["moving"] - terms["deposited"] - terms["outflow"]

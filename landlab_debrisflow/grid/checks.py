@@ -1,7 +1,6 @@
-"""What is read from the grid, and refused: every refusal says where, got, allowed and what to do."""
+"""Refusals of a grid, its fields and of arguments: each says where, got, allowed and a remedy."""
 
 import dataclasses
-from contextlib import contextmanager
 from numbers import Real
 
 import numpy as np
@@ -12,7 +11,7 @@ from ..core.parameters import NodeValues, check_values
 from ..core.variables import NODE_FIELDS
 from .fills import LEAST_FILL, is_fill, replace_them
 
-FIXED_GRADIENT, LOOPED, CLOSED = 2, 3, 4  # node statuses of Landlab
+CORE, FIXED_GRADIENT, LOOPED, CLOSED = 0, 2, 3, 4  # node statuses of Landlab
 
 
 def check_duration(value, name: str = "dt") -> float:
@@ -23,18 +22,6 @@ def check_duration(value, name: str = "dt") -> float:
     if not 0.0 <= value < np.inf:
         raise InputError(f"{name} must be a finite number of seconds >= 0, got {value!r}")
     return float(value)
-
-
-@contextmanager
-def no_new_fields(grid):
-    """Take the fields that were added to a grid away again if anything is refused inside."""
-    before = set(grid.at_node)
-    try:
-        yield
-    except BaseException:
-        for name in set(grid.at_node) - before:
-            grid.delete_field("node", name)
-        raise
 
 
 def check_types(grid) -> None:
@@ -62,7 +49,7 @@ def check_boundaries(grid) -> None:
 
 
 def check_bed(grid, soil, ratio, drained) -> None:
-    """Refuse likewise what the bed is made of; each is an array over nodes or None."""
+    """Refuse soil depths, pressure ratios and drains of a bed; each is an array over nodes or None."""
     if soil is not None:
         check_finite(grid, "soil__depth", soil, "close the node or set a depth >= 0")
         _check_range(grid, "soil__depth", soil, 0.0, np.inf, "m")
@@ -78,7 +65,7 @@ def check_bed(grid, soil, ratio, drained) -> None:
 
 
 def check_loaded_bed(grid, ratio, pressure) -> None:
-    """Refuse likewise a bed whose pore pressure follows its load: its ratio, if given too, and its pressure [Pa]."""
+    """Refuse a ratio beside a pore pressure that follows the load of the bed, and pressures [Pa] out of range."""
     if ratio is not None:
         raise InputError(
             "bed__excess_pore_pressure_ratio is given, but with Material's bed_loading_coefficient > 0 the pressure of "
@@ -133,7 +120,7 @@ def check_phases(physics) -> None:
 
 
 def check_observers(observers) -> tuple:
-    """Return the observers, of which one may come by itself, or raise InputError if one cannot observe."""
+    """Return observers, given as one or several, as a tuple, or raise InputError if one cannot observe."""
     if callable(getattr(observers, "observe", None)) or not hasattr(observers, "__iter__"):
         observers = (observers,)
     observers = tuple(observers)
@@ -147,71 +134,38 @@ def check_observers(observers) -> tuple:
     return observers
 
 
-def read_release(grid, soil):
-    """Return the nodes that are to fail and the thickness there [m], from whichever field says so.
+def check_continued(earlier, grid, inflow) -> None:
+    """Refuse to continue an earlier component that has not come to its end, or elsewhere.
+
+    Parameters
+    ----------
+    earlier : DebrisFlow
+    grid : RasterModelGrid
+    inflow : Inflow
+        Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
 
     Raises
     ------
     InputError
-        If a thickness is negative, not on core nodes, or deeper than the soil.
+        If it cannot be continued; nothing was changed.
     """
-    name = "debris_flow__release_depth"
-    nodes, depth = _nonzero(grid, grid.at_node[name])
-    check_release(grid, name, nodes, depth, soil)
-    if nodes.size == 0 and soil is not None and "mass__wasting_id" in grid.at_node:
-        ids = grid.at_node["mass__wasting_id"]
-        nodes = np.flatnonzero((ids > 0) & (soil != 0.0))
-        if (fills := nodes[is_fill(ids[nodes])]).size:
-            raise InputError(
-                f"mass__wasting_id is {ids[fills[0]]} at {where(grid, fills[0])}, and the whole soil would fail there"
-                f"{replace_them('mass__wasting_id', ids, ids[fills[0]])}"
-            )
-        depth = soil[nodes]
-        check_release(grid, "soil__depth where mass__wasting_id > 0", nodes, depth, soil)
-    return nodes, depth
-
-
-def _nonzero(grid, field):
-    """Return the nodes where a field is not 0 (NaN is not), on closed ones a thickness, and its values there."""
-    nodes = np.flatnonzero(field)
-    nodes = nodes[(grid.status_at_node[nodes] != CLOSED) | ((field[nodes] > 0.0) & ~is_fill(field[nodes]))]
-    return nodes, field[nodes]
-
-
-def lower_ground(grid, nodes, depth, soil) -> None:
-    """Take what fails off elevation and soil; the fields that said so become 0 there."""
-    grid.at_node["topographic__elevation"][nodes] -= depth  # in place: other components hold this very array
-    if soil is not None:
-        soil[nodes] -= depth
-    grid.at_node["debris_flow__release_depth"][nodes] = 0.0
-    if "mass__wasting_id" in grid.at_node:
-        grid.at_node["mass__wasting_id"][nodes] = 0
-
-
-def check_release(grid, name: str, nodes, depth, soil) -> None:
-    """Refuse a release that is negative, not on core nodes, or deeper than the soil."""
-
-    def first(bad):
-        return (depth[bad][0], nodes[bad][0]) if bad.any() else None
-
-    if found := first(~np.isfinite(depth)):
-        raise InputError(f"{name} must be finite, got {found[0]} at {where(grid, found[1])}; set 0 where nothing fails")
-    if found := first((depth < 0.0) | is_fill(depth)):
-        allowed = ">= 0 m" if found[0] < 0.0 else "a thickness"
+    if earlier.grid is not grid:
+        raise InputError("continues: the earlier DebrisFlow is on another grid; build the new one on earlier.grid")
+    before = earlier._simulation
+    if not before.inflow.over:
         raise InputError(
-            f"{name} must be {allowed}, got {found[0]:g} at {where(grid, found[1])}; give the thickness that fails as "
-            f"a positive number and 0 elsewhere{replace_them(name, depth, found[0])}"
+            f"continues: the inflow of the earlier DebrisFlow is not over, the next of it enters at "
+            f"{before.inflow.next_time:.4g} s of its elapsed time; run it to its end first"
         )
-    if found := first(grid.status_at_node[nodes] != 0):
+    if before.particles.count:
         raise InputError(
-            f"{name} is {found[0]:g} m on {where(grid, found[1])}, a boundary or closed node; "
-            "release only on core nodes: set 0 there, or use a larger DEM"
+            f"continues: the earlier DebrisFlow still carries {before.particles.volume.sum():.4g} m3 that have not "
+            "settled; run_until_rest() and settle() it first"
         )
-    if soil is not None and (found := first(depth > soil[nodes])):
+    if inflow.next_time < before.time:
         raise InputError(
-            f"{name} is deeper than soil__depth at {np.count_nonzero(depth > soil[nodes])} nodes, the first is "
-            f"{where(grid, found[1])}: {found[0]:g} m > {soil[found[1]]:g} m; raise soil__depth there, or clip the "
-            "release with np.minimum"
+            f"continues: the inflow begins at {inflow.next_time:.4g} s, but elapsed_time goes on from "
+            f"{before.time:.4g} s; add that to its times"
         )
 
 

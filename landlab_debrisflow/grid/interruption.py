@@ -1,4 +1,4 @@
-"""What asks a call to end early: Ctrl-C, or an observer that fails. Both wait for the end of the step."""
+"""Requests to end a call early, by Ctrl-C or by an observer that fails; both wait for the end of the step."""
 
 import logging
 import signal
@@ -11,10 +11,10 @@ log = logging.getLogger("landlab_debrisflow")
 
 
 class Interruption:
-    """Entered by every call, which then asks it between two steps whether it is `wanted`.
+    """Context of every call, which asks it between two steps whether an end is `requested`.
 
     Ctrl-C is noted instead of raised while a call runs in the main thread, unless somebody has put a handler of
-    their own in place of Python's. A second one is raised at once, but not in what is `held`: in a step it undoes the
+    their own in place of Python's. A second one is raised at once, unless it is `deferred`: in a step it undoes the
     call like any failure there, in an observer it is a failure of that.
 
     Attributes
@@ -31,7 +31,7 @@ class Interruption:
     def __init__(self):
         self.failure = None
         self._running = self._handles = self._asked = self._raised = False
-        self._held = 0
+        self._deferred = 0
 
     def __enter__(self):
         if self._running:
@@ -39,7 +39,7 @@ class Interruption:
                 "a call of run_one_step, run_until_rest or settle came while another one runs, as from an observer; "
                 "observe(flow) may look at the flow but not run it: call when the run has ended"
             )
-        self._asked, self._raised, self.failure, self._held = False, False, None, 0
+        self._asked, self._raised, self.failure, self._deferred = False, False, None, 0
         main = threading.current_thread() is threading.main_thread()
         self._handles = main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
         if self._handles:
@@ -48,21 +48,21 @@ class Interruption:
         return self
 
     def __exit__(self, *_):
-        self._held, self._running = 1, False
+        self._deferred, self._running = 1, False
         if self._handles:
             signal.signal(signal.SIGINT, signal.default_int_handler)
 
     @contextmanager
-    def held(self):
-        """Let what happens inside come to its end, however often somebody asks."""
-        self._held += 1
+    def deferred(self):
+        """Defer interruptions to the end of the block, however often Ctrl-C is pressed."""
+        self._deferred += 1
         try:
             yield
         finally:
-            self._held -= 1
+            self._deferred -= 1
 
-    def note(self, failure: BaseException) -> None:
-        """Take down that an observer failed, if only because Ctrl-C was raised in it."""
+    def add_failure(self, failure: BaseException) -> None:
+        """Note the failure of an observer, if only because Ctrl-C was raised in it."""
         self._raised = False
         if self.failure is None:
             self.failure = failure
@@ -70,7 +70,7 @@ class Interruption:
             self.failure.add_note(f"another observer failed, too: {failure!r}")
 
     @property
-    def wanted(self) -> bool:
+    def requested(self) -> bool:
         """Whether the call shall end after the step."""
         return self._asked or self.failure is not None
 
@@ -86,7 +86,7 @@ class Interruption:
         raise cause
 
     def _note(self, number, frame):
-        if self._asked and not self._held and not self._raised:
+        if self._asked and not self._deferred and not self._raised:
             self._raised = True  # whoever hears of it must not be disturbed again
             raise KeyboardInterrupt
         self._asked = True

@@ -11,7 +11,6 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..core.errors import InputError
 from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX
 from ..model.peak_maps import PEAKS
 
@@ -33,14 +32,16 @@ class Outputs:
     ----------
     grid : RasterModelGrid
         Gets the fields that it does not have.
-    simulation : Simulation
-        Whose outputs they are.
+    two_phases : bool
+        Whether the flow has fields of its phases.
+    carried_volume : callable
+        Returns the volume of debris that the component carries [m3].
     continues : Outputs, optional
-        Of an earlier component, from which these go on.
+        Outputs of an earlier component, from which these go on.
     """
 
-    def __init__(self, grid, simulation, continues=None):
-        self._grid, self._simulation, self._told = grid, simulation, False
+    def __init__(self, grid, two_phases: bool, carried_volume, continues=None):
+        self._grid, self._two_phases, self._carried_volume, self._warned = grid, two_phases, carried_volume, False
         self._aside = {} if continues is None else continues._written()  # None: they are in the fields
         self.show()
         for field in self._fields():
@@ -64,7 +65,7 @@ class Outputs:
         holder, at, standing = _holders.get(self._grid, lambda: None)(), self._grid.at_node, _not_at_start(self._grid)
         if holder is not None:
             holder._aside = standing
-            self._tell_of(holder)
+            self._warn_of(holder)
         for name, (nodes, _) in standing.items():
             at[name][nodes] = STARTS[name]
         for name, (nodes, values) in self._aside.items():
@@ -100,25 +101,23 @@ class Outputs:
         return shown | accounts
 
     def restart_peaks(self) -> None:
-        """Put peaks and arrival time back to their start; what lies somewhere runs up from there."""
+        """Put peaks and arrival time back to their start."""
         self.show()
-        self._simulation.particles.lowest_z[:] = self._simulation.particles.z
         for field in self._fields():
             if field.name.removeprefix(OUTPUT_PREFIX) in PEAKS:
                 self._grid.at_node[field.name][:] = field.start
 
     def _fields(self):
         """Return the declarations of the fields that the component writes."""
-        phases = self._simulation.physics.two_phases
-        return [field for field in NODE_FIELDS if field.name in STARTS and (phases or not field.optional)]
+        return [field for field in NODE_FIELDS if field.name in STARTS and (self._two_phases or not field.optional)]
 
     def _written(self):
         return _not_at_start(self._grid) if self._aside is None else self._aside
 
-    def _tell_of(self, other) -> None:
-        """Warn once of debris that another component carries, of which nothing is in the elevation."""
-        if (volume := float(other._simulation.particles.volume.sum())) and not self._told:
-            self._told = True
+    def _warn_of(self, other) -> None:
+        """Warn once of debris that another component carries: it is in no elevation."""
+        if (volume := other._carried_volume()) and not self._warned:
+            self._warned = True
             log.warning(
                 "another DebrisFlow on this grid carries %.4g m3 that have not settled: this one does not feel them, "
                 "nor are they in elevation; settle() them before, or put elevation and soil back",
@@ -134,38 +133,3 @@ def _not_at_start(grid) -> dict:
             nodes = np.flatnonzero(grid.at_node[name] != start)
             written[name] = nodes, grid.at_node[name][nodes]
     return written
-
-
-def check_continued(earlier, grid, inflow) -> None:
-    """Refuse to continue an earlier component that has not come to its end, or elsewhere.
-
-    Parameters
-    ----------
-    earlier : DebrisFlow
-    grid : RasterModelGrid
-    inflow : Inflow
-        Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
-
-    Raises
-    ------
-    InputError
-        If it cannot be continued; nothing was changed.
-    """
-    if earlier.grid is not grid:
-        raise InputError("continues: the earlier DebrisFlow is on another grid; build the new one on earlier.grid")
-    before = earlier._simulation
-    if not before.inflow.over:
-        raise InputError(
-            f"continues: the inflow of the earlier DebrisFlow is not over, the next of it enters at "
-            f"{before.inflow.next_time:.4g} s of its elapsed time; run it to its end first"
-        )
-    if before.particles.count:
-        raise InputError(
-            f"continues: the earlier DebrisFlow still carries {before.particles.volume.sum():.4g} m3 that have not "
-            "settled; run_until_rest() and settle() it first"
-        )
-    if inflow.next_time < before.time:
-        raise InputError(
-            f"continues: the inflow begins at {inflow.next_time:.4g} s, but elapsed_time goes on from "
-            f"{before.time:.4g} s; add that to its times"
-        )

@@ -1,4 +1,4 @@
-"""What a call has to tell at its end, to the logger: what ran against walls, what left, and what still moves."""
+"""Messages at the end of a call, to the logger: volumes stopped by walls, outflow, and mass that still moves."""
 
 import logging
 
@@ -11,20 +11,19 @@ NOTABLE = 0.01
 
 
 class Reports:
-    """What is told of an event, each thing once.
+    """Messages about an event, each given once.
 
     Parameters
     ----------
     flow : DebrisFlow
-    simulation : Simulation
     """
 
-    def __init__(self, flow, simulation):
-        self._flow, self._simulation = flow, simulation
+    def __init__(self, flow):
+        self._flow, self._simulation = flow, flow._simulation
         self._supply, self._left, self._told = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
 
     def tell(self, until_rest: bool) -> None:
-        """Tell what the call that ends has to tell; `until_rest`: whether it was to end at rest."""
+        """Log the messages of a call that ends; `until_rest`: whether it was to end at rest."""
         self._walls()
         self._outflow()
         if until_rest and not self._simulation.at_rest:

@@ -1,4 +1,4 @@
-"""What node arrays were before something changed them, kept for the rows of the raster it may change.
+"""Copies of node arrays before a change, to undo it: of the rows of the raster that may change, or of some nodes.
 
 A flow covers a small part of a large DEM; nothing may cost a copy of all of it.
 """
@@ -9,25 +9,25 @@ MARGIN = 16
 """Rows kept beyond those asked for, so that a flow that moves on does not ask at every step."""
 
 
-class Journal:
-    """Copies of the rows `cover` was called for, made at that time.
+class RowBackup:
+    """Copies of rows of node arrays, each made when `keep_rows` was first called for it.
 
     Parameters
     ----------
     arrays : sequence of ndarray, shape (nodes,)
-        What is to be kept; changed by others after `cover`.
+        Arrays that others change after `keep_rows`.
     columns : int
         Columns of the raster.
 
     Examples
     --------
     >>> depth = np.ones(200)
-    >>> journal = Journal([depth], columns=2)
-    >>> journal.cover(50, 52)
+    >>> backup = RowBackup([depth], columns=2)
+    >>> backup.keep_rows(50, 52)
     >>> depth[100:102] = 0.25
-    >>> journal.fall(0)
+    >>> backup.decrease(0)
     1.5
-    >>> journal.restore()
+    >>> backup.restore()
     >>> depth.min()
     np.float64(1.0)
     """
@@ -39,17 +39,12 @@ class Journal:
         self._kept = []  # (slice of nodes, copies)
 
     @property
-    def arrays(self) -> list:
-        """What is kept."""
-        return self._arrays
-
-    @property
     def nodes(self) -> slice:
-        """The nodes covered so far."""
+        """Nodes kept so far."""
         return slice(self._first * self._columns, self._last * self._columns)
 
-    def cover(self, first: int, last: int) -> None:
-        """Keep the rows from `first` up to but not including `last` as they are now, if they are not kept yet."""
+    def keep_rows(self, first: int, last: int) -> None:
+        """Copy the rows from `first` up to but not including `last` as they are now, if they are not kept yet."""
         first, last = max(first, 0), min(last, self._rows)
         if first >= last or (self._first <= first and last <= self._last):
             return
@@ -58,34 +53,48 @@ class Journal:
             self._first = self._last = first
         for a, b in ((first, self._first), (self._last, last)):
             if a < b:
-                part = slice(a * self._columns, b * self._columns)
-                self._kept.append((part, [array[part].copy() for array in self._arrays]))
+                nodes = slice(a * self._columns, b * self._columns)
+                self._kept.append((nodes, [array[nodes].copy() for array in self._arrays]))
         self._first, self._last = min(first, self._first), max(last, self._last)
 
-    def fall(self, which: int, counted=None) -> float:
-        """Return by how much the sum of one array has fallen, over nodes where `counted` (all by default) is True."""
+    def decrease(self, which: int, counted=None) -> float:
+        """Return the decrease of the sum of one array since it was kept, in the unit of the array.
+
+        Parameters
+        ----------
+        which : int
+            Position of the array.
+        counted : ndarray of bool, shape (nodes,), optional
+            Nodes that count; values at others need not be numbers. None: all.
+        """
         array, total = self._arrays[which], 0.0
-        for part, copies in self._kept:
-            here = slice(None) if counted is None else counted[part]  # what is not counted may be no number
-            total += float(np.sum(copies[which][here] - array[part][here]))
+        for nodes, copies in self._kept:
+            here = slice(None) if counted is None else counted[nodes]
+            total += float(np.sum(copies[which][here] - array[nodes][here]))
         return total
 
-    def again(self, arrays) -> "Journal":
-        """Return a journal of some arrays over the same rows, as they are now."""
-        other = Journal(arrays, self._columns)
+    def renewed(self, arrays) -> "RowBackup":
+        """Return a backup of some arrays as they are now, of the same rows."""
+        other = RowBackup(arrays, self._columns)
         other._first, other._last = self._first, self._last
         if self._first < self._last:
             other._kept.append((self.nodes, [array[self.nodes].copy() for array in other._arrays]))
         return other
 
+    def copy(self) -> "RowBackup":
+        """Return a backup of the same arrays that holds the same rows and keeps further ones on its own."""
+        other = RowBackup(self._arrays, self._columns)
+        other._first, other._last, other._kept = self._first, self._last, list(self._kept)
+        return other
+
     def restore(self) -> None:
-        """Put everything back."""
-        for part, copies in self._kept:
+        """Write all kept rows back."""
+        for nodes, copies in self._kept:
             for array, copy in zip(self._arrays, copies, strict=True):
-                array[part] = copy
+                array[nodes] = copy
 
 
-class Spot:
+class NodeBackup:
     """Copies of node arrays at some nodes, made at once.
 
     Parameters
@@ -99,6 +108,6 @@ class Spot:
         self._kept = [array[nodes].copy() for array in arrays]
 
     def restore(self) -> None:
-        """Put everything back."""
+        """Write all kept values back."""
         for array, kept in zip(self._arrays, self._kept, strict=True):
             array[self._nodes] = kept

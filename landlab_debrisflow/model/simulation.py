@@ -74,6 +74,44 @@ class Simulation:
             self.rest.set_free(self.particles)
         bed_load.press(self)
 
+    def begin(self, bed: Bed, given, listener) -> None:
+        """Put the simulation on a bed and make particles of what fails.
+
+        Parameters
+        ----------
+        bed : Bed
+            The ground after it has failed.
+        given : GridInput
+            Terrain, release and parameters of laws, as plain arrays (`grid/read.py`).
+        listener : object
+            Its `begun()` is called at the end.
+        """
+        self.on(bed, given.terrain.status, given.parameters, given.terrain.changed)
+        if given.release.nodes.size:
+            self.release(given.release.nodes, given.release.depth)
+        listener.begun()
+
+    def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener) -> bool:
+        """Run a call: begin on a bed, and advance until `end` [s] or rest.
+
+        Parameters
+        ----------
+        bed, given
+            As for `begin`.
+        end, stop_at_rest, listener
+            As for `advance`; `listener.started(idle)` is called before the first step.
+
+        Returns
+        -------
+        bool
+            As `advance`.
+        """
+        self.begin(bed, given, listener)
+        if not (stop_at_rest and self.at_rest):
+            self.start(end)
+            listener.started(self.idle)
+        return self.advance(end, stop_at_rest, listener)
+
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
         y, raster = self.particles.y, self.bed.nodes
@@ -136,7 +174,7 @@ class Simulation:
         if self.particles.count:
             step.check(self)
 
-    def advance(self, end: float, stop_at_rest: bool = False, after_step=None, interrupted=None) -> bool:
+    def advance(self, end: float, stop_at_rest: bool = False, listener=None) -> bool:
         """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
 
         Parameters
@@ -145,10 +183,9 @@ class Simulation:
             [s]
         stop_at_rest : bool
             Return as soon as all is at rest; `time` tells when.
-        after_step : callable, optional
-            Called after every step with the time at which it began [s].
-        interrupted : callable, optional
-            Asked before every step without arguments. If it returns True the advance ends there.
+        listener : object, optional
+            Before every step `interrupted()` is called, and ends the advance if it returns True; after every step
+            `stepped(began, time, idle)`, with the times of its two ends [s] and whether nothing moves any more.
 
         Returns
         -------
@@ -156,7 +193,7 @@ class Simulation:
             True if all is done; False if it was interrupted: another advance to the same end goes on to the bit.
         """
         while self.time < end and not self.at_rest:
-            if interrupted is not None and interrupted():
+            if listener is not None and listener.interrupted():
                 return False
             if self.idle:
                 self.wait(end)
@@ -171,8 +208,8 @@ class Simulation:
             if self.matter.sleeps and self._steps % activity.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
                 activity.fall_asleep(self)
             self.rest.judge(self)
-            if after_step is not None:
-                after_step(began)
+            if listener is not None:
+                listener.stepped(began, self.time, self.idle)
         if not stop_at_rest and self.time < end:
             self._pass_time(end)
         return True

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from rich.console import Console
 
-from ..core.constants import EVERY_STEP
+from ..model.schedule import EVERY_STEP
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from .attributes import described

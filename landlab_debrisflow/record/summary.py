@@ -24,7 +24,7 @@ def html(flow) -> str:
 
 def _rows(flow) -> dict[str, str] | None:
     """Return what is to be told by name, or None if the component is not complete."""
-    if "_calls" not in vars(flow):
+    if "_call" not in vars(flow):
         return None
     budget = ", ".join(f"{name} {volume:.6g}" for name, volume in flow.budget.items())
     laws = ", ".join(f"{kind} {_name(kind, getattr(flow._physics, kind))}" for kind in LAWS)

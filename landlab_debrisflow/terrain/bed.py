@@ -5,6 +5,8 @@ subtraction: rounding does not pile up over thousands of steps, and elevation an
 Values of the beginning are kept when a node is first lowered: a large raster costs nothing.
 """
 
+from copy import copy
+
 import numpy as np
 
 from ..core.jit import kernel
@@ -13,7 +15,7 @@ from .surface import Surface
 
 
 class Bed:
-    """The ledger of erosion over one call.
+    """Erosion of the bed over one call.
 
     Parameters
     ----------
@@ -50,6 +52,15 @@ class Bed:
         self._demand = np.zeros((elevation.size, 1))
         self._share = np.empty(elevation.size)
         self._touched = np.empty(elevation.size, np.int64)
+
+    def copy(self) -> "Bed":
+        """Return a bed with accounts of its own, on the same elevation, soil and surface."""
+        other = copy(self)
+        other.taken, other._before = self.taken.copy(), self._before.copy()
+        if self.pore_pressure is not None:
+            other.pore_pressure = self.pore_pressure.copy()
+            other.pressure_ratio = other.pore_pressure.ratio
+        return other
 
     def erode(self, x, y, spread, wanted):
         """Take soil for particles that ask for it; those on one node share what is left there.

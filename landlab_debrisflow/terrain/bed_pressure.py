@@ -8,6 +8,8 @@ Soil that is eroded has the pressure ratio r_b = dp / p_liq, at most 1, p_liq be
 Only nodes that the flow lies on, or has just left, are looked at; all others drain when next they are.
 """
 
+from copy import copy
+
 import numpy as np
 
 from ..core.jit import kernel
@@ -40,6 +42,12 @@ class BedPressure:
         self._age = np.zeros(count)  # time to which `pressure` was brought, since the start [s]
         self._under = np.zeros(0, np.int64)  # nodes with a load
         self._sums, self._scratch = np.zeros((count, 2)), np.empty(count, np.int64)
+
+    def copy(self) -> "BedPressure":
+        """Return loads and times of its own for the same array of pressures."""
+        other = copy(self)
+        other.ratio, other._load, other._age = self.ratio.copy(), self._load.copy(), self._age.copy()
+        return other
 
     def carry(self, x, y, spread, force, time: float, dt: float) -> None:
         """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].

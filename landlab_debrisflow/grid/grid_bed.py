@@ -1,0 +1,115 @@
+"""The fields of a grid as the bed of the model, and the terrain as it was left; nothing costs a copy of the raster."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..physics.material import Material
+from ..spatial.transfer import Nodes
+from ..terrain.bed import Bed
+from ..terrain.bed_pressure import BedPressure
+from ..terrain.surface import Surface
+from .checks import CLOSED
+from .inflow_lines import check_strips
+from .release import take_off
+
+
+@dataclass
+class GridBed:
+    """The ground a component works on, from call to call.
+
+    Arrays over nodes are changed in place, everything else is replaced.
+    """
+
+    material: Material
+    eroded: np.ndarray  # (nodes,) depth eroded in all calls, whatever becomes of its field [m]
+    event_eroded: np.ndarray | None = None  # (nodes,) depth eroded in the event before the present call [m]
+    elevation: np.ndarray | None = None  # (nodes,) as the last call left it [m]
+    status: np.ndarray | None = None  # (nodes,) likewise
+    surface: Surface | None = None  # of that elevation
+
+    def copy(self) -> "GridBed":
+        """Return a copy that shares the arrays."""
+        return replace(self)
+
+    @property
+    def arrays(self) -> list:
+        """Arrays over nodes that a call changes in place."""
+        return [array for array in (self.eroded, self.elevation, self.event_eroded) if array is not None]
+
+    def matches(self, elevation, status) -> bool:
+        """Return whether elevation and status are as the last call left them."""
+        known = self.elevation is not None
+        return known and np.array_equal(self.elevation, elevation) and np.array_equal(self.status, status)
+
+    def lay(self, given, rows, inflow, time: float) -> Bed:
+        """Take off what fails and return the bed below it.
+
+        Parameters
+        ----------
+        given : GridInput
+            Its elevation, soil and release fields are changed.
+        rows : RowBackup
+            Keeps the rows that are changed.
+        inflow : Inflow
+            Is aimed down the ground where its direction is not given.
+        time : float
+            Time of the component [s].
+
+        Raises
+        ------
+        InputError
+            If the inflow would enter where there is no core node.
+        """
+        terrain, soil, release = given.terrain, given.soil, given.release
+        closed = terrain.status == CLOSED
+        if terrain.changed:
+            self.elevation, self.status = terrain.elevation.copy(), terrain.status
+        if terrain.changed or closed.any():  # what is filled into closed nodes follows those around
+            self.surface = None
+        if release.nodes.size:
+            failing = release.nodes // terrain.shape[1]
+            rows.keep_rows(failing.min(), failing.max() + 1)
+            take_off(release, terrain.elevation, soil.depth)
+            if self.surface is not None:
+                self.surface.move_to(release.nodes, terrain.elevation[release.nodes])
+        if self.surface is None:
+            shape = terrain.shape
+            self.surface = Surface(terrain.elevation.reshape(shape), terrain.spacing, closed.reshape(shape))
+        inflow.aim(self.surface)
+        check_strips(terrain, inflow)
+        if given.new_event:
+            self.event_eroded = None
+        return self._bed(terrain, soil, time)
+
+    def _bed(self, terrain, soil, time) -> Bed:
+        material, pore_pressure = self.material, None
+        nodes = Nodes(terrain.core, terrain.shape[1], *terrain.spacing)
+        if soil.pressure is not None:
+            drainage_time = np.inf if material.bed_drainage_time is None else material.bed_drainage_time
+            loading = material.bed_loading_coefficient
+            pore_pressure = BedPressure(nodes, soil.pressure, loading, drainage_time, time)
+            ratio = pore_pressure.ratio
+        elif soil.pressure_ratio is None:
+            ratio = np.array([material.bed_pressure_ratio])
+        else:
+            ratio = np.array(soil.pressure_ratio, float)
+        return Bed(
+            nodes, self.surface, terrain.elevation, soil.depth, self.eroded, ratio, soil.drained, pore_pressure,
+            self.event_eroded,
+        )  # fmt: skip
+
+    def note_end(self, bed: Bed, nodes: slice) -> None:
+        """Note elevation and erosion at the end of a call, which changed them at some nodes only."""
+        self.elevation[nodes] = bed.elevation[nodes]
+        if self.event_eroded is None:
+            self.event_eroded = bed.taken
+        else:
+            self.event_eroded[nodes] += bed.taken[nodes]
+
+    def restore_surface(self, elevation, nodes: slice) -> None:
+        """Move the surface to an elevation [m] at some nodes that was put back."""
+        if self.surface is not None:
+            moved = np.arange(nodes.start, nodes.stop)
+            moved = moved[self.status[moved] != CLOSED]  # what is filled into closed ones never changes
+            self.surface.move_to(moved, elevation[moved])

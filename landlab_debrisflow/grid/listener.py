@@ -1,0 +1,61 @@
+"""The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
+
+from ..model.schedule import due_after_step, due_at_start
+from .interruption import Interruption
+from .reports import Reports
+from .write import FieldWriter
+
+
+class CallListener:
+    """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
+
+    Observers see the grid as the end of a call would leave it, which is then taken back.
+
+    Parameters
+    ----------
+    flow : DebrisFlow
+        Is shown to its observers.
+    writer : FieldWriter
+    interruption : Interruption
+    """
+
+    def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
+        self._flow, self._writer, self._interruption = flow, writer, interruption
+        self._reports = Reports(flow)
+
+    def begun(self) -> None:
+        """The model lies on its bed and particles of a release are made."""
+        self._writer.begin()
+
+    def started(self, idle: bool) -> None:
+        """The first step is about to be made; `idle`: nothing moves yet."""
+        self._writer.keep_rows()
+        if not idle:
+            self._look(due_at_start(self._flow._observers))
+
+    def stepped(self, began: float, time: float, idle: bool) -> None:
+        """A step from `began` to `time` [s] was made; `idle`: nothing moves any more."""
+        self._writer.follow_step()
+        observers = self._flow._observers
+        self._look(observers if idle else due_after_step(observers, began, time))
+
+    def interrupted(self) -> bool:
+        """Return whether the run is to end before the next step."""
+        return self._interruption.requested
+
+    def ended(self, stop_at_rest: bool) -> None:
+        """The run has come to its end: write the results, settle what is at rest, log what there is to tell."""
+        with self._interruption.deferred():
+            self._writer.close(settle=self._flow.at_rest and self._flow._numerics.settle)
+            self._reports.tell(stop_at_rest)
+
+    def _look(self, observers) -> None:
+        """Let observers look; one that fails does not keep the others from it."""
+        if not observers:
+            return
+        with self._writer.present():
+            for observer in observers:
+                try:
+                    observer.observe(self._flow)
+                except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
+                    self._interruption.add_failure(failure)

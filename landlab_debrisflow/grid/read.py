@@ -1,0 +1,139 @@
+"""Fields of a grid, checked, as plain arrays: everything of a grid that the model ever gets.
+
+Arrays over nodes share the memory of the fields, so that erosion and deposit appear in them without a copy of the
+raster. Nothing is written here.
+"""
+
+import logging
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.parameters import on_nodes
+from . import checks, doubts, plausible
+from .inflow_lines import check_lines
+from .release import NO_RELEASE, Release, read_release
+
+log = logging.getLogger("landlab_debrisflow")
+
+BED_PRESSURE = "bed__excess_pore_pressure"
+
+
+class Terrain(NamedTuple):
+    """Shape of the ground."""
+
+    elevation: np.ndarray  # (nodes,) [m]
+    status: np.ndarray  # (nodes,) uint8, as Landlab numbers node statuses
+    shape: tuple  # rows, columns
+    spacing: tuple  # dx, dy [m]
+    lower_left: tuple  # map coordinates of the first node [m]
+    changed: bool  # whether elevation or status differ from what the last call left
+
+    @property
+    def core(self):
+        """Nodes that may hold material, ndarray of bool, shape (nodes,)."""
+        return self.status == checks.CORE
+
+
+class Soil(NamedTuple):
+    """State of the ground below the flow; each may be None: not given."""
+
+    depth: np.ndarray | None  # (nodes,) erodible depth [m]
+    pressure_ratio: np.ndarray | None  # (nodes,) excess pore pressure over its liquefaction value [-]
+    pressure: np.ndarray | None  # (nodes,) excess pore pressure that follows the load [Pa]
+    drained: np.ndarray | None  # (nodes,) bool
+
+
+class GridInput(NamedTuple):
+    """Input of one call."""
+
+    terrain: Terrain
+    soil: Soil
+    release: Release
+    parameters: dict  # by kind of law, NamedTuple of arrays (nodes,) or (1,) in SI units
+    new_event: bool  # whether nothing was moving and nothing had yet to flow in
+    warned: frozenset  # kinds of doubt that have been logged so far
+
+
+class GridReader:
+    """Reads the fields of a grid at the beginning of each call.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        Gets the field of the bed's pore pressure if the material asks for it and it is missing.
+    physics : Physics
+    inflow : Inflow
+    """
+
+    def __init__(self, grid, physics, inflow):
+        self._grid, self._inflow = grid, inflow
+        self._loaded = physics.material.bed_loading_coefficient > 0.0
+        if self._loaded and BED_PRESSURE not in grid.at_node:
+            grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
+        self.laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
+        checks.check_parameters(grid, self.laws)
+
+    def read(self, grid_bed, carried: bool, warned: frozenset, with_release: bool = True) -> GridInput:
+        """Read and check all fields.
+
+        Parameters
+        ----------
+        grid_bed : GridBed
+            Terrain as the last call left it.
+        carried : bool
+            Whether the model carries particles.
+        warned : frozenset of str
+            Kinds of doubt not to be logged again.
+        with_release : bool
+            Whether to read what fails.
+
+        Raises
+        ------
+        InputError
+            If a value is not usable.
+        """
+        grid, new_event = self._grid, not carried and self._inflow.over
+        checks.check_types(grid)
+        terrain = self._read_terrain(grid_bed)
+        soil = self._read_soil()
+        checks.check_parameters(grid, self.laws)
+        parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
+        check_lines(terrain, self._inflow)
+        release = read_release(grid, soil.depth) if with_release else NO_RELEASE
+        warned |= self._warn(release, soil, new_event, warned)
+        return GridInput(terrain, soil, release, parameters, new_event, warned)
+
+    def _read_terrain(self, grid_bed) -> Terrain:
+        grid, elevation = self._grid, self._field("topographic__elevation")
+        status = np.array(grid.status_at_node)
+        changed = not grid_bed.matches(elevation, status)
+        if changed:
+            checks.check_boundaries(grid)
+            plausible.check_elevation(grid, elevation)
+        shape, spacing = tuple(map(int, grid.shape)), (float(grid.dx), float(grid.dy))
+        return Terrain(elevation, status, shape, spacing, tuple(map(float, grid.xy_of_lower_left)), changed)
+
+    def _read_soil(self) -> Soil:
+        ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
+        soil = Soil(self._field("soil__depth"), ratio, self._field(BED_PRESSURE) if self._loaded else None, drained)
+        checks.check_bed(self._grid, soil.depth, ratio, drained)
+        if self._loaded:
+            checks.check_loaded_bed(self._grid, ratio, soil.pressure)
+        return soil._replace(drained=None if drained is None else drained > 0.0)
+
+    def _field(self, name):
+        """Return the values of a field, sharing its memory, or None if the grid does not have it."""
+        return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
+
+    def _warn(self, release, soil, new_event, warned) -> set:
+        """Log what is odd about the release, unless that has been logged before; return the kinds of doubt."""
+        logged = set()
+        for doubt in () if "depth" in warned else doubts.about_release(self._grid, release.nodes, release.depth):
+            log.warning("%s", doubt)
+            logged.add("depth")
+        if release.nodes.size == 0 and new_event and "nothing" not in warned:
+            found = doubts.about_nothing(self._grid, soil.depth)
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
+            logged.add("nothing")
+        return logged

@@ -1,0 +1,104 @@
+"""The ground that fails: read from the grid, checked, taken off elevation and soil."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.errors import InputError
+from .checks import CLOSED, where
+from .fills import is_fill, replace_them
+
+RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id"
+
+
+class Release(NamedTuple):
+    """Ground that is about to fail."""
+
+    nodes: np.ndarray  # (n,) int
+    depth: np.ndarray  # (n,) vertical thickness [m]
+    volume: float  # [m3]
+    requests: tuple  # fields that ask for it, each (nodes,); 0 once it has been taken
+
+
+NO_RELEASE = Release(np.zeros(0, int), np.zeros(0), 0.0, ())
+
+
+def read_release(grid, soil) -> Release:
+    """Return the release that the fields of a grid ask for; nothing is changed.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+    soil : ndarray, shape (nodes,), or None
+        Depth of the soil [m].
+
+    Raises
+    ------
+    InputError
+        If a thickness is negative, not on core nodes, or deeper than the soil.
+    """
+    at = grid.at_node
+    nodes, depth = _nonzero(grid, np.asarray(at[RELEASE_DEPTH]))
+    check_release(grid, RELEASE_DEPTH, nodes, depth, soil)
+    if nodes.size == 0 and soil is not None and MASS_WASTING_ID in at:
+        ids = np.asarray(at[MASS_WASTING_ID])
+        nodes = np.flatnonzero((ids > 0) & (soil != 0.0))
+        if (fills := nodes[is_fill(ids[nodes])]).size:
+            raise InputError(
+                f"{MASS_WASTING_ID} is {ids[fills[0]]} at {where(grid, fills[0])}, and the whole soil would fail there"
+                f"{replace_them(MASS_WASTING_ID, ids, ids[fills[0]])}"
+            )
+        depth = soil[nodes]
+        check_release(grid, f"soil__depth where {MASS_WASTING_ID} > 0", nodes, depth, soil)
+    requests = tuple(np.asarray(at[name]) for name in (RELEASE_DEPTH, MASS_WASTING_ID) if name in at)
+    return Release(nodes, depth, float(depth.sum() * grid.dx * grid.dy), requests)
+
+
+def take_off(release: Release, elevation, soil) -> None:
+    """Take a release off elevation and soil [m], and set the fields that asked for it to 0 there, all in place.
+
+    Parameters
+    ----------
+    release : Release
+    elevation, soil : ndarray, shape (nodes,)
+        Changed; the soil may be None.
+    """
+    elevation[release.nodes] -= release.depth
+    if soil is not None:
+        soil[release.nodes] -= release.depth
+    for request in release.requests:
+        request[release.nodes] = 0
+
+
+def check_release(grid, name: str, nodes, depth, soil) -> None:
+    """Refuse a release that is negative, not on core nodes, or deeper than the soil."""
+
+    def first(bad):
+        return (depth[bad][0], nodes[bad][0]) if bad.any() else None
+
+    if found := first(~np.isfinite(depth)):
+        raise InputError(f"{name} must be finite, got {found[0]} at {where(grid, found[1])}; set 0 where nothing fails")
+    if found := first((depth < 0.0) | is_fill(depth)):
+        allowed = ">= 0 m" if found[0] < 0.0 else "a thickness"
+        raise InputError(
+            f"{name} must be {allowed}, got {found[0]:g} at {where(grid, found[1])}; give the thickness that fails as "
+            f"a positive number and 0 elsewhere{replace_them(name, depth, found[0])}"
+        )
+    if found := first(grid.status_at_node[nodes] != 0):
+        raise InputError(
+            f"{name} is {found[0]:g} m on {where(grid, found[1])}, a boundary or closed node; "
+            "release only on core nodes: set 0 there, or use a larger DEM"
+        )
+    if soil is not None and (found := first(depth > soil[nodes])):
+        raise InputError(
+            f"{name} is deeper than soil__depth at {np.count_nonzero(depth > soil[nodes])} nodes, the first is "
+            f"{where(grid, found[1])}: {found[0]:g} m > {soil[found[1]]:g} m; raise soil__depth there, or clip the "
+            "release with np.minimum"
+        )
+
+
+def _nonzero(grid, field):
+    """Return the nodes where a field is not 0 (NaN is not), on closed ones a thickness, and its values there."""
+    nodes = np.flatnonzero(field)
+    nodes = nodes[(grid.status_at_node[nodes] != CLOSED) | ((field[nodes] > 0.0) & ~is_fill(field[nodes]))]
+    return nodes, field[nodes]

@@ -1,0 +1,142 @@
+"""Undo of a call, and the way back into one that was interrupted.
+
+A call that fails leaves grid and model as they were. One that is interrupted ends like any other: fields and model show
+the present. But the state between its two steps is kept, and if nobody has changed the grid the next call goes on from
+there, so that in the end nothing tells that there was an interruption.
+"""
+
+from contextlib import contextmanager
+from hashlib import blake2b
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.memento import Memento
+from ..core.variables import NODE_FIELDS
+from .interruption import Interruption
+from .outputs import Outputs
+from .row_backup import NodeBackup, RowBackup
+from .write import FieldWriter
+
+
+class Moment:
+    """Fields, model and border as they are now.
+
+    Parameters
+    ----------
+    writer : FieldWriter
+    rows : RowBackup
+        Node arrays that a call changes; goes on keeping rows.
+    """
+
+    def __init__(self, writer: FieldWriter, rows: RowBackup):
+        simulation = writer.simulation
+        self.rows, self._writer = rows, writer
+        self._draining = NodeBackup(writer.draining, slice(None))
+        self._border = writer.state.copy()
+        laws = [simulation.physics, *vars(simulation.physics).values(), simulation.numerics]
+        self._model = Memento([simulation], [simulation.bed, *laws])
+
+    def restore(self) -> None:
+        """Go back, as often as wanted."""
+        writer, surface = self._writer, self._writer.state.grid_bed.surface
+        self._draining.restore()
+        self.rows.restore()
+        writer.state = self._border.copy()
+        self._model.restore()
+        if writer.state.bed is not None:
+            writer.simulation.bed = writer.state.bed
+        if writer.state.grid_bed.surface is surface:  # else it was made in the call that is undone
+            writer.state.grid_bed.restore_surface(writer.elevation, self.rows.nodes)
+
+
+class InterruptedCall(NamedTuple):
+    """A call that has not come to its end."""
+
+    moment: Moment  # between its last two steps
+    end: float  # time until which it should have gone [s]
+    fingerprint: tuple  # of the grid as it was left
+
+
+class Rollback:
+    """Guards every call of a component: undo, interruptions, and outputs of several components on one grid.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+    laws : mapping of str to object
+        Laws that may read fields.
+    writer : FieldWriter
+    interruption : Interruption
+    outputs : Outputs
+
+    Attributes
+    ----------
+    interrupted : InterruptedCall or None
+    """
+
+    def __init__(self, grid, laws, writer: FieldWriter, interruption: Interruption, outputs: Outputs):
+        self._grid, self._laws, self._writer = grid, laws, writer
+        self._interruption, self._outputs = interruption, outputs
+        self.interrupted = None
+
+    @contextmanager
+    def around_call(self):
+        """Run a call as a block that changes all or nothing; give the interrupted call that goes on in it, or None.
+
+        Raises
+        ------
+        InputError
+            If another call runs.
+        KeyboardInterrupt, or what an observer raised
+            After the block.
+        """
+        with self._interruption, self._outputs.shown(), self.all_or_nothing() as earlier:
+            yield earlier
+        self._interruption.raise_cause(self._writer.simulation.time, done=self.interrupted is None)
+
+    @contextmanager
+    def all_or_nothing(self):
+        """Undo the block if it raises anything; give the interrupted call that goes on in it, or None."""
+        writer, earlier = self._writer, self.interrupted
+        if earlier is not None and earlier.fingerprint != self._fingerprint():
+            earlier = None
+        columns = self._grid.number_of_node_columns
+        moment = Moment(writer, RowBackup(writer.changed_arrays, columns)) if earlier is None else earlier.moment
+        latest, self.interrupted = self.interrupted, None
+        try:
+            with self._interruption.deferred():
+                if earlier is not None:
+                    moment.restore()
+                writer.rows = moment.rows
+            yield earlier
+        except BaseException as failure:
+            with self._interruption.deferred():
+                moment.restore()
+                if earlier is not None:
+                    writer.rows = moment.rows
+                    writer.close()
+                self.interrupted = latest
+            if isinstance(failure, KeyboardInterrupt):
+                failure.add_note("interrupted within a step: grid and model are as they were before the call")
+            raise
+        finally:
+            writer.rows = None
+
+    def break_off(self, end: float) -> None:
+        """Close a call that should go on until `end` [s], and keep what is needed to go on as if it had not ended."""
+        writer = self._writer
+        with self._interruption.deferred():
+            moment = Moment(writer, writer.rows.renewed(writer.changed_arrays))
+            writer.close()
+            self.interrupted = InterruptedCall(moment, end, self._fingerprint())
+
+    def _fingerprint(self) -> tuple:
+        """Return a value that differs once statuses, fields of the component or fields that its laws read differ."""
+        at, names = self._grid.at_node, {field.name for field in NODE_FIELDS}
+        for law in self._laws.values():
+            names.update(value for value in getattr(law, "__dict__", {}).values() if isinstance(value, str))
+        arrays = {name: at[name] for name in names & set(at)}
+        places = {name: array.ctypes.data for name, array in arrays.items()}
+        arrays["status"] = self._grid.status_at_node
+        return places, {name: blake2b(np.ascontiguousarray(array)).digest() for name, array in arrays.items()}
