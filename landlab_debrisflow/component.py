@@ -6,9 +6,9 @@ from typing import ClassVar
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
-from .core.variables import NODE_FIELDS
 from .grid import checks, doubts
 from .grid.call import Calls
+from .grid.fields import NODE_FIELDS
 from .grid.inflow_lines import read_hydrographs
 from .grid.outputs import Outputs, check_continued
 from .model.inflow.source import Inflow

@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.variables import OUTPUT_PREFIX
 from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
 from ..spatial.transfer import REACH
 from . import checks, doubts, looks
 from .budget import Ledger
+from .fields import OUTPUT_PREFIX
 from .ground import Ground
 from .inflow_lines import check_lines, check_strips
 from .interruption import Interruption
