@@ -6,9 +6,9 @@ from typing import ClassVar
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
-from .core.variables import NODE_FIELDS
 from .grid import checks, doubts
 from .grid.call import GridCall
+from .grid.fields import NODE_FIELDS, no_new_fields
 from .grid.inflow_lines import read_hydrographs
 from .model.inflow.source import Inflow
 from .model.numerics import Numerics

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.errors import InputError
 from ..core.hints import did_you_mean, give_number, plain
 from ..core.parameters import NodeValues, check_values
-from ..core.variables import NODE_FIELDS
+from .fields import NODE_FIELDS
 from .fills import LEAST_FILL, is_fill, replace_them
 
 CORE, FIXED_GRADIENT, LOOPED, CLOSED = 0, 2, 3, 4  # node statuses of Landlab

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.memento import Memento
-from ..core.variables import NODE_FIELDS
+from .fields import NODE_FIELDS
 from .interruption import Interruption
 from .outputs import Outputs
 from .row_backup import NodeBackup, RowBackup

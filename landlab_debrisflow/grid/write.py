@@ -5,10 +5,10 @@ from copy import copy
 
 import numpy as np
 
-from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX
 from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
+from .fields import NODE_FIELDS, OUTPUT_PREFIX
 from .grid_bed import GridBed
 from .interruption import Interruption
 from .outputs import DEPOSIT, ERODED

@@ -34,7 +34,7 @@ class Rest:
 
     def look(self, p) -> None:
         """Tell the bodies of particles `p` apart; those that were arrested move with what has touched them."""
-        self._steps, self._known = 0, p.roll[1]
+        self._steps, self._known = 0, p.ever
         if p.count == 0:
             return
         peak = self._peak_of(p)
@@ -63,7 +63,7 @@ class Rest:
             self.all = False
             return
         touched = True
-        if self._steps < STEPS_BETWEEN_LOOKS and p.roll[1] == self._known:
+        if self._steps < STEPS_BETWEEN_LOOKS and p.ever == self._known:
             energy, slow, free, touched = self._measure(sim, part)
         if touched:
             self.look(p)

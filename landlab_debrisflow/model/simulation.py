@@ -19,6 +19,7 @@ from .release.release import release_particles
 from .rest import Rest
 from .stopped import Stopped
 from .time_step import Pace
+from .variables import particle_variables
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -36,9 +37,10 @@ class Simulation:
 
     def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
-        self.particles = Particles(physics.column.levels)
-        self.origins = Origins()
         self.matter = Mixture(physics) if physics.two_phases else Single(physics)
+        laws = (physics.flow, physics.friction, physics.erosion, physics.column, self.matter)
+        self.particles = Particles(physics.column.levels, particle_variables(physics.column, laws))
+        self.origins = Origins()
         self.time = 0.0
         self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
         self.rest = Rest()

@@ -179,11 +179,12 @@ def interact(sim) -> None:
         return
     longest, light = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness), p.light
     np.copyto(longest, p.usual_length, where=light)
-    mixture = MixtureState(p.share, p.cross_term, p.mean_excess_pore_pressure)
+    zero = np.zeros(p.count)
+    mixture = MixtureState(p.share, getattr(p, "cross_term", zero), getattr(p, "mean_excess_pore_pressure", zero))
     state = FlowState(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, longest,
-        p.own_thickness, p.thickening, p.gradient_term, sim.cosine, p.density, p.phase, p.share, p.cross_term,
-        p.mean_excess_pore_pressure, material.gravity, material, mixture,
+        p.own_thickness, p.thickening, p.gradient_term, sim.cosine, p.density, p.phase, *mixture,
+        material.gravity, material, mixture,
     )  # fmt: skip
     changed = p.still_steps < STEPS_TO_SLEEP
     if sim.walled:

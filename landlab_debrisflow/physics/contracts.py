@@ -37,7 +37,7 @@ class ColumnState(NamedTuple):
     """
 
     profile: Array  # (n, levels) [Pa]
-    memory: Array  # (n, core.variables.COLUMN_MEMORY), the law's own
+    memory: Array  # (n, the law's memory_size)
     clipped: Array  # (n,), pressure taken off by the bounds, times thickness, so far [Pa m]
 
 
@@ -81,6 +81,7 @@ class ColumnLaw(Protocol):
     """Excess pore pressure under a particle."""
 
     stores_pressure: ClassVar[bool]  # whether a source of pressure raises the pressure in the column
+    memory_size: ClassVar[int]  # numbers that the law keeps per column from call to call
 
     @property
     def levels(self) -> int:

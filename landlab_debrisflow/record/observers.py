@@ -17,9 +17,9 @@ import numpy as np
 import xarray as xr
 from rich.console import Console
 
-from ..model.schedule import EVERY_STEP
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
+from ..model.schedule import EVERY_STEP
 from .attributes import described
 from .datasets import join
 from .files import check_writable, write_dataset

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
-from landlab_debrisflow.core.variables import NODE_FIELDS
+from landlab_debrisflow.grid.fields import NODE_FIELDS
 from validation.grids import COARSE, changed_fields, copy_fields, inclined, release_slab
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"

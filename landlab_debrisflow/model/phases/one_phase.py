@@ -19,6 +19,8 @@ class Single:
     physics : Physics
     """
 
+    variables = ()
+
     parts = ((MIXTURE, 1.0),)
     """What of a volume goes into which particles: phase and part."""
 

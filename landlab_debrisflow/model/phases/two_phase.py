@@ -8,6 +8,7 @@ with weights that sum to 1, so what one gives the other gets, to the last digit.
 import numpy as np
 
 from ...core.jit import kernel
+from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.cross_summation import find_partners
 from .. import walls
@@ -38,6 +39,12 @@ class Mixture:
     physics : Physics
         With a flow law of two phases.
     """
+
+    variables = (
+        Variable("cross_term", "-", "grad-h term of the other phase", written=False),
+        Variable("mean_excess_pore_pressure", "Pa", "its depth mean", written=False),
+        Variable("porosity_before", "-", "before the flow of the step changed it", written=False),
+    )
 
     sleeps = False
     """It would save 1 to 2 %, and partners would have to follow."""
@@ -74,10 +81,10 @@ class Mixture:
         self.manning = np.zeros(1)
         if law.manning_coefficient > 0.0:
             self.manning = material.gravity * law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
-        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
+        if p.generation != self._found_for or self._found == STEPS_WITH_PARTNERS:
             self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
             make_whole(*self.partners, p.porosity, p.volume)
-            self._found_for, self._found = p.roll, 0
+            self._found_for, self._found = p.generation, 0
         self._found += 1
 
     def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
