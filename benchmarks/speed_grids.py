@@ -52,7 +52,7 @@ class Touched:
 @contextmanager
 def counting_nodes():
     """Count nodes that erosion shares out and that the record looks at, and those copied before a change."""
-    touched, erode, scatter, cover = Touched(), bed._erode, peak_maps.scatter, row_backup.Journal.cover
+    touched, erode, scatter, cover = Touched(), bed._erode, peak_maps.scatter, row_backup.RowBackup.keep_rows
 
     def counted_erode(*arguments):
         count = erode(*arguments)
@@ -72,7 +72,7 @@ def counting_nodes():
     with (
         mock.patch.object(bed, "_erode", counted_erode),
         mock.patch.object(peak_maps, "scatter", counted_scatter),
-        mock.patch.object(row_backup.Journal, "cover", counted_cover),
+        mock.patch.object(row_backup.RowBackup, "keep_rows", counted_cover),
     ):
         yield touched
 

@@ -20,7 +20,7 @@ os.environ["NUMBA_CACHE_DIR"] = os.path.join(
 import numpy as np  # noqa: E402  numba must not be imported before the line above
 import pytest  # noqa: E402
 
-from landlab_debrisflow.grid.call import Calls  # noqa: E402
+from landlab_debrisflow.grid.call import GridCall  # noqa: E402
 from validation.grids import inclined, release_slab  # noqa: E402
 
 
@@ -43,7 +43,7 @@ def valley():
 @pytest.fixture(autouse=True)
 def every_call_balances(monkeypatch):
     """In every test and example: volume, and the elevation the call left, against the budget, to round-off."""
-    run, known = Calls.run, {}
+    run, known = GridCall.run, {}
 
     def checked(calls, duration, stop_at_rest):
         flow = calls.flow
@@ -62,4 +62,4 @@ def every_call_balances(monkeypatch):
         assert abs(after["residual"]) <= tolerance + known[flow]
         assert abs(rise - (gain["deposited"] - gain["released"] - gain["eroded"])) <= tolerance + rounding
 
-    monkeypatch.setattr(Calls, "run", checked)
+    monkeypatch.setattr(GridCall, "run", checked)

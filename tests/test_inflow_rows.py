@@ -22,8 +22,8 @@ def hill():
 
 def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hill):
     flow = DebrisFlow(hill, inflow=LINE | {"times": [0, 100], "discharge": 40, "velocity": 4}, numerics=COARSE)
-    with flow._calls.all_or_nothing():
-        flow._calls.begin()
+    with flow._call.rollback.all_or_nothing():
+        flow._call.begin()
     simulation = flow._simulation
     simulation.inflow.enter(simulation, 50.0)
     p, cosine = simulation.particles, 1.0 / np.hypot(1.0, 0.5)

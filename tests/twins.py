@@ -80,7 +80,7 @@ def build(name, observers=(), **grid):
 SCRATCH = {"_touched", "_share", "_scratch", "_before"}
 """Arrays that are written before they are read."""
 
-HISTORY = {"_interrupted", "interruption"}
+HISTORY = {"interrupted", "interruption", "_interruption"}
 """What a flow may go back to, and what was the matter in its last call."""
 
 
@@ -91,7 +91,7 @@ def state(flow):
     """
     found = {f"field {name}": values.tobytes() for name, values in flow.grid.at_node.items()}
     found["status"] = flow.grid.status_at_node.tobytes()
-    _collect("flow", flow._calls, found, {id(flow), id(flow.grid), id(flow._physics), id(flow._numerics)})
+    _collect("flow", flow._call, found, {id(flow), id(flow.grid), id(flow._physics), id(flow._numerics)})
     return found
 
 

@@ -52,7 +52,7 @@ class GridInput(NamedTuple):
     release: Release
     parameters: dict  # by kind of law, NamedTuple of arrays (nodes,) or (1,) in SI units
     new_event: bool  # whether nothing was moving and nothing had yet to flow in
-    warned: frozenset  # kinds of doubt that have been logged so far
+    warned: tuple  # kinds of doubt that have been logged so far
 
 
 class GridReader:
@@ -74,7 +74,7 @@ class GridReader:
         self.laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
         checks.check_parameters(grid, self.laws)
 
-    def read(self, grid_bed, carried: bool, warned: frozenset, with_release: bool = True) -> GridInput:
+    def read(self, grid_bed, carried: bool, warned: tuple, with_release: bool = True) -> GridInput:
         """Read and check all fields.
 
         Parameters
@@ -83,7 +83,7 @@ class GridReader:
             Terrain as the last call left it.
         carried : bool
             Whether the model carries particles.
-        warned : frozenset of str
+        warned : tuple of str
             Kinds of doubt not to be logged again.
         with_release : bool
             Whether to read what fails.
@@ -101,7 +101,7 @@ class GridReader:
         parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
         check_lines(terrain, self._inflow)
         release = read_release(grid, soil.depth) if with_release else NO_RELEASE
-        warned |= self._warn(release, soil, new_event, warned)
+        warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
 
     def _read_terrain(self, grid_bed) -> Terrain:
@@ -126,14 +126,14 @@ class GridReader:
         """Return the values of a field, sharing its memory, or None if the grid does not have it."""
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
-    def _warn(self, release, soil, new_event, warned) -> set:
-        """Log what is odd about the release, unless that has been logged before; return the kinds of doubt."""
-        logged = set()
+    def _warn(self, release, soil, new_event, warned) -> tuple:
+        """Log what is odd about the release, unless that has been logged before; return the kinds of doubt logged."""
+        logged = ()
         for doubt in () if "depth" in warned else doubts.about_release(self._grid, release.nodes, release.depth):
             log.warning("%s", doubt)
-            logged.add("depth")
+            logged = ("depth",)
         if release.nodes.size == 0 and new_event and "nothing" not in warned:
             found = doubts.about_nothing(self._grid, soil.depth)
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
-            logged.add("nothing")
+            logged = ("nothing",)
         return logged

@@ -21,8 +21,8 @@ class GridState:
     grid_bed: GridBed
     settled: np.ndarray  # (nodes,) depth laid down in all calls [m]
     budget: VolumeBudget
-    written: slice = slice(0, 0)  # nodes that calls may have written so far
-    warned: frozenset = frozenset()  # kinds of doubt that have been logged
+    written: slice  # nodes that calls may have written so far
+    warned: tuple = ()  # kinds of doubt that have been logged
     bed: Bed | None = None  # of the call that runs
     peak_maps: Footprint | None = None  # of the call that runs
 

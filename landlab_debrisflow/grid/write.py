@@ -37,7 +37,7 @@ class FieldWriter:
         self._grid, self.simulation, self._interruption = grid, simulation, interruption
         eroded, settled = np.zeros(grid.number_of_nodes), np.zeros(grid.number_of_nodes)
         budget = VolumeBudget(grid.dx * grid.dy)
-        self.state = GridState(GridBed(simulation.physics.material, eroded), settled, budget)
+        self.state = GridState(GridBed(simulation.physics.material, eroded), settled, budget, slice(0, 0))
         self.rows = None
 
     @property

@@ -94,20 +94,7 @@ class Simulation:
         listener.begun()
 
     def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener) -> bool:
-        """Run a call: begin on a bed, and advance until `end` [s] or rest.
-
-        Parameters
-        ----------
-        bed, given
-            As for `begin`.
-        end, stop_at_rest, listener
-            As for `advance`; `listener.started(idle)` is called before the first step.
-
-        Returns
-        -------
-        bool
-            As `advance`.
-        """
+        """Begin on a bed and advance, as `begin` and `advance`; call `listener.started(idle)` before the first step."""
         self.begin(bed, given, listener)
         if not (stop_at_rest and self.at_rest):
             self.start(end)

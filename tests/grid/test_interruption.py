@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from landlab_debrisflow.grid.call import Calls
+from landlab_debrisflow.grid.write import FieldWriter
 from landlab_debrisflow.model import step
 from landlab_debrisflow.record.files import write_atomically
 from landlab_debrisflow.record.observers import Snapshots
@@ -92,11 +92,12 @@ def test_ctrl_c_in_the_last_step_lets_the_call_come_to_its_end(expected, monkeyp
 def test_ctrl_c_in_a_call_without_steps(monkeypatch):
     flow = build("eroding")
     flow.run_until_rest()
-    monkeypatch.setattr(flow._calls, "begin", lambda *a, begin=flow._calls.begin, **k: (press(), begin(*a, **k)))
+    reader, read = flow._call._reader, flow._call._reader.read
+    monkeypatch.setattr(reader, "read", lambda *a: (press(), read(*a))[1])
     with pytest.raises(KeyboardInterrupt):
         flow.run_one_step(5.0)
     monkeypatch.undo()
-    assert flow.at_rest and flow._calls._interrupted is None
+    assert flow.at_rest and flow._call.rollback.interrupted is None
 
 
 @pytest.mark.parametrize("stage", ["friction_and_kick", "move", "interact", "consolidate"])
@@ -120,8 +121,8 @@ def test_ctrl_c_again_and_again_does_not_disturb_the_way_back(expected, monkeypa
         flow.run_until_rest()
     flow._observers, before = (), state(flow)
     during_a_step(monkeypatch, 10, lambda: press(2))
-    close, closed = Calls._close, []
-    monkeypatch.setattr(Calls, "_close", lambda *a: (press(3), close(*a), press(3), closed.append(1)))
+    close, closed = FieldWriter.close, []
+    monkeypatch.setattr(FieldWriter, "close", lambda *a: (press(3), close(*a), press(3), closed.append(1)))
     with pytest.raises(KeyboardInterrupt):
         flow.run_until_rest()
     monkeypatch.undo()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import InputError
-from landlab_debrisflow.grid.call import Calls
+from landlab_debrisflow.grid.write import FieldWriter
 from landlab_debrisflow.record.observers import EVERY_STEP
 from validation.grids import changed_fields, copy_fields
 
@@ -112,18 +112,19 @@ def test_an_observer_may_not_run_the_flow(call):
 
 @pytest.mark.parametrize("name", SCENES)
 def test_nothing_of_a_look_stays_on_the_grid(name, monkeypatch):
-    showing, shown = Calls._showing, set()
+    present, shown = FieldWriter.present, set()
 
     @contextmanager
-    def checked(calls):
-        before, inside = copy_fields(calls.flow.grid), state(calls.flow)
-        with showing(calls):
-            shown.update(changed_fields(calls.flow.grid, before))
+    def checked(writer):
+        before, inside = copy_fields(flow.grid), state(flow)
+        with present(writer):
+            shown.update(changed_fields(flow.grid, before))
             yield
-        assert not changed_fields(calls.flow.grid, before) and not different(state(calls.flow), inside)
+        assert not changed_fields(flow.grid, before) and not different(state(flow), inside)
 
-    monkeypatch.setattr(Calls, "_showing", checked)
-    build(name, [SimpleNamespace(interval=EVERY_STEP, observe=lambda flow: None)]).run_until_rest(HORIZON)
+    monkeypatch.setattr(FieldWriter, "present", checked)
+    flow = build(name, [SimpleNamespace(interval=EVERY_STEP, observe=lambda flow: None)])
+    flow.run_until_rest(HORIZON)
     assert {"debris_flow__depth", "debris_flow__deposit_depth", "debris_flow__max_run_up"} <= shown
 
 

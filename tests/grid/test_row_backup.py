@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.grid.row_backup import MARGIN, Journal
+from landlab_debrisflow.grid.row_backup import MARGIN, RowBackup
 
 ROWS, COLUMNS = 200, 3
 
@@ -20,12 +20,12 @@ def rows(first, last):
 
 def test_what_was_covered_comes_back_and_nothing_else_is_touched(arrays):
     before = [array.copy() for array in arrays]
-    journal = Journal(arrays, COLUMNS)
-    journal.cover(100, 103)
+    backup = RowBackup(arrays, COLUMNS)
+    backup.keep_rows(100, 103)
     for array in arrays:
         array[:] = 77
-    journal.restore()
-    kept = journal.nodes
+    backup.restore()
+    kept = backup.nodes
     assert (kept.start, kept.stop) == ((100 - MARGIN) * COLUMNS, (103 + MARGIN) * COLUMNS)
     for array, old in zip(arrays, before, strict=True):
         np.testing.assert_array_equal(array[kept], old[kept])
@@ -35,44 +35,44 @@ def test_what_was_covered_comes_back_and_nothing_else_is_touched(arrays):
 @pytest.mark.parametrize("asked", [[(140, 150)], [(40, 50)], [(40, 150)], [(140, 150), (40, 50)], [(0, ROWS)]])
 def test_rows_that_are_covered_later_are_kept_as_they_are_then(arrays, asked):
     """The flow moves on, to either side or both: rows kept before stay as they were first."""
-    journal = Journal(arrays, COLUMNS)
-    journal.cover(100, 103)
-    first, original = journal.nodes, arrays[0].copy()
+    backup = RowBackup(arrays, COLUMNS)
+    backup.keep_rows(100, 103)
+    first, original = backup.nodes, arrays[0].copy()
     arrays[0][first] += 1.0
     for a, b in asked:
-        journal.cover(a, b)
+        backup.keep_rows(a, b)
         arrays[0][rows(a, b)] -= 0.25
-    kept = journal.nodes
+    kept = backup.nodes
     assert kept.start <= min(first.start, min(asked)[0] * COLUMNS)
     assert kept.stop >= max(first.stop, max(b for _, b in asked) * COLUMNS)
-    assert journal.fall(0) == pytest.approx(np.sum(original - arrays[0]), abs=1e-12)
-    journal.restore()
+    assert backup.decrease(0) == pytest.approx(np.sum(original - arrays[0]), abs=1e-12)
+    backup.restore()
     np.testing.assert_array_equal(arrays[0], original)
 
 
 def test_a_fall_counts_what_it_is_told_to(arrays):
-    journal = Journal(arrays, COLUMNS)
-    journal.cover(10, 12)
+    backup = RowBackup(arrays, COLUMNS)
+    backup.keep_rows(10, 12)
     counted = np.zeros(ROWS * COLUMNS, bool)
     counted[30] = True
     arrays[0][30:36] -= 0.5
     arrays[1][33] -= 2
-    assert journal.fall(0) == pytest.approx(3.0) and journal.fall(0, counted) == pytest.approx(0.5)
-    assert journal.fall(1) == 2.0
+    assert backup.decrease(0) == pytest.approx(3.0) and backup.decrease(0, counted) == pytest.approx(0.5)
+    assert backup.decrease(1) == 2.0
 
 
 def test_rows_beyond_the_raster_are_none(arrays):
-    journal = Journal(arrays, COLUMNS)
+    backup = RowBackup(arrays, COLUMNS)
     for first, last in ((-9, 0), (ROWS, ROWS + 9), (50, 50), (60, 40)):
-        journal.cover(first, last)
-        assert journal.nodes == slice(0, 0) and journal.fall(0) == 0.0
-    journal.cover(-5, ROWS + 5)
-    assert journal.nodes == slice(0, ROWS * COLUMNS)
+        backup.keep_rows(first, last)
+        assert backup.nodes == slice(0, 0) and backup.decrease(0) == 0.0
+    backup.keep_rows(-5, ROWS + 5)
+    assert backup.nodes == slice(0, ROWS * COLUMNS)
 
 
 def test_asking_again_costs_no_copy(arrays):
-    journal = Journal(arrays, COLUMNS)
-    journal.cover(100, 103)
+    backup = RowBackup(arrays, COLUMNS)
+    backup.keep_rows(100, 103)
     for row in range(100 - MARGIN, 103 + MARGIN):
-        journal.cover(row, row + 1)
-    assert len(journal._kept) == 1
+        backup.keep_rows(row, row + 1)
+    assert len(backup._kept) == 1
