@@ -27,20 +27,24 @@ from rich.markup import escape
 from rich.table import Table
 
 LIMIT = 1e-10
-OFFSETS = [-9, -6, -3, 3, 6, 9]
+OFFSETS = [-15, -12, -9, -6, -3, 3, 6, 9, 12, 15]
 """Particles more than in the scene, for the noise of N."""
-NOISE = 2.0
-"""Standard deviations of it within which a scalar of a whole scene is the same."""
+NOISE = 4.0
+"""Standard deviations of it within which a scalar of a whole scene is the same: of the hundred scalars, less than one
+lies beyond by chance if another order of sums draws anew."""
+NODE = {"run-out [m]": 5.0}
+"""What is known to a node only has at least its spacing for noise."""
 
 
-def run(python: str, folder: Path, *arguments: str) -> dict[str, Path]:
+def run(python: str, folder: Path, whole: bool) -> dict[str, Path]:
     """Run the scenes with this checkout and with another interpreter at once; return the folders of what they found."""
+    more = {"here": ["--whole", "0"], "there": ["--whole", "0", *map(str, OFFSETS)]} if whole else {}
     root = Path(__file__).parent
     paths, running = {"here": str(root.parent), "there": ""}, {}
     for side, interpreter in (("here", sys.executable), ("there", python)):
         (folder / side).mkdir()
         # -P: the folder of the program holds no package, but modules that might be taken for others
-        command = [interpreter, "-P", str(root / "recorder_scenes.py"), str(folder / side), *arguments]
+        command = [interpreter, "-P", str(root / "recorder_scenes.py"), str(folder / side), *more.get(side, ())]
         environment = os.environ | {"PYTHONPATH": paths[side], "MPLBACKEND": "Agg"}
         running[side] = subprocess.Popen(
             command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -113,23 +117,32 @@ def show_short(folders, console) -> bool:
     return good
 
 
+def noise(name: str, values) -> float:
+    """Return the noise of N of a scalar, from its values in the scene and with some particles more or less."""
+    scatter = float(np.nanstd(values[1:], ddof=1)) if np.isfinite(values[1:]).sum() > 1 else 0.0
+    return max(scatter, NODE.get(name, 0.0), LIMIT * abs(values[0]))
+
+
 def show_whole(folders, console) -> bool:
     """Print the table of whole scenes; return whether all scalars lie within the noise of N."""
     here, there = (json.loads((folders[side] / "whole.json").read_text()) for side in ("here", "there"))
-    words = f"Whole scenes; noise of N: standard deviation there with {OFFSETS} particles more"
-    table = Table(title=escape(words), title_justify="left")
-    for head in ("scene", "scalar", "here", "there", "difference", "noise of N", ""):
-        table.add_column(head, justify="right" if head not in ("scene", "scalar", "") else "left")
+    names = list(next(iter(there.values()))[0])
+    words = f"Whole scenes: there, here less there, noise of N (deviation there of {len(OFFSETS)} runs with up to "
+    table = Table(title=escape(f"{words}{OFFSETS[-1]} particles more or less)"), title_justify="left")
+    for head in ("scene", *names, "differs"):
+        table.add_column(escape(head), justify="left" if head == "scene" else "right")
     good = True
     for scene, runs in there.items():
+        cells, beyond, exact = [], [], True
         for name, mine in here[scene][0].items():
-            its = runs[0][name]
-            noise = float(np.std([run[name] for run in runs], ddof=1))
-            inside = mine == its or abs(mine - its) <= NOISE * noise
-            verdict = "to the bit" if mine == its else "within" if inside else f"beyond {NOISE:g} of it"
-            numbers = (f"{value:.6g}" for value in (mine, its, mine - its, noise))
-            table.add_row(scene, escape(name), *numbers, verdict)
-            good = good and inside
+            its, known = runs[0][name], noise(name, np.array([run[name] for run in runs]))
+            same = mine == its or (np.isnan(mine) and np.isnan(its))
+            apart = 0.0 if same else mine - its
+            cells.append(f"{its:.5g}\n{apart:+.2g}\n\u00b1 {known:.2g}")
+            beyond += [] if abs(apart) <= NOISE * known else [name]
+            exact = exact and same
+        table.add_row(scene, *cells, escape(", ".join(beyond)) or ("no bit" if exact else f"< {NOISE:g} noise"))
+        good = good and not beyond
     console.print(table)
     return good
 
@@ -141,8 +154,7 @@ def main() -> None:
     options = parser.parse_args()
     console, began = Console(width=160), time.perf_counter()
     with tempfile.TemporaryDirectory() as name:
-        arguments = ("--whole", "0", *map(str, OFFSETS)) if options.whole else ()
-        folders = run(options.python, Path(name), *arguments)
+        folders = run(options.python, Path(name), options.whole)
         good = (show_whole if options.whole else show_short)(folders, console)
     console.print(f"{'Same' if good else 'NOT the same'}; {time.perf_counter() - began:.0f} s, both sides at once.")
     sys.exit(not good)

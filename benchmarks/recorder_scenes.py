@@ -40,7 +40,7 @@ RELEASE = "debris_flow__release_depth"
 LONGEST = 600.0  # of a whole event [s]
 
 
-def valley(rows=24, columns=60, slope=0.5, foot=200.0, soil=1.5, release=1.2, radius=17.0):
+def valley(rows=24, columns=110, slope=0.5, foot=200.0, soil=1.5, release=1.2, radius=17.0):
     """Return a gully that falls by half to a plain, on nodes of 5 m, with a release near its top."""
     grid = RasterModelGrid((rows, columns), xy_spacing=5.0)
     x, y = grid.x_of_node, grid.y_of_node - 2.5 * (rows - 1)
@@ -103,7 +103,7 @@ def in_space(n, law, names, **keywords):
 
 def sleeping(n, **keywords):
     """One body slides down towards another, which lies still at the foot."""
-    grid = valley(columns=70, foot=150.0)
+    grid = valley(foot=150.0)
     near = np.hypot(grid.x_of_node - 200.0, grid.y_of_node - 57.5) < 17.0
     grid.at_node[RELEASE][near] = 0.6
     material = {"coefficient_of_consolidation": 2e-3, "initial_pressure_ratio": 0.3}
@@ -220,7 +220,7 @@ def scalars(flow) -> dict[str, float]:
     flow.run_until_rest(LONGEST)
     maps, budget, x = flow.maps, flow.budget, flow.maps.x.values
     lies = np.nansum(maps.debris_flow__deposit_depth.values + maps.debris_flow__depth.values, axis=0)
-    reached = np.nanmax(maps.debris_flow__max_depth.values, axis=0, initial=0.0) > 0.01
+    reached = np.nanmax(maps.debris_flow__max_depth.values, axis=0, initial=0.0) > 0.0
     return {
         "eroded [m3]": budget["eroded"],
         "deposited [m3]": budget["deposited"],
