@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -86,10 +87,14 @@ def difference(one: np.ndarray, other: np.ndarray) -> float:
 def compare(here: dict, there: dict) -> tuple[float, str, list[str]]:
     """Return the largest difference of all arrays, the name of the worst, and the names that one side lacks."""
     both = [name for name in there if name in here]
-    lacking = [f"only there: {name}" for name in there if name not in here]
-    lacking += [f"only here: {name}" for name in here if name not in there]
+    lacking = []
+    for side, mine, other in (("there", there, here), ("here", here, there)):
+        names = [name.partition(": ")[2] for name in mine if name not in other]
+        lacking += [f"only {side}: {name} ({count} times)" for name, count in Counter(names).items()]
     found = {name: difference(here[name], there[name]) for name in both}
-    worst = max(found, key=found.get)
+    worst = max(found, key=found.get, default="")
+    if not worst:
+        return np.inf, "no array is in both", lacking
     return found[worst], worst if found[worst] > 0.0 else "", lacking
 
 
