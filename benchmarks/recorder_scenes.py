@@ -87,7 +87,7 @@ def loaded_bed(n, drained=False, **keywords):
     }  # fmt: skip
     if drained:
         grid.add_field("bed__drained", 1.0 * ((grid.x_of_node > 80.0) & (grid.x_of_node < 130.0)), at="node")
-    return flow(grid, n, material=material, **keywords)
+    return flow(grid, n, material=material, friction="voellmy", **keywords)
 
 
 def in_space(n, law, names, **keywords):
@@ -112,7 +112,7 @@ def sleeping(n, **keywords):
 
 VISCOUS = {"law": "coulomb", "cohesion": 50.0, "viscosity": 0.5}
 VOELLMY = {"law": "voellmy", "basal_friction_angle": 28.0, "turbulent_coefficient": 400.0}
-MUD = {"law": "herschel_bulkley", "yield_stress": 300.0, "flow_index": 0.4}
+MUD = {"law": "herschel_bulkley", "yield_stress": 900.0, "flow_index": 0.4}
 DRAG = {"law": "two_phase", "drag": "anderson_jackson", "terminal_velocity": 1.0, "manning_coefficient": 0.03}
 LEVELS = {"law": "ale", "levels": 21, "bed_contact": "flux", "loading_source": "proportional"}
 FLOWS = {
@@ -141,7 +141,7 @@ FLOWS = {
 """Scene, flow, and what makes it with some number of particles."""
 
 PARTICLES = 300
-SECONDS = dict.fromkeys(FLOWS, 8.0)
+SECONDS = dict.fromkeys(FLOWS, 8.0) | {"loaded bed": 11.0}
 """How long the scenes run: 50 steps and some more."""
 
 GROWING = {"times": [20.0, 60.0], "step": 0.25, "entrainment_rate": lambda t: 0.05 if t < 43.2 else 0.0}
@@ -215,8 +215,8 @@ def record_columns() -> tuple[dict[str, np.ndarray], int]:
     return found, round(GROWING["times"][-1] / GROWING["step"])
 
 
-def scalars(flow) -> dict[str, float]:
-    """Run an event to its end, and return what would be asked of it."""
+def scalars(flow) -> dict[str, float | str]:
+    """Run an event to its end, and return what would be asked of it, and a digest of all that it left on the grid."""
     flow.run_until_rest(LONGEST)
     maps, budget, x = flow.maps, flow.budget, flow.maps.x.values
     lies = np.nansum(maps.debris_flow__deposit_depth.values + maps.debris_flow__depth.values, axis=0)
@@ -229,6 +229,7 @@ def scalars(flow) -> dict[str, float]:
         "run-out [m]": float(x[reached].max()),
         "largest speed [m/s]": float(np.nanmax(maps.debris_flow__max_speed.values)),
         "duration [s]": flow.elapsed_time,
+        "digest": hashlib.sha256(b"".join(values.tobytes() for values in arrays(flow).values())).hexdigest(),
     }
 
 
