@@ -27,8 +27,8 @@ from benchmarks.start import EVENT
 
 LIMIT = 1.03
 """Ratio that no stage may exceed."""
-PROCESSES, PAIRS, COLD = 5, 3, 5
-"""How often processes are started, pairs of each scene in one, pairs of cold starts."""
+PROCESSES, PAIRS = 5, 3
+"""How often processes are started, and cold ones, and pairs of each scene in one."""
 PROGRAM = Path(__file__).parent / "speed_against_scenes.py"
 
 
@@ -80,8 +80,8 @@ def in_turns(sides, count, measure, first=0) -> list[tuple[float, float]]:
     return pairs
 
 
-def measure(sides, processes, say) -> dict[str, list[tuple[float, float]]]:
-    """Return the pairs of every scene and of the starts; what has to be compiled is before."""
+def of_scenes(sides, processes, say) -> dict[str, list[tuple[float, float]]]:
+    """Return the pairs of every scene; what has to be compiled is before."""
     pairs = {name: [] for name in SCENES}
     for k in range(processes + 1):
         for side in sides:
@@ -93,15 +93,20 @@ def measure(sides, processes, say) -> dict[str, list[tuple[float, float]]]:
         for side in sides:
             side.end()
         say(f"processes {k} of {processes} done" if k else "compiled")
-    pairs["warm start: import and first step"] = in_turns(sides, processes * PAIRS, Side.start)
-    say("warm starts done")
+    return pairs
+
+
+def of_starts(sides, processes) -> dict[str, list[tuple[float, float]]]:
+    """Return the pairs of starts, after `of_scenes` has compiled."""
 
     def cold(side):
         with tempfile.TemporaryDirectory(dir=side.folder) as cache:
             return side.start(cache)
 
-    pairs["cold start: the same, compiling"] = in_turns(sides, COLD, cold)
-    return pairs
+    return {
+        "warm: import and first step": in_turns(sides, processes * PAIRS, Side.start),
+        "cold: the same, and compiling": in_turns(sides, processes, cold),
+    }
 
 
 def verdict(low: float, middle: float) -> str:
@@ -117,14 +122,10 @@ def verdict(low: float, middle: float) -> str:
     return "BROKEN" if low > LIMIT else "kept: noise"
 
 
-def compare(python: str, processes: int = PROCESSES) -> bool:
-    """Measure, print the table, and return whether no limit is broken."""
-    console, broken = Console(width=140), []
-    with ExitStack() as folders:
-        one, other = (folders.enter_context(tempfile.TemporaryDirectory()) for _ in range(2))
-        sides = Side(sys.executable, str(Path(__file__).parents[1]), one), Side(python, "", other)
-        found = measure(sides, processes, console.log)
-    table = Table(title=f"CPU time in pairs, limit {LIMIT:g} of the ratio", title_justify="left")
+def show(title, found, console) -> list[str]:
+    """Print a table of pairs, and return the names of what breaks the limit."""
+    broken = []
+    table = Table(title=f"{title}: CPU time in pairs, limit {LIMIT:g} of the ratio", title_justify="left")
     for head in ("", "pairs", "here [ms]", "there [ms]", "ratio", "quartiles", "limit"):
         table.add_column(head, justify="right" if head not in ("", "limit") else "left")
     for name, pairs in found.items():
@@ -137,5 +138,16 @@ def compare(python: str, processes: int = PROCESSES) -> bool:
             f"{low:.3f} to {high:.3f}", judged,
         )  # fmt: skip
     console.print(table)
+    return broken
+
+
+def compare(python: str, processes: int = PROCESSES) -> bool:
+    """Measure, print the tables, and return whether no limit is broken."""
+    console = Console(width=140)
+    with ExitStack() as folders:
+        one, other = (folders.enter_context(tempfile.TemporaryDirectory()) for _ in range(2))
+        sides = Side(sys.executable, str(Path(__file__).parents[1]), one), Side(python, "", other)
+        broken = show("Stages", of_scenes(sides, processes, console.log), console)
+        broken += show("Starts", of_starts(sides, processes), console)
     console.print(f"Broken: {', '.join(broken) or 'none'}; load of the machine {os.getloadavg()[0]:.1f}")
     return not broken
