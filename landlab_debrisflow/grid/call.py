@@ -28,7 +28,7 @@ class GridCall:
         grid = flow.grid
         self.flow, self._simulation = flow, flow._simulation
         self.interruption = Interruption()
-        self._reader = GridReader(grid, self._simulation.physics, self._simulation.inflow)
+        self._reader = GridReader(grid, self._simulation.physics)
         self._writer = FieldWriter(grid, self._simulation, self.interruption)
         self._listener = CallListener(flow, self._writer, self.interruption)
         if continues is not None:
@@ -74,7 +74,8 @@ class GridCall:
     def _prepare(self, with_release: bool = True):
         """Return the bed of the call, and the input."""
         sim, state = self._simulation, self._writer.state
-        given = self._reader.read(state.grid_bed, sim.particles.volume.size > 0, state.warned, with_release)
+        carried = sim.particles.volume.size > 0
+        given = self._reader.read(state.grid_bed, sim.inflow, carried, state.warned, with_release)
         state.warned = given.warned
         bed = state.grid_bed.lay(given, self._writer.rows, sim.inflow, sim.time)
         state.budget.released += given.release.volume

@@ -63,24 +63,24 @@ class GridReader:
     grid : RasterModelGrid
         Gets the field of the bed's pore pressure if the material asks for it and it is missing.
     physics : Physics
-    inflow : Inflow
     """
 
-    def __init__(self, grid, physics, inflow):
-        self._grid, self._inflow = grid, inflow
+    def __init__(self, grid, physics):
+        self._grid = grid
         self._loaded = physics.material.bed_loading_coefficient > 0.0
         if self._loaded and BED_PRESSURE not in grid.at_node:
             grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
         self.laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
         checks.check_parameters(grid, self.laws)
 
-    def read(self, grid_bed, carried: bool, warned: tuple, with_release: bool = True) -> GridInput:
+    def read(self, grid_bed, inflow, carried: bool, warned: tuple, with_release: bool = True) -> GridInput:
         """Read and check all fields.
 
         Parameters
         ----------
         grid_bed : GridBed
             Terrain as the last call left it.
+        inflow : Inflow
         carried : bool
             Whether the model carries particles.
         warned : tuple of str
@@ -93,13 +93,13 @@ class GridReader:
         InputError
             If a value is not usable.
         """
-        grid, new_event = self._grid, not carried and self._inflow.over
+        grid, new_event = self._grid, not carried and inflow.over
         checks.check_types(grid)
         terrain = self._read_terrain(grid_bed)
         soil = self._read_soil()
         checks.check_parameters(grid, self.laws)
         parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
-        check_lines(terrain, self._inflow)
+        check_lines(terrain, inflow)
         release = read_release(grid, soil.depth) if with_release else NO_RELEASE
         warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
