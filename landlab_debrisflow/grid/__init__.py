@@ -1,1 +1,1 @@
-"""The border to Landlab: all that touches a RasterModelGrid. Nothing of Landlab passes further down."""
+"""The border to Landlab: code that touches a RasterModelGrid. Only plain arrays and numbers pass further down."""

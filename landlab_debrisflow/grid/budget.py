@@ -10,7 +10,7 @@ CARRIED_OVER = ("released", "inflow", "eroded")
 
 
 class ModelVolumes(NamedTuple):
-    """Volumes that the model measures [m3]: of particles, hydrographs and outflow, and what of them are grains."""
+    """Volumes measured by the model [m3]: particles, inflow and outflow, and their grains."""
 
     moving: float
     inflow: float

@@ -25,7 +25,7 @@ def check_duration(value, name: str = "dt") -> float:
 
 
 def check_types(grid) -> None:
-    """Refuse fields whose numbers are not of the declared type: what is added to them would be lost or rounded."""
+    """Refuse fields of another than the declared type: depths added to integers would be rounded."""
     for field in NODE_FIELDS:
         if "in" in field.intent and field.name in grid.at_node:
             values, wanted = grid.at_node[field.name], np.dtype(field.dtype)

@@ -1,4 +1,4 @@
-"""What can be computed, but is hardly meant: units, coordinates, names of fields. Each doubt is one sentence to log."""
+"""Doubts about input that can be computed but is hardly meant: units, coordinates, names. Each is a sentence to log."""
 
 import dataclasses
 import difflib
@@ -26,7 +26,7 @@ FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 
 
 def about_parameters(grid, physics) -> Iterator[str]:
-    """Yield what is odd about the parameters of laws and material; a 0 that means "none" is not."""
+    """Yield doubts about parameters of laws and material; a 0 that means "none" is not doubted."""
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(physics, kind)
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
@@ -36,7 +36,7 @@ def about_parameters(grid, physics) -> Iterator[str]:
 
 
 def _values(grid, law, field):
-    """Return the values a parameter has at nodes in use, or its one value, without zeros, shape (n,)."""
+    """Return the values of a parameter at nodes in use, or its one value, without zeros, shape (n,)."""
     value, used = getattr(law, field.name), grid.status_at_node != CLOSED
     if isinstance(value, str) and field.metadata.get("varies"):
         value = grid.at_node[value][used]
@@ -49,7 +49,7 @@ def _values(grid, law, field):
 
 
 def _odd(field, values) -> str:
-    """Return what is odd about values of a parameter, none of them 0, or nothing."""
+    """Return the doubt about values of a parameter, none of them 0, or an empty text."""
     unit, least, most = field.metadata.get("unit"), values.min(), values.max()
     if unit == "deg" and field.metadata["bounds"][0] == 0.0 and most < LEAST_ANGLE and np.any(values % 1.0):
         return f"is {most:g} degrees at most: was it meant in radians? {most:g} rad are {np.degrees(most):.3g} deg"
@@ -67,7 +67,7 @@ def _odd(field, values) -> str:
 
 
 def about_coordinates(grid) -> Iterator[str]:
-    """Yield what is odd about the coordinates of the grid; what is upright in metres is ground in degrees or km."""
+    """Yield doubts about the coordinates of the grid: ground in degrees or km is upright when read in metres."""
     corner, spacing = np.array(grid.xy_of_lower_left), np.array([grid.dx, grid.dy])
     extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _ends(grid)
     on_globe = bool(np.all(np.abs([corner, corner + extent]) <= [[360.0, 90.0]] * 2))
@@ -87,7 +87,7 @@ def about_coordinates(grid) -> Iterator[str]:
 
 
 def about_elevations(grid) -> Iterator[str]:
-    """Yield what is odd about the height of the ground."""
+    """Yield doubts about the height of the ground."""
     low, high = _ends(grid)
     if low < LOWEST or high > HIGHEST:
         yield (
@@ -97,7 +97,7 @@ def about_elevations(grid) -> Iterator[str]:
 
 
 def _ends(grid) -> tuple[float, float]:
-    """Return the lowest and the highest elevation at nodes in use [m], without what is refused when it is read."""
+    """Return the lowest and the highest elevation at nodes in use [m], without values that reading would refuse."""
     z = grid.at_node["topographic__elevation"]
     ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
     if np.any((z < LOWEST) | (z > HIGHEST), where=ground):
@@ -131,13 +131,13 @@ def about_names(grid, physics) -> Iterator[str]:
 
 
 def misnamed(grid, ours: str) -> list[str]:
-    """Return names of fields with values > 0 that one of our names was perhaps meant by."""
+    """Return names of fields with values > 0 that resemble one of our names."""
     alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _likeness(name, ours) >= ALIKE]
     return [name for name in alike if np.any(np.nan_to_num(grid.at_node[name]) > 0)]
 
 
 def _likeness(name: str, ours: str) -> float:
-    """Return how alike two names are, as they are or without what is left unsaid, from 0 to 1."""
+    """Return the likeness of two names, whole or without common words, from 0 to 1."""
     one, other = ([word for word in n.lower().replace("-", "_").split("_") if word] for n in (name, ours))
     pairs = (one, other), tuple([word for word in n if word not in UNSAID] for n in (one, other))
     return max((difflib.SequenceMatcher(None, *map("_".join, p)).ratio() for p in pairs if all(p)), default=0.0)
@@ -147,7 +147,7 @@ def _likeness(name: str, ours: str) -> float:
 
 
 def about_nothing(grid, soil) -> str:
-    """Return what stands in the way of a release where none was found, as the end of a sentence."""
+    """Return the likely reason why no release was found, as the end of a sentence."""
     if names := misnamed(grid, RELEASE):
         return f"; {names[0]!r} is not read: was it meant? grid.at_node[{RELEASE!r}][:] = grid.at_node[{names[0]!r}]"
     ids = "mass__wasting_id"

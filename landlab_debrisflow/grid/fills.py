@@ -38,7 +38,7 @@ def close_them(name: str, value) -> str:
 
 
 def replace_them(name: str, values, value) -> str:
-    """Return how to replace a fill value of a field by 0, as the end of a refusal; nothing if it is none."""
+    """Return a remedy for a fill value in a field, as the end of a refusal; an empty text for any other value."""
     if not is_fill(value):
         return ""
     field, count = f"grid.at_node['{name}']", np.count_nonzero(values == value)

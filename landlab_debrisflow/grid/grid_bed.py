@@ -1,4 +1,4 @@
-"""The fields of a grid as the bed of the model, and the terrain as it was left; nothing costs a copy of the raster."""
+"""The fields of a grid as the bed of the model, and the terrain as the last call left it."""
 
 from dataclasses import dataclass, replace
 
@@ -43,7 +43,7 @@ class GridBed:
         return known and np.array_equal(self.elevation, elevation) and np.array_equal(self.status, status)
 
     def lay(self, given, rows, inflow, time: float) -> Bed:
-        """Take off what fails and return the bed below it.
+        """Take the release off the ground and return the bed below.
 
         Parameters
         ----------

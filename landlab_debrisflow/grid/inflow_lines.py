@@ -1,4 +1,4 @@
-"""Hydrographs as a user gives them, and whether their lines lie where something can flow in."""
+"""Hydrographs as a user gives them, and refusals of lines through which nothing can flow in."""
 
 from collections.abc import Mapping
 

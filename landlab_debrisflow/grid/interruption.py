@@ -75,7 +75,7 @@ class Interruption:
         return self._asked or self.failure is not None
 
     def raise_cause(self, time: float, done: bool) -> None:
-        """Raise what the call was interrupted for, if it was, and say when [s], and what to do if it is not done."""
+        """Raise the cause of an interruption, if there was one, with its time [s] and how to go on."""
         cause = KeyboardInterrupt() if self.failure is None and self._asked else self.failure
         if cause is None:
             return

@@ -44,13 +44,13 @@ class CallListener:
         return self._interruption.requested
 
     def ended(self, stop_at_rest: bool) -> None:
-        """The run has come to its end: write the results, settle what is at rest, log what there is to tell."""
+        """The run has come to its end: write results, settle mass at rest, log messages."""
         with self._interruption.deferred():
             self._writer.close(settle=self._flow.at_rest and self._flow._numerics.settle)
             self._reports.tell(stop_at_rest)
 
     def _look(self, observers) -> None:
-        """Let observers look; one that fails does not keep the others from it."""
+        """Show the flow to observers; a failing one does not keep the others from observing."""
         if not observers:
             return
         with self._writer.present():

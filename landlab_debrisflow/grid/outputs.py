@@ -1,4 +1,4 @@
-"""The output fields of a component: in its grid, or put aside while those of another component are there.
+"""The output fields of a component: in its grid, or put aside while another component uses the fields.
 
 They start at nothing, whatever stood in the fields, unless the component continues an earlier one. Several components
 on one grid never mix: the fields are those of the component that was built or called last, and every other one has its
@@ -59,7 +59,7 @@ class Outputs:
             _holders[self._grid] = ref(self)
 
     def show(self) -> None:
-        """Have them in the fields of the grid."""
+        """Put the outputs into the fields of the grid."""
         if self._aside is None:
             return
         holder, at, standing = _holders.get(self._grid, lambda: None)(), self._grid.at_node, _not_at_start(self._grid)
@@ -75,7 +75,7 @@ class Outputs:
 
     @contextmanager
     def shown(self):
-        """Have them in the fields of the grid from now on; if anything goes wrong inside, those that stood there."""
+        """Put the outputs into the fields of the grid; if the block raises, put the former ones back."""
         before = _holders.get(self._grid, lambda: None)()
         self.show()
         try:
@@ -86,7 +86,7 @@ class Outputs:
             raise
 
     def maps(self, accounts) -> dict:
-        """Return what maps show, by name over nodes: elevation, soil and release of now, and the outputs.
+        """Return the values of maps by name over nodes: elevation, soil and release of now, and the outputs.
 
         Depths eroded and deposited are those of the `accounts`, whatever others made of the fields.
         """

@@ -1,4 +1,4 @@
-"""Elevations that no ground has: voids of a DEM that are filled with a number, and what is not in metres.
+"""Refusals of elevations that no ground has: voids of a DEM filled with a number, and other units.
 
 Refused is only what cannot be meant, whatever the datum: slopes of any length, pits and cliffs of some hundred metres
 are ground. Everything here is a matter of differences between neighbours, so a DEM may lie at any height.
@@ -72,7 +72,7 @@ def _check_fills(grid, elevation, used):
 
 
 def _neighbours(grid):
-    """Yield what takes a node and what takes its neighbour out of a raster, the step between them and their distance.
+    """Yield slices for nodes and for their neighbours in a raster, the step between their numbers, and the distance [m].
 
     The step is in the numbers of nodes, the distance in m; first along x, then along y.
     """

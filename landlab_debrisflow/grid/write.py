@@ -110,7 +110,7 @@ class FieldWriter:
                     backup.restore()
 
     def _nodes_near(self):
-        """Return all nodes on which the maps of the present may differ from those in the fields."""
+        """Return the nodes at which maps of the present may differ from the fields."""
         p, bed = self.simulation.particles, self.simulation.bed
         columns, count = bed.nodes.columns, bed.nodes.core.size
         below, _ = bed.depth_of(p.x, p.y, p.spread, p.volume)

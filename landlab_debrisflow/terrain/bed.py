@@ -1,4 +1,4 @@
-"""The bed: elevation, what of it may be eroded, and what has been taken.
+"""The bed: elevation, erodible soil, and the depth eroded so far.
 
 Every node value is the value at the beginning of the call less what was eroded since, in one
 subtraction: rounding does not pile up over thousands of steps, and elevation and soil move together.
@@ -116,7 +116,7 @@ def _erode(
     core, columns, dx, dy, x, y, spread, wanted, before, pressure_ratio, demand, share, touched, taken,
     soil, elevation, eroded_depth, granted, ratio,
 ):  # fmt: skip
-    """Add up what is wanted of every node, share what it has, give it out and lower the node; return how many nodes."""
+    """Add up the demand on every node, grant it as far as there is soil, lower the node; return the number of nodes."""
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
     found, area = 0, dx * dy
     for i in range(x.size):
