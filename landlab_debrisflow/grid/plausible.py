@@ -72,7 +72,7 @@ def _check_fills(grid, elevation, used):
 
 
 def _neighbours(grid):
-    """Yield slices for nodes and for their neighbours in a raster, the step between their numbers, and the distance [m].
+    """Yield slices of nodes and of their neighbours in a raster, the step between their numbers, the distance [m].
 
     The step is in the numbers of nodes, the distance in m; first along x, then along y.
     """
