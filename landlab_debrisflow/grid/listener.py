@@ -45,8 +45,9 @@ class CallListener:
 
     def ended(self, stop_at_rest: bool) -> None:
         """The run has come to its end: write results, settle mass at rest, log messages."""
+        sim = self._writer.simulation
         with self._interruption.deferred():
-            self._writer.close(settle=self._flow.at_rest and self._flow._numerics.settle)
+            self._writer.close(settle=sim.at_rest and sim.numerics.settle)
             self._reports.tell(stop_at_rest)
 
     def _look(self, observers) -> None:
