@@ -14,7 +14,7 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import MATERIAL
-from landlab_debrisflow.grid import call
+from landlab_debrisflow.grid import grid_bed, read, write
 from landlab_debrisflow.model import activity, peak_maps, simulation, step
 from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
@@ -189,7 +189,8 @@ def placed_valley(count, threads=1):
 
 
 STAGES = {
-    "placing of the release": (release, "place_particles"), "rest of the set-up": (call.Calls, "begin"),
+    "placing of the release": (release, "place_particles"), "read": (read.GridReader, "read"),
+    "lay the bed": (grid_bed.GridBed, "lay"),
     "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
     "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
     "interact": (step, "interact"),
@@ -197,7 +198,7 @@ STAGES = {
     "consolidate": (step, "consolidate"), "check": (step, "check"),
     "wake those disturbed": (activity, "wake"), "fall asleep": (activity, "fall_asleep"),
     "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (peak_maps.Footprint, "record"),
-    "cover": (call.Calls, "_cover"), "settle and finish": (call.Calls, "_close"),
+    "keep rows": (write.FieldWriter, "keep_rows"), "settle and finish": (write.FieldWriter, "close"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
 
