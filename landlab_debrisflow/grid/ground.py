@@ -20,7 +20,7 @@ class Ground:
     Parameters
     ----------
     grid : RasterModelGrid
-    physics : Physics
+    physics : Setup
         Whose laws may have parameters that vary in space, and whose material says what pressure the bed has
         where no field does.
     """
@@ -56,7 +56,7 @@ class Ground:
         fields = ("topographic__elevation", "soil__depth", "bed__excess_pore_pressure_ratio", "bed__drained")
         present = set(at)  # its get() is a dict's and knows nothing of the fields
         self.elevation, self.soil, self._ratios, self._drained = (at[n] if n in present else None for n in fields)
-        self.status = grid.status_at_node.copy()
+        self.status = np.array(grid.status_at_node)  # a plain one: Landlab's does not pickle
         changed = self._seen is None or not all(map(np.array_equal, self._seen, (self.elevation, self.status)))
         if changed:
             checks.check_boundaries(grid)

@@ -1,32 +1,11 @@
-"""Hydrographs as a user gives them, and whether their lines lie where something can flow in."""
-
-from collections.abc import Mapping
+"""Whether the lines of hydrographs lie where something can flow in."""
 
 import numpy as np
 
-from ..core.errors import InputError, ParameterError
-from ..model.inflow.hydrograph import Hydrograph
+from ..core.errors import InputError
 from ..model.inflow.source import Inflow
-from ..physics.registry import build_declared
 
 STATUS_WORDS = {1: "open (fixed-value)", 4: "closed"}
-
-
-def read_hydrographs(inflow) -> tuple[Hydrograph, ...]:
-    """Return what the keyword `inflow` stands for: none, a Hydrograph, a mapping, or several of them.
-
-    Raises
-    ------
-    ParameterError
-        If it is something else, or a value is refused.
-    """
-    if inflow is None:
-        return ()
-    if isinstance(inflow, Hydrograph | Mapping):
-        inflow = (inflow,)
-    if isinstance(inflow, str) or not hasattr(inflow, "__iter__"):
-        raise ParameterError(f"inflow must be a Hydrograph, a mapping, or a list of them, got {inflow!r}")
-    return tuple(build_declared(Hydrograph, one, "inflow") for one in inflow)
 
 
 def check_lines(grid, inflow: Inflow) -> None:

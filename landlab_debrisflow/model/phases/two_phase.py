@@ -35,7 +35,7 @@ class Mixture:
 
     Parameters
     ----------
-    physics : Physics
+    physics : Setup
         With a flow law of two phases.
     """
 
