@@ -14,6 +14,7 @@ from landlab_debrisflow import DebrisFlow, Hydrograph, Material, Numerics, Setup
 from landlab_debrisflow.core.parameters import NodeValues, on_nodes
 from landlab_debrisflow.physics.registry import LAWS
 from landlab_debrisflow.spatial.cells import over_cells, sort_into_cells
+from tests.twins import SCENES, build, state
 from validation.grids import COARSE, copy_fields
 
 SURGE = {
@@ -72,6 +73,18 @@ def test_a_flow_goes_on_from_a_pickle(valley, seconds):
     fields, others = copy_fields(flow.grid), copy_fields(other.grid)
     assert {name: values.tobytes() for name, values in fields.items()} == {n: v.tobytes() for n, v in others.items()}
     assert flow.budget == other.budget and flow.elapsed_time == other.elapsed_time
+
+
+@pytest.mark.parametrize("scene", list(SCENES))
+def test_whatever_flows_goes_on_from_a_pickle(scene):
+    flow = build(scene)
+    flow.run_one_step(2.0)
+    other = sent(flow)
+    assert other.setup == flow.setup
+    assert state(other) == state(flow)
+    for each in (flow, other):
+        each.run_one_step(2.0)
+    assert state(other) == state(flow) and other.budget == flow.budget
 
 
 def summed(threads):
