@@ -1,13 +1,6 @@
 """The arguments of `solve_column`, declared as the parameters of laws are."""
 
 from ..core.parameters import parameter
-from ..physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
-
-DRAINED = 1 + max(BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED)  # laws know it as prescribed with 0 Pa
-BASE = {
-    "by_erosion": BASE_BY_EROSION, "prescribed": BASE_PRESCRIBED, "impermeable": BASE_IMPERMEABLE, "drained": DRAINED,
-}  # fmt: skip
-
 
 HYDROSTATIC = "give a finite pressure over the hydrostatic one, negative for suction"
 NUMBERS = {

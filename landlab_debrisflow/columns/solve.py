@@ -11,8 +11,8 @@ from ..physics.column.diagnostics import basal_peclet_number, consolidation_time
 from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from ..physics.material import Material
 from ..record.attributes import NO_FILL, described, heading, quantity
-from .arguments import History, Inputs, read_inputs, refuse
-from .declarations import DRAINED, NUMBERS, OTHERS
+from .arguments import DRAINED, History, Inputs, read_inputs, refuse
+from .declarations import NUMBERS, OTHERS
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock

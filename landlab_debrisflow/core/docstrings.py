@@ -21,12 +21,13 @@ def with_parameters(docstring: str | None, fields) -> str | None:
     Returns
     -------
     str or None
-        The docstring, its indentation taken off; as it was without declared parameters or without a docstring.
+        The docstring, its indentation taken off; as it was if there is none, if it has such a section, or if no
+        parameter is declared.
     """
     declared = [field for field in fields if "meaning" in field.metadata]
-    if docstring is None or not declared:
+    text = inspect.cleandoc(docstring or "")
+    if not text or not declared or re.search(r"^Parameters\n-{3,}$", text, re.MULTILINE):
         return docstring
-    text = inspect.cleandoc(docstring)
     first = re.search(r"^\w[\w ]*\n-{3,}$", text, re.MULTILINE)
     before, after = (text[: first.start()], text[first.start() :]) if first else (text, "")
     section = "\n".join(["Parameters", "----------", *map(_entry, declared)])

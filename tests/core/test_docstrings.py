@@ -82,3 +82,19 @@ def test_the_rest_of_a_docstring_is_kept():
         --------
         >>> 1
         1""")
+
+
+def test_a_section_written_by_hand_stays():
+    @declared
+    class Sledge:
+        """Go downhill.
+
+        Parameters
+        ----------
+        load : float
+            In hundredweights.
+        """
+
+        load: float = parameter("kg", "of all on it", 30.0)
+
+    assert inspect.getdoc(Sledge).endswith("load : float\n    In hundredweights.")
