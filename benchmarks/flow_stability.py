@@ -92,7 +92,7 @@ def measure(name, scene):
     w = scene.watch
     end = float(np.sqrt(np.mean(scene.speeds**2))) if scene.speeds.size else 0.0
     return (
-        name, f"{scene.flow._numerics.particle_count}", f"{len(scene.steps.lengths)}", f"{scene.cpu:.1f}",
+        name, f"{scene.flow.setup.numerics.particle_count}", f"{len(scene.steps.lengths)}", f"{scene.cpu:.1f}",
         f"{w.speed:.3g}", f"{w.allowed:.3g}", f"{-w.excess:.3g}", f"{w.head:+.2f}", f"{w.gain:.1e}",
         f"{end:.1e}", f"{scene.imbalance:.0e}",
     )  # fmt: skip
@@ -118,7 +118,7 @@ def gains(factors, viscosity, count=2000):
     for factor in factors:
         time_step.TERRAIN_FRACTION = 1e3
         scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
-        object.__setattr__(scene.flow._numerics, "courant_number", factor * LIMIT)  # past the check
+        object.__setattr__(scene.flow.setup.numerics, "courant_number", factor * LIMIT)  # past the check
         try:
             scene.run()
         except SimulationError:  # the end of what has blown up

@@ -7,6 +7,7 @@ from .core.version import __version__
 from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
+from .scene.setup import Setup
 
 __all__ = [
     "DebrisFlow",
@@ -15,6 +16,7 @@ __all__ = [
     "Material",
     "Numerics",
     "ParameterError",
+    "Setup",
     "SimulationError",
     "__version__",
     "solve_column",

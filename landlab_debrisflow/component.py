@@ -9,15 +9,13 @@ from landlab.core.model_component import classproperty
 from .grid import checks, doubts
 from .grid.call import GridCall
 from .grid.fields import NODE_FIELDS, no_new_fields
-from .grid.inflow_lines import read_hydrographs
 from .model.inflow.source import Inflow
-from .model.numerics import Numerics
 from .model.simulation import Simulation
-from .physics.registry import build_declared, build_physics
 from .record import summary
 from .record.attributes import of_moment
 from .record.citation import PAPER
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
+from .scene.setup import Setup
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -88,27 +86,28 @@ class DebrisFlow(Component):
                  numerics=None, inflow=None, observers=(), continues=None):  # fmt: skip
         if not isinstance(grid, RasterModelGrid):
             raise checks.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
-        self._physics = build_physics(flow, friction, erosion, column, material)
-        self._numerics = build_declared(Numerics, numerics, "numerics")
+        self._setup = setup = Setup(
+            flow=flow, friction=friction, erosion=erosion, column=column, material=material, numerics=numerics,
+            inflow=inflow,
+        )  # fmt: skip
         self._observers = checks.check_observers(observers)
-        checks.check_phases(self._physics)
-        self._hydrographs = read_hydrographs(inflow)
+        checks.check_phases(setup)
         checks.check_types(grid)
         with no_new_fields(grid):
             super().__init__(grid)
             checks.check_boundaries(grid)
             odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
-            odd += doubts.about_names(grid, self._physics)
-            entering = Inflow(self._hydrographs, self._numerics, grid.xy_of_lower_left)
+            odd += doubts.about_names(grid, setup)
+            entering = Inflow(setup.inflow, setup.numerics, grid.xy_of_lower_left)
             if continues is not None:
                 if not isinstance(continues, DebrisFlow):
                     raise checks.InputError(
                         f"continues must be the DebrisFlow before on the same grid, got {continues!r}"
                     )
                 checks.check_continued(continues, grid, entering)
-            self._simulation = Simulation(self._physics, self._numerics, entering)
+            self._simulation = Simulation(setup, setup.numerics, entering)
             self._call = GridCall(self, None if continues is None else continues._call)
-        for doubt in (*odd, *doubts.about_parameters(grid, self._physics)):
+        for doubt in (*odd, *doubts.about_parameters(grid, setup)):
             log.warning("%s", doubt)
 
     def __repr__(self):
@@ -208,6 +207,11 @@ class DebrisFlow(Component):
         self._call.restart_peaks()
 
     @property
+    def setup(self):
+        """Laws, material, numerics and inflow, as they were checked: a `Setup`."""
+        return self._setup
+
+    @property
     def elapsed_time(self):
         """Time simulated so far [s], in all calls, and by the component that this one continues."""
         return self._simulation.time
@@ -243,14 +247,14 @@ class DebrisFlow(Component):
     def particles(self):
         """The particles now: a Dataset over ``particle`` with map coordinates of the grid."""
         sim = self._simulation
-        return particles_dataset(sim.particles, self.grid.xy_of_lower_left, self._physics, self.elapsed_time)
+        return particles_dataset(sim.particles, self.grid.xy_of_lower_left, self._setup, self.elapsed_time)
 
     @property
     def columns(self):
         """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
         sim = self._simulation
         c_v = sim.matter.coefficient_of_consolidation(sim.particles, slice(None))
-        return columns_dataset(sim.columns_now(), sim.particles, c_v, self._physics, self.elapsed_time)
+        return columns_dataset(sim.columns_now(), sim.particles, c_v, self._setup, self.elapsed_time)
 
     @property
     def maps(self):
@@ -261,4 +265,4 @@ class DebrisFlow(Component):
         """
         shown = self._call.maps()
         moment = of_moment(self.elapsed_time, self._simulation.particles, self.budget)
-        return maps_dataset(self.grid, shown, self._physics, self._numerics, self._hydrographs, moment)
+        return maps_dataset(self.grid, shown, self._setup, moment)

@@ -80,7 +80,7 @@ def test_it_gets_a_name(outside, slope, monkeypatch):
     exec(compile(REGISTER, "CONTRIBUTING.md", "exec"), {})
     model = wrap_as_bmi(DebrisFlow)()
     model.initialize(YAML)
-    assert model._base._physics.erosion == outside[0].ExcessShear(threshold=20.0)
+    assert model._base.setup.erosion == outside[0].ExcessShear(threshold=20.0)
     page = laws.markdown()
     assert "### erosion: excess_shear" in page and "Source: Partheniades (1965)." in page
     assert "`e_R = k max(0, tau - tau_c), tau = (f/8) rho v^2`" in page

@@ -149,7 +149,7 @@ def test_a_model_from_yaml_text(bmi):
     depth = bmi.get_value("debris_flow__depth", np.empty(800))
     assert depth.sum() * 25.0 == pytest.approx(bmi._base.budget["moving"], rel=1e-13)  # round-off
     assert bmi._base.budget["released"] == 225.0
-    physics = bmi._base._physics
+    physics = bmi._base.setup
     assert physics.friction.turbulent_coefficient == 400.0 and physics.material.porosity == 0.35
 
 

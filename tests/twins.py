@@ -91,7 +91,7 @@ def state(flow):
     """
     found = {f"field {name}": values.tobytes() for name, values in flow.grid.at_node.items()}
     found["status"] = flow.grid.status_at_node.tobytes()
-    _collect("flow", flow._call, found, {id(flow), id(flow.grid), id(flow._physics), id(flow._numerics)})
+    _collect("flow", flow._call, found, {id(flow), id(flow.grid), id(flow.setup), id(flow.setup.numerics)})
     return found
 
 

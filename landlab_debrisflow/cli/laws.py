@@ -6,14 +6,15 @@ a section ``References`` is its source.
 
 import dataclasses
 import inspect
-import math
 import re
 import typing
 
+from ..core.docstrings import allowed, default
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.material import Material
-from ..physics.registry import LAWS, METHOD, Physics
+from ..physics.registry import LAWS, METHOD
+from ..scene.setup import Setup
 
 COMMAND = "landlab-debrisflow info --markdown > docs/laws.md"
 
@@ -56,7 +57,7 @@ def other_entries() -> list[Entry]:
 def markdown() -> str:
     """Return the page of all laws and parameters."""
     parts = [INTRODUCTION]
-    contracts = typing.get_type_hints(Physics)
+    contracts = typing.get_type_hints(Setup)
     for kind in LAWS:
         what = inspect.cleandoc(contracts[kind].__doc__).splitlines()[0]
         parts.append(f"## {kind}\n\n{what} A law of this kind has the method `{METHOD[kind]}`.\n")
@@ -110,24 +111,4 @@ def _table(rows) -> str:
 def _row(parameter) -> tuple[str, ...]:
     meta = parameter.metadata
     in_space = "yes" if meta["varies"] else ""
-    return (parameter.name, meta["unit"], _plain(parameter.default), _allowed(meta), in_space, meta["meaning"])
-
-
-def _allowed(meta) -> str:
-    if meta["choices"]:
-        return ", ".join(meta["choices"])
-    if meta["kind"] is bool:
-        return "true, false"
-    low, high = meta["bounds"]
-    interval = f"{low:g} or more" if low > -math.inf else "any"
-    if high < math.inf:
-        interval = f"{low:g} to {high:g}"
-    return {int: "integer, ", tuple: "list, "}.get(meta["kind"], "") + interval
-
-
-def _plain(value) -> str:
-    if value is None:
-        return "not set"
-    if isinstance(value, bool):
-        return str(value).lower()
-    return value if isinstance(value, str) else f"{value:.6g}"
+    return (parameter.name, meta["unit"], default(parameter.default), allowed(meta), in_space, meta["meaning"])

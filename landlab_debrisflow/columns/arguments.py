@@ -6,50 +6,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..core.checks import in_range
 from ..core.errors import ParameterError
-from ..core.hints import did_you_mean, give_number, same_word
+from ..core.hints import did_you_mean, give_number
+from ..core.parameters import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
+from .declarations import CHOICES, NUMBERS, OTHERS
 
 DRAINED = 1 + max(BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED)  # laws know it as prescribed with 0 Pa
 BASE = {
     "by_erosion": BASE_BY_EROSION, "prescribed": BASE_PRESCRIBED, "impermeable": BASE_IMPERMEABLE, "drained": DRAINED,
 }  # fmt: skip
 STARTS = ("zero", "linear", "uniform", "basal_layer")
-WORDS = {"law": ("ale", "classical", "constant_ratio"), "advance": ("lazy", "every_step")}
-
-
-class Number(NamedTuple):
-    """One number, or one per column."""
-
-    unit: str
-    low: float
-    high: float
-    open: bool  # whether the lower bound itself is refused
-    timed: bool  # whether it may be a function of time
-    remedy: str
-
-
-SURFACE = "give a finite pressure over the hydrostatic one, negative for suction"
-NUMBERS = {
-    "thickness": Number("m", 0.0, np.inf, True, False, "give the slope-normal thickness at time 0"),
-    "entrainment_rate": Number(
-        "m s-1", 0.0, np.inf, False, True, "a column that gets thinner without losing soil has a divergence_rate > 0"
-    ),
-    "coefficient_of_consolidation": Number("m2 s-1", 0.0, np.inf, False, False, "give 0 for no diffusion"),
-    "basal_pressure": Number("Pa", -np.inf, np.inf, False, True, SURFACE),
-    "initial_pressure": Number("Pa", -np.inf, np.inf, False, False, SURFACE),
-    "divergence_rate": Number("s-1", -np.inf, np.inf, False, True, "give a finite rate, negative where flow converges"),
-    "loading": Number("Pa m-1", 0.0, np.inf, False, False, "give rho' g cos(theta), or 0 to leave loading out"),
-    "porosity_source": Number("Pa s-1", -np.inf, np.inf, False, True, "give a finite rate of pressure"),
-    "basal_pressure_ratio": Number("-", 0.0, 1.0, False, True, "0 is a dry bed, 1 a liquefied one"),
-}
-OTHERS = {
-    "times": Number("s", 0.0, np.inf, False, False, "the columns start at time 0; for example times=[10.0, 100.0]"),
-    "initial_layer_fraction": Number("-", 0.0, 1.0, False, False, "it is a part of the thickness"),
-    "step": Number("s", 0.0, np.inf, True, False, "leave it None to have it chosen"),
-}
 
 
 def refuse(message: str):
@@ -62,7 +32,7 @@ class History:
 
     def __init__(self, name: str, given: Any):
         self.name, self.given = name, given
-        self.varies = callable(given) and (name == "base" or NUMBERS[name].timed)
+        self.varies = callable(given) and (name == "base" or NUMBERS[name].metadata["timed"])
         self.value = self._read(given(0.0), " at t = 0 s") if self.varies else self._read(given)
 
     def spread(self, count: int) -> None:
@@ -85,23 +55,18 @@ class History:
         return numbers(self.name, NUMBERS[self.name], value, when)
 
 
-def numbers(name: str, allowed: Number, value, when="", each="column") -> np.ndarray:
+def numbers(name: str, argument: dataclasses.Field, value, when="", each="column") -> np.ndarray:
     """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
-    array = _array(value)
+    array, meta = _array(value), argument.metadata
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
-        refuse(f"{name} must be one number or one per {each}, got {got}{when}; {allowed.remedy}")
-    inside = (array >= allowed.low) & (array <= allowed.high) & np.isfinite(array)
-    bad = np.flatnonzero(~inside | (allowed.open & (array == allowed.low)))
-    if bad.size:
-        left = "(" if allowed.open or np.isinf(allowed.low) else "["
-        right = ")" if np.isinf(allowed.high) else "]"
-        unit = "" if allowed.unit == "-" else f" {allowed.unit}"
-        where = f" for {each} {bad[0]}" if array.ndim else ""
-        refuse(
-            f"{name} must lie in {left}{allowed.low:g}, {allowed.high:g}{right}{unit}, got {array.flat[bad[0]]:g}"
-            f"{where}{when}; {allowed.remedy}"
-        )
+        refuse(f"{name} must be one number or one per {each}, got {got}{when}; {meta['remedy']}")
+    low, high = meta["bounds"]
+    in_range(
+        f"solve_column: {name}", array, low, high, meta["unit"],
+        lambda bad: f" for {each} {bad[0]}{when}" if array.ndim else when, meta["remedy"],
+        open_ends=(meta["open_below"] or np.isinf(low), np.isinf(high)), form="g",
+    )  # fmt: skip
     return array
 
 
@@ -160,12 +125,8 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
         If one is not usable, or two do not go together.
     """
     times = _times(given["times"])
-    for name, words in WORDS.items():
-        if (word := same_word(given[name], words)) is None:
-            refuse(f"{name} must be one of {', '.join(words)}; got {given[name]!r}{did_you_mean(given[name], words)}")
-        given[name] = word
-    if not isinstance(given["bounded"], bool):
-        refuse(f"bounded must be true or false, got {given['bounded']!r}")
+    for name, argument in CHOICES.items():
+        given[name] = checked("solve_column", name, argument, given[name])
     for name in ("initial_layer_fraction", "step"):
         if given[name] is not None and numbers(name, OTHERS[name], given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
@@ -197,7 +158,8 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
 
 def _times(times) -> np.ndarray:
     if times is None:
-        refuse(f"times is missing: give the times of output [s], increasing and >= 0; {OTHERS['times'].remedy}")
+        remedy = OTHERS["times"].metadata["remedy"]
+        refuse(f"times is missing: give the times of output [s], increasing and >= 0; {remedy}")
     times = np.atleast_1d(numbers("times", OTHERS["times"], times, each="output"))
     bad = np.flatnonzero(np.diff(times) <= 0.0)
     if bad.size:

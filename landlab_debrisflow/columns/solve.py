@@ -10,7 +10,8 @@ from ..physics.column.diagnostics import basal_peclet_number, consolidation_time
 from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from ..physics.material import Material
 from ..record.attributes import NO_FILL, described, heading, quantity
-from .arguments import DRAINED, NUMBERS, OTHERS, History, Inputs, read_inputs, refuse
+from .arguments import DRAINED, History, Inputs, read_inputs, refuse
+from .declarations import NUMBERS, OTHERS
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
@@ -245,7 +246,7 @@ def _dataset(inputs: Inputs, given, output) -> xr.Dataset:
         "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
         "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
     }
-    attributes, units = heading(), {name: number.unit for name, number in (NUMBERS | OTHERS).items()}
+    attributes, units = heading(), {n: argument.metadata["unit"] for n, argument in (NUMBERS | OTHERS).items()}
     for name, value in given.items():
         if isinstance(value, str | Real):
             attributes |= quantity(name, value, units.get(name, "-"))

@@ -1,7 +1,7 @@
 """Declare a parameter once: name, unit, meaning, default, bounds.
 
-From that one line come the validation, the tables of the documentation, the attributes of output
-files and the SI numbers that kernels read.
+From that one line come the validation, the docstring of the class, the tables of the documentation, the attributes of
+output files and the numbers in SI units that laws read.
 
 >>> @declared
 ... class Growth:
@@ -26,6 +26,8 @@ from typing import Any, dataclass_transform
 
 import numpy as np
 
+from .checks import in_range
+from .docstrings import with_parameters
 from .errors import ParameterError
 from .hints import did_you_mean, give_number, number_in, plain, same_word
 
@@ -63,32 +65,49 @@ class NodeValues:
         return f"<{self.values.size} node values {span}>"
 
 
-def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False):
-    """Declare one parameter of a class decorated with `declared`.
+def parameter(
+    unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False, *,
+    open_below=False, timed=False, remedy="",
+):  # fmt: skip
+    """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
     Parameters
     ----------
     unit : str
-        SI unit, ``"-"`` for none, or ``"deg"`` (kernels then get radians).
+        SI unit, ``"-"`` for none, or ``"deg"`` (laws then read radians).
     meaning : str
-        One line for tables and file attributes.
+        One line for docstrings, tables and file attributes.
     default : object
         Value if the user says nothing; None means "not set".
     bounds : tuple of float or None
         Closed interval of allowed values; None is unbounded.
-    choices : tuple of str, optional
-        Allowed words, for a parameter that is a choice and not a number.
+    choices : tuple of str, or mapping of str to float, optional
+        Allowed words, for a parameter that is a choice and not a number; of a mapping, a law reads the number.
     kind : type
         float, int, bool or str; tuple for one number or a list of them.
     varies : bool
-        Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for
-        a number, and the law reads it, in SI units, where the flow is (`on_nodes`), not from ``si``.
+        Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for a number.
+    open_below : bool
+        Whether the lower bound itself is refused.
+    timed : bool
+        Whether a function of time will do for a number.
+    remedy : str
+        What to do about a number that is refused.
+
+    Returns
+    -------
+    dataclasses.Field
+        With these in its ``metadata``, by name.
     """
     if choices is not None:
         kind = str
     low, high = bounds
-    bounds = (-math.inf if low is None else low, math.inf if high is None else high)
-    metadata = {"unit": unit, "meaning": meaning, "bounds": bounds, "choices": choices, "kind": kind, "varies": varies}
+    metadata = {
+        "unit": unit, "meaning": meaning, "choices": None if choices is None else tuple(choices), "kind": kind,
+        "numbers": choices if isinstance(choices, Mapping) else None, "varies": varies, "timed": timed,
+        "bounds": (-math.inf if low is None else low, math.inf if high is None else high),
+        "open_below": open_below, "remedy": remedy,
+    }  # fmt: skip
     return dataclasses.field(default=default, metadata=metadata)
 
 
@@ -96,30 +115,40 @@ def parameter(unit: str, meaning: str, default: Any, bounds=(None, None), choice
 def declared(cls):
     """Make a frozen, keyword-only dataclass whose parameters are checked when it is built.
 
-    A method ``_agree`` of the class is called last, for what concerns several parameters at once.
+    A method ``_agree`` of the class is called last, for what concerns several parameters at once. The docstring gets a
+    section ``Parameters`` from the declarations.
     """
 
     def check(self):
         for field in dataclasses.fields(self):
-            value = _checked(type(self).__name__, field, getattr(self, field.name))
+            value = checked(type(self).__name__, field.name, field, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
         if hasattr(self, "_agree"):
             self._agree()
 
-    def state(self):
-        # without the SI numbers, once they were asked for: they follow from the rest, and their type has no module
-        return {name: value for name, value in vars(self).items() if name != "si"}
-
-    cls.__getstate__ = state
     cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
-    cls.si = functools.cached_property(_in_si)  # the numbers in SI units, degrees as radians
-    cls.si.__set_name__(cls, "si")
-    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+    cls = dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+    cls.__doc__ = with_parameters(cls.__doc__, dataclasses.fields(cls))
+    return cls
 
 
-def _checked(owner: str, field: dataclasses.Field, value: Any):
-    """Return the value in its declared type, or raise ParameterError."""
-    meta, name = field.metadata, f"{owner}: {field.name}"
+def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
+    """Return the value of a parameter, or of an argument, in its declared type.
+
+    Parameters
+    ----------
+    owner, name : str
+        Class and parameter, or function and argument.
+    field : dataclasses.Field
+        As `parameter` returns it.
+    value : object
+
+    Raises
+    ------
+    ParameterError
+        If the value is not of that type or not allowed.
+    """
+    meta, name = field.metadata, f"{owner}: {name}"
     kind, value = meta["kind"], plain(value)
     if value is None and field.default is None:
         return None
@@ -160,38 +189,49 @@ def _checked_on_nodes(name: str, value: Any, meta):
     return NodeValues(values.astype(float))
 
 
-def check_values(name: str, values, meta, ignored, where) -> None:
-    """Refuse an array of which one value is out of bounds, but for those ignored; `where` turns a place into words."""
-    low, high = meta["bounds"]
-    bad = np.flatnonzero((~((values >= low) & (values <= high)) | np.isinf(values)) & ~ignored)
-    if bad.size:
-        unit = "" if meta["unit"] == "-" else f" {meta['unit']}"
-        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {values[bad[0]]} {where(bad[0])}")
-
-
 def on_nodes(obj, fields: Mapping[str, Any]):
-    """Return what may vary in space of a declared object as arrays over nodes, or of length 1, in SI units.
+    """Return all that a law reads of its parameters: numbers as arrays over nodes, or of length 1, in SI units.
 
     Parameters
     ----------
     obj : object
-        Of a class made by `declared`; anything else has nothing that varies.
+        Of a class made by `declared`; anything else has no parameters.
     fields : mapping of str to ndarray
         Arrays over nodes, by the names that parameters may be given as.
 
     Returns
     -------
     NamedTuple
+        Of every numeric parameter that is set an ndarray of floats, shape (nodes,) or (1,), degrees as radians. The
+        number of a choice, if choices have numbers, is an attribute beside them.
     """
-    values = {}
+    values, constants = {}, {}
     for field in dataclasses.fields(obj) if dataclasses.is_dataclass(obj) else ():
-        if not field.metadata.get("varies") or (value := getattr(obj, field.name)) is None:
+        value, meta = getattr(obj, field.name), field.metadata
+        if meta.get("numbers"):
+            constants[field.name] = meta["numbers"][value]
+        if meta.get("kind") not in (float, int) or value is None:
             continue
         if isinstance(value, str):
             value = fields[value]
         array = value.values if isinstance(value, NodeValues) else np.atleast_1d(np.asarray(value, float))
-        values[field.name] = np.radians(array) if field.metadata["unit"] == "deg" else array
-    return namedtuple(type(obj).__name__ + "Here", values)(**values)
+        values[field.name] = np.radians(array) if meta["unit"] == "deg" else array
+    return _struct(tuple(values), tuple(constants.items()))(*values.values())
+
+
+@functools.cache
+def _struct(names: tuple[str, ...], constants: tuple[tuple[str, float], ...]) -> type:
+    """Return the type of named tuples with some names and constants; the same one for the same, also in a pickle."""
+    cls = namedtuple("Parameters", names)
+    return type("Parameters", (cls,), {
+        "__doc__": "Parameters of a law in SI units, of which each is an ndarray, shape (n,) or (1,).",
+        "__slots__": (), "__module__": __name__, **dict(constants),
+        "__reduce__": lambda self: (_rebuilt, (names, constants, tuple(self))),
+    })  # fmt: skip
+
+
+def _rebuilt(names, constants, values):
+    return _struct(names, constants)(*values)
 
 
 def _checked_list(name: str, value: Any, meta):
@@ -210,20 +250,13 @@ def _checked_number(name: str, value: Any, meta):
     if isinstance(value, bool) or not isinstance(value, expected):
         word, hint = "an integer" if kind is int else "a number", give_number(value, kind is int)
         raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}{hint}")
-    low, high = meta["bounds"]
-    if not low <= value <= high or math.isinf(value):  # the comparison also refuses NaN
-        unit = "" if unit == "-" else f" {unit}"
-        raise ParameterError(f"{name} must lie in [{low:g}, {high:g}]{unit}, got {value!r}")
-    return int(value) if kind is int else float(value)
-
-
-def _in_si(self):
-    values = {
-        f.name: math.radians(v) if f.metadata["unit"] == "deg" else v
-        for f in dataclasses.fields(self)
-        if isinstance(v := getattr(self, f.name), Real)
-    }
-    return namedtuple(type(self).__name__ + "SI", values)(**values)
+    try:
+        number = float(value)
+    except OverflowError:  # of an integer
+        number = math.inf
+    told = value if kind is int and math.isfinite(number) else number
+    in_range(name, told, *meta["bounds"], unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
+    return int(value) if kind is int else number
 
 
 def from_mapping(cls, mapping: Mapping[str, Any], relatives: Mapping[str, type] | None = None):

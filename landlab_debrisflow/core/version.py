@@ -1,3 +1,5 @@
-"""The version of the package, for all that writes it down; `pyproject.toml` and `CITATION.cff` name the same."""
+"""The version of the package: that of the installed distribution, which `pyproject.toml` names."""
 
-__version__ = "0.1.0"
+from importlib.metadata import version
+
+__version__ = version("landlab_debrisflow")

@@ -5,9 +5,10 @@ from numbers import Real
 
 import numpy as np
 
-from ..core.errors import InputError
+from ..core.checks import in_range, require
+from ..core.errors import InputError, ParameterError
 from ..core.hints import did_you_mean, give_number, plain
-from ..core.parameters import NodeValues, check_values
+from ..core.parameters import NodeValues
 from .fields import NODE_FIELDS
 from .fills import LEAST_FILL, is_fill, replace_them
 
@@ -95,7 +96,11 @@ def check_parameters(grid, laws) -> None:
                 values, name = grid.at_node[value], f"{name}, from field {value!r},"
             else:
                 continue
-            check_values(name, values, field.metadata, closed, lambda k: f"at {where(grid, k)}")
+            meta = field.metadata
+            in_range(
+                name, values, *meta["bounds"], meta["unit"], lambda bad: f" at {where(grid, bad[0])}", ignored=closed,
+                error=ParameterError,
+            )  # fmt: skip
 
 
 def check_phases(physics) -> None:
@@ -173,26 +178,23 @@ def check_finite(grid, name, values, remedy):
     """Refuse a field that is not finite at every node that is not closed."""
     if np.isfinite(values).all():
         return
-    bad = np.flatnonzero(~np.isfinite(values) & (grid.status_at_node != CLOSED))
-    if bad.size:
-        raise InputError(
-            f"{name} must be finite at every node that is not closed, got {values[bad[0]]} at "
-            f"{where(grid, bad[0])}, the first of {bad.size}; {remedy}"
-        )
+    good = np.isfinite(values) | (grid.status_at_node == CLOSED)
+    place, allowed = _first_of_all(grid), "be finite at every node that is not closed"
+    require(good, name, allowed, values, place, remedy, error=InputError)
 
 
 def _check_range(grid, name, values, low, high, unit):
     most = min(high, LEAST_FILL) if unit == "m" else high
     if low <= values.min() and values.max() <= most:  # False for NaN
         return
-    good = (values >= low) & (values <= high) & ~((unit == "m") & is_fill(values))
-    bad = np.flatnonzero(~good & (grid.status_at_node != CLOSED))
-    if bad.size:
-        value = values[bad[0]]
-        raise InputError(
-            f"{name} must lie in [{low:g}, {high:g}] {unit}, got {value:g} at {where(grid, bad[0])}, the first of "
-            f"{bad.size}{replace_them(name, values, value)}"
-        )
+    closed, fills = grid.status_at_node == CLOSED, (unit == "m") & is_fill(values)
+    place = _first_of_all(grid, lambda node: replace_them(name, values, values[node]))
+    in_range(name, values, low, high, unit, place, ignored=closed, refused=fills, form="g", error=InputError)
+
+
+def _first_of_all(grid, more=lambda node: ""):
+    """Return a function that puts the first of some nodes, and how many they are, into words; `more` of the first."""
+    return lambda bad: f" at {where(grid, bad[0])}, the first of {bad.size}{more(bad[0])}"
 
 
 def where(grid, node) -> str:

@@ -1,33 +1,12 @@
-"""Hydrographs as a user gives them, and refusals of lines through which nothing can flow in."""
-
-from collections.abc import Mapping
+"""Refusals of inflow lines through which nothing can flow in."""
 
 import numpy as np
 
-from ..core.errors import InputError, ParameterError
-from ..model.inflow.hydrograph import Hydrograph
+from ..core.errors import InputError
 from ..model.inflow.source import Inflow
-from ..physics.registry import build_declared
 from .checks import CORE
 
 STATUS_WORDS = {1: "open (fixed-value)", 4: "closed"}
-
-
-def read_hydrographs(inflow) -> tuple[Hydrograph, ...]:
-    """Return the hydrographs that the keyword `inflow` gives: none, a Hydrograph, a mapping, or several of them.
-
-    Raises
-    ------
-    ParameterError
-        If it is something else, or a value is refused.
-    """
-    if inflow is None:
-        return ()
-    if isinstance(inflow, Hydrograph | Mapping):
-        inflow = (inflow,)
-    if isinstance(inflow, str) or not hasattr(inflow, "__iter__"):
-        raise ParameterError(f"inflow must be a Hydrograph, a mapping, or a list of them, got {inflow!r}")
-    return tuple(build_declared(Hydrograph, one, "inflow") for one in inflow)
 
 
 def check_lines(terrain, inflow: Inflow) -> None:

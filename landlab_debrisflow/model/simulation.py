@@ -4,7 +4,6 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
-from ..physics.registry import Physics
 from ..terrain.bed import Bed
 from . import activity, bed_load, step
 from .inflow.source import Inflow
@@ -30,12 +29,13 @@ class Simulation:
 
     Parameters
     ----------
-    physics : Physics
+    physics : Setup
+        Laws and material.
     numerics : Numerics
     inflow : Inflow, optional
     """
 
-    def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
+    def __init__(self, physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
         self.matter = Mixture(physics) if physics.two_phases else Single(physics)
         laws = (physics.flow, physics.friction, physics.erosion, physics.column, self.matter)

@@ -24,7 +24,7 @@ class BasalState(NamedTuple):
     eroded_depth: Array  # (n,) vertical, taken from the bed in this event, for erosion laws; else (1,) [m]
     gravity: float  # [m s-2]
     slip_ratio: float  # velocity at the base over the mean [-]
-    parameters: Any  # NamedTuple of those of the law's parameters that may vary in space, here: (n,) or (1,), SI
+    parameters: Any  # all that a law reads of its own, `core.parameters.on_nodes`: (n,) or (1,), SI
 
 
 class ColumnState(NamedTuple):

@@ -1,17 +1,14 @@
-"""The bundle of chosen laws, and the one place that builds laws from names."""
+"""All laws by name, and the one place that builds them from names."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, plain, same_word
 from ..core.parameters import from_mapping
 from .column import ALE, Classical, ConstantRatio, NoExcessPressure
-from .contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from .erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
 from .flow import OnePhase, TwoPhase
 from .friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
-from .material import Material
 
 LAWS = {
     "flow": {"one_phase": OnePhase, "two_phase": TwoPhase},
@@ -36,37 +33,10 @@ METHOD = {
 """The method that makes an object a law of its kind."""
 
 
-@dataclass(frozen=True)
-class Physics:
-    """What is simulated: one law of each kind and the material."""
-
-    flow: FlowLaw
-    friction: FrictionLaw
-    erosion: ErosionLaw
-    column: ColumnLaw
-    material: Material
-
-    @property
-    def two_phases(self) -> bool:
-        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
-        return hasattr(self.flow, "drag_coefficient")
-
-
-def build_physics(flow=None, friction=None, erosion=None, column=None, material=None) -> Physics:
-    """Build the bundle; each argument is a law, a name, a mapping of plain values, or None for the default.
-
-    Raises
-    ------
-    ParameterError
-        If a law or key is unknown (the message lists the legal ones) or a value out of bounds.
-    """
-    return Physics(
-        build_law("flow", flow),
-        build_law("friction", friction),
-        build_law("erosion", erosion),
-        build_law("column", column),
-        build_declared(Material, material, "material"),
-    )
+def law_name(kind: str, law) -> str:
+    """Return the name a law of some kind is chosen by, or module and class of one that has no name."""
+    cls = type(law)
+    return next((name for name, known in LAWS[kind].items() if known is cls), f"{cls.__module__}.{cls.__qualname__}")
 
 
 def build_law(kind: str, value):
@@ -96,7 +66,10 @@ def build_law(kind: str, value):
             raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {known}; got {value!r}{hint}")
         name = values.pop("law")
         if (known := same_word(plain(name), laws)) is None:
-            raise ParameterError(f"{kind}: unknown law {name!r}{did_you_mean(name, laws)}; allowed: {', '.join(laws)}")
+            outside = isinstance(name, str) and "." in name
+            remedy = f"; give an object of that class, or put the class into LAWS[{kind!r}]" if outside else ""
+            hint, allowed = did_you_mean(name, laws), ", ".join(laws)
+            raise ParameterError(f"{kind}: unknown law {name!r}{hint}; allowed: {allowed}{remedy}")
         return from_mapping(laws[known], values, laws)
     if isinstance(value, type) and callable(getattr(value, METHOD[kind], None)):
         raise ParameterError(f"{kind}: {value.__name__} is no {kind} law but the class of one; give {value.__name__}()")

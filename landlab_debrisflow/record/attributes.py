@@ -14,7 +14,7 @@ import numpy as np
 
 from ..core.parameters import NodeValues
 from ..core.version import __version__
-from ..physics.registry import LAWS
+from ..physics.registry import LAWS, law_name
 
 OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
 """How the names begin of what is true at one moment of one run only."""
@@ -109,13 +109,12 @@ def of_parameters(kind: str, obj: Any) -> dict[str, Any]:
     return attributes
 
 
-def of_laws(physics) -> dict[str, str]:
+def of_laws(setup) -> dict[str, str]:
     """Return the class of every law under its kind, and the name it is chosen by, or where it is from."""
     attributes = {}
-    for kind, laws in LAWS.items():
-        law = type(getattr(physics, kind))
-        names = [name for name, one in laws.items() if one is law]
-        attributes |= {kind: law.__name__, f"{kind}_law": (*names, f"{law.__module__}.{law.__qualname__}")[0]}
+    for kind in LAWS:
+        law = getattr(setup, kind)
+        attributes |= {kind: type(law).__name__, f"{kind}_law": law_name(kind, law)}
     return attributes
 
 

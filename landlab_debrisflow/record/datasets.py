@@ -26,7 +26,7 @@ ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
 FIELDS = {field.name: field for field in NODE_FIELDS}
 
 
-def particles_dataset(particles, lower_left, physics, time: float) -> xr.Dataset:
+def particles_dataset(particles, lower_left, setup, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
     data, order = {}, np.argsort(particles.identity)
     for variable in particles.variables:
@@ -41,11 +41,11 @@ def particles_dataset(particles, lower_left, physics, time: float) -> xr.Dataset
             data[variable.name] = ("particle", values[order], attributes)
     data["x"] = ("particle", particles.x[order] + lower_left[0], described("m", "map coordinate of the grid"))
     data["y"] = ("particle", particles.y[order] + lower_left[1], described("m", "map coordinate of the grid"))
-    attributes = heading() | of_moment(time, particles) | of_laws(physics)  # no date: the same particles are identical
+    attributes = heading() | of_moment(time, particles) | of_laws(setup)  # no date: the same particles are identical
     return xr.Dataset(data, {"particle": _numbers(particles.identity[order])}, attributes)
 
 
-def columns_dataset(profile, particles, coefficient_of_consolidation, physics, time: float) -> xr.Dataset:
+def columns_dataset(profile, particles, coefficient_of_consolidation, setup, time: float) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
@@ -72,7 +72,7 @@ def columns_dataset(profile, particles, coefficient_of_consolidation, physics, t
         {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
         | {name: ("particle", values[order], described(unit, text)) for name, (values, unit, text) in data.items()},
         {"particle": _numbers(p.identity[order]), "level": level},
-        heading() | of_moment(time, particles) | of_laws(physics),
+        heading() | of_moment(time, particles) | of_laws(setup),
     )
 
 
@@ -80,7 +80,7 @@ def _numbers(identity):
     return xr.Variable("particle", identity, described("-", "number of the particle, in order of release"))
 
 
-def maps_dataset(grid, shown: Mapping, physics, numerics, hydrographs, moment: Mapping) -> xr.Dataset:
+def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
     """Return what is shown over ``y`` and ``x``, closed nodes missing, with all parameters.
 
     Parameters
@@ -88,10 +88,9 @@ def maps_dataset(grid, shown: Mapping, physics, numerics, hydrographs, moment: M
     grid : RasterModelGrid
     shown : mapping of str to ndarray, shape (nodes,)
         By the names of fields.
-    physics : Physics
-        A parameter that varies in space becomes a variable named as its attribute would be.
-    numerics : Numerics
-    hydrographs : sequence of Hydrograph
+    setup : Setup
+        A parameter that varies in space becomes a map named as its attribute would be. One given at all nodes is there
+        as it was given, too, under a name with two underscores, by which `Setup.from_dataset` finds it.
     moment : mapping
         Attributes: see `attributes.of_moment`.
 
@@ -109,14 +108,18 @@ def maps_dataset(grid, shown: Mapping, physics, numerics, hydrographs, moment: M
         data[name] = (("y", "x"), values, described(field.unit, field.doc), encoding)
     attributes = {}
     for kind in ("flow", "friction", "erosion", "column", "material"):
-        law = getattr(physics, kind)
+        law = getattr(setup, kind)
         attributes |= of_parameters(kind, law)
         for name, values, words in at_nodes(kind, law, grid.at_node, closed.size):
             data[name] = (("y", "x"), np.where(closed, np.nan, values).reshape(grid.shape), words, encoding)
-    attributes |= of_parameters("numerics", numerics)
-    for k, hydrograph in enumerate(hydrographs):
+    for name, array in setup.node_arrays().items():
+        words = described(array.unit, f"{array.meaning}, as given, also at closed nodes")
+        data[name] = (("y", "x"), array.values.reshape(grid.shape), words, encoding)
+    attributes |= of_parameters("numerics", setup.numerics)
+    for k, hydrograph in enumerate(setup.inflow):
         attributes |= of_parameters(f"inflow_{k}", hydrograph)
-    return xr.Dataset(data, _axes(grid), heading() | date_created() | dict(moment) | attributes | of_laws(physics))
+    attributes |= setup.to_attributes() | of_laws(setup)
+    return xr.Dataset(data, _axes(grid), heading() | date_created() | dict(moment) | attributes)
 
 
 def _axes(grid):

@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 from rich.console import Console
 
+from ..core.checks import require
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..model.schedule import EVERY_STEP
@@ -208,6 +209,7 @@ def _shapes(values) -> str:
 
 
 def _positive(interval, owner: str) -> float:
-    if isinstance(interval, bool) or not isinstance(interval, Real) or not 0.0 < interval < float("inf"):
-        raise InputError(f"{owner}: interval must be a finite number of seconds > 0, got {interval!r}")
+    number = isinstance(interval, Real) and not isinstance(interval, bool)
+    good = number and 0.0 < interval < float("inf")
+    require(good, f"{owner}: interval", "be a finite number of seconds > 0", interval, error=InputError)
     return float(interval)

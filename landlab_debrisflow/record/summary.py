@@ -2,7 +2,7 @@
 
 from html import escape
 
-from ..physics.registry import LAWS
+from ..physics.registry import LAWS, law_name
 
 
 def text(flow) -> str:
@@ -27,7 +27,7 @@ def _rows(flow) -> dict[str, str] | None:
     if "_call" not in vars(flow):
         return None
     budget = ", ".join(f"{name} {volume:.6g}" for name, volume in flow.budget.items())
-    laws = ", ".join(f"{kind} {_name(kind, getattr(flow._physics, kind))}" for kind in LAWS)
+    laws = ", ".join(f"{kind} {law_name(kind, getattr(flow.setup, kind)).split('.')[-1]}" for kind in LAWS)
     rows, columns = flow.grid.shape
     return {
         "state": f"{_state(flow)} at {flow.elapsed_time:.6g} s",
@@ -46,7 +46,3 @@ def _state(flow) -> str:
     if simulation.particles.count:
         return "at rest, not settled"
     return "at rest" if budget["released"] + budget["inflow"] > 0.0 else "nothing released yet"
-
-
-def _name(kind: str, law) -> str:
-    return next((name for name, known in LAWS[kind].items() if type(law) is known), type(law).__name__)

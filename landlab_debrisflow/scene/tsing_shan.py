@@ -4,6 +4,7 @@ import numpy as np
 from landlab import RasterModelGrid
 from scipy.ndimage import gaussian_filter
 
+from ..core.checks import require
 from ..core.errors import InputError
 
 NON_ERODIBLE_BELOW = 100.0
@@ -176,5 +177,4 @@ def _correlated_noise(shape, correlation_in_nodes, seed):
 
 
 def _check(name, value, good, allowed):
-    if not good:
-        raise InputError(f"tsing_shan_valley: {name} must be {allowed}, got {value!r}")
+    require(good, f"tsing_shan_valley: {name}", f"be {allowed}", value, error=InputError)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.errors import ParameterError
-from landlab_debrisflow.core.parameters import declared, from_mapping, parameter
+from landlab_debrisflow.core.parameters import declared, from_mapping, on_nodes, parameter
 
 
 @declared
@@ -30,7 +30,7 @@ def test_values_are_kept_in_their_declared_type():
 
 
 def test_kernels_read_si_units():
-    si = Sledge(angle=90.0, bells=3).si
+    si = on_nodes(Sledge(angle=90.0, bells=3), {})
     assert si.angle == math.pi / 2  # degrees become radians
     assert si.bells == 3
     assert not hasattr(si, "load")  # "not set" and words are no numbers

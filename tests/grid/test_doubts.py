@@ -286,4 +286,4 @@ def test_doubts_change_nothing(slope):
     before = copy_fields(slope)
     flow = DebrisFlow(slope, material={"solid_density": 2.65, "water_density": 0.0}, numerics=COARSE)
     assert all(np.array_equal(before[name], slope.at_node[name]) for name in before)
-    assert flow._physics.material.solid_density == 2.65
+    assert flow.setup.material.solid_density == 2.65

@@ -7,14 +7,14 @@ import re
 import numpy as np
 import pytest
 
-from landlab_debrisflow import Material, Numerics
+from landlab_debrisflow import Material, Numerics, Setup
 from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.contracts import BasalState
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, Voellmy
-from landlab_debrisflow.physics.registry import LAWS, METHOD, build_law, build_physics
+from landlab_debrisflow.physics.registry import LAWS, METHOD, build_law
 
 ALL = [(kind, name) for kind, laws in LAWS.items() for name in laws]
 DECLARED = [law for laws in LAWS.values() for law in laws.values()] + [Material, Numerics]
@@ -202,10 +202,10 @@ def test_the_docstring_of_a_law_has_its_formula_and_source(entry):
 
 
 def test_defaults_are_those_of_tsing_shan():
-    physics = build_physics()
+    physics = Setup()
     names = [type(getattr(physics, kind)).__name__ for kind in ("flow", "friction", "erosion", "column")]
     assert names == ["OnePhase", "Coulomb", "Growth", "ALE"]
-    assert math.tan(physics.friction.si.basal_friction_angle) == pytest.approx(0.6, rel=1e-15)
+    assert math.tan(on_nodes(physics.friction, {}).basal_friction_angle[0]) == pytest.approx(0.6, rel=1e-15)
     assert physics.erosion.growth_rate == 3e-3
     material = physics.material
     assert (material.density, material.buoyant_density) == (1990.0, 990.0)

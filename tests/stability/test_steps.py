@@ -48,7 +48,7 @@ def test_a_step_beyond_the_limit_is_refused():
 def test_beyond_the_limit_it_does_blow_up():
     """What the bound protects from: twice the limit, put past the check."""
     scene = build(count=8000, spacing=20.0)
-    object.__setattr__(scene.flow._numerics, "courant_number", 2.44)
+    object.__setattr__(scene.flow.setup.numerics, "courant_number", 2.44)
     scene.run()
     # measured .76, and part of it is thrown out of the bowl
     assert scene.watch.gain > 0.3 * max(scene.watch.kinetic) and scene.flow.budget["outflow"] > 0.0
@@ -59,7 +59,7 @@ def test_without_shock_viscosity_energy_grows():
     with pytest.raises(ParameterError, match="shock_viscosity"):
         swing(shock_viscosity=0.49)
     scene = build()
-    object.__setattr__(scene.flow._numerics, "shock_viscosity", 0.0)
+    object.__setattr__(scene.flow.setup.numerics, "shock_viscosity", 0.0)
     assert scene.run().watch.gain > 0.5 * max(scene.watch.kinetic)
 
 

@@ -14,7 +14,8 @@ class Hydrograph:
 
     The discharge is spread evenly over the line, so its thickness is discharge / (velocity x length). What
     enters at one time moves with the velocity given until it has passed a strip of some particle
-    spacings behind the line; from there on it flows by itself.
+    spacings behind the line; from there on it flows by itself. Ends of the line, times, discharge and velocity are
+    needed.
 
     Examples
     --------

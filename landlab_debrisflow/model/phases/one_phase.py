@@ -16,7 +16,7 @@ class Single:
 
     Parameters
     ----------
-    physics : Physics
+    physics : Setup
     """
 
     variables = ()

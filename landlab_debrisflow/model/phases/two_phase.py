@@ -36,7 +36,7 @@ class Mixture:
 
     Parameters
     ----------
-    physics : Physics
+    physics : Setup
         With a flow law of two phases.
     """
 

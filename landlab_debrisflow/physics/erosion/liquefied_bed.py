@@ -33,6 +33,6 @@ class LiquefiedBed:
         here, tiny = state.parameters, np.finfo(float).tiny
         friction = 2.0 * np.tan(here.basal_friction_angle) * state.effective_normal_stress
         friction *= state.depth / np.maximum(state.thickness, tiny)  # over cos(theta)
-        np.divide(friction, state.density * np.maximum(state.speed, self.least_speed), out=out)
+        np.divide(friction, state.density * np.maximum(state.speed, here.least_speed), out=out)
         np.minimum(out, here.highest_rate, out=out)
-        out[state.speed < self.least_speed] = 0.0
+        out[state.speed < here.least_speed] = 0.0

@@ -33,13 +33,11 @@ class Coulomb:
     cohesion: float = parameter("Pa", "strength without normal stress; no pore pressure lowers it", 0.0, (0.0, None),
                                 varies=True)  # fmt: skip
     viscosity: float = parameter("Pa s", "of the sheared mixture; 0.5 at Tsing Shan", 0.0, (0.0, None), varies=True)
-    velocity_profile: str = parameter(
-        "-", "over the thickness, for the viscous part", "linear", choices=tuple(SHEAR_AT_BASE)
-    )
+    velocity_profile: str = parameter("-", "over the thickness, for the viscous part", "linear", choices=SHEAR_AT_BASE)
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
         """Write cohesion and friction [Pa], and the viscous part over speed [Pa s m-1]."""
         here = state.parameters
         strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
-        factor = SHEAR_AT_BASE[self.velocity_profile] * (1.0 - state.slip_ratio)
+        factor = here.velocity_profile * (1.0 - state.slip_ratio)
         np.divide(factor * here.viscosity, np.maximum(state.thickness, THINNEST), out=drag)

@@ -54,7 +54,7 @@ class MuI:
         np.multiply(static, stress, out=yield_stress)
         more = np.maximum(np.tan(here.limiting_friction_angle) - static, 0.0)
         # I = c v/(h sigma'^(1/2)); sigma' (mu - mu_s)/v multiplied by h sigma'^(1/2), which may be 0
-        c = 2.5 * (1.0 - state.slip_ratio) * np.sqrt(self.grain_density) * here.grain_diameter
+        c = 2.5 * (1.0 - state.slip_ratio) * np.sqrt(here.grain_density) * here.grain_diameter
         denominator = np.sqrt(stress)
         denominator *= np.maximum(state.thickness, THINNEST)
         denominator *= here.inertial_number

@@ -1,0 +1,56 @@
+"""The arguments of `solve_column`, declared as the parameters of laws are."""
+
+from ..core.parameters import parameter
+
+HYDROSTATIC = "give a finite pressure over the hydrostatic one, negative for suction"
+NUMBERS = {
+    "thickness": parameter(
+        "m", "slope-normal thickness at time 0", 1.0, (0.0, None), open_below=True,
+        remedy="give the slope-normal thickness at time 0",
+    ),
+    "entrainment_rate": parameter(
+        "m s-1", "erosion rate", 0.01, (0.0, None), timed=True,
+        remedy="a column that gets thinner without losing soil has a divergence_rate > 0",
+    ),
+    "coefficient_of_consolidation": parameter(
+        "m2 s-1", "diffusivity of excess pore pressure", 1e-3, (0.0, None), remedy="give 0 for no diffusion"
+    ),
+    "basal_pressure": parameter("Pa", "excess pore pressure of the bed", 1.0, timed=True, remedy=HYDROSTATIC),
+    "initial_pressure": parameter("Pa", "at the base at time 0", None, remedy=HYDROSTATIC),
+    "divergence_rate": parameter(
+        "s-1", "strain rate at which a column spreads", 0.0, timed=True,
+        remedy="give a finite rate, negative where flow converges",
+    ),
+    "loading": parameter(
+        "Pa m-1", "liquefaction pressure over thickness", 0.0, (0.0, None),
+        remedy="give rho' g cos(theta), or 0 to leave loading out",
+    ),
+    "porosity_source": parameter(
+        "Pa s-1", "pressure made by a change of porosity", 0.0, timed=True, remedy="give a finite rate of pressure"
+    ),
+    "basal_pressure_ratio": parameter(
+        "-", "excess pore pressure of the bed over its liquefaction value", None, (0.0, 1.0), timed=True,
+        remedy="0 is a dry bed, 1 a liquefied one",
+    ),
+}  # fmt: skip
+"""Arguments that are one number or one per column, declared as parameters are."""
+
+OTHERS = {
+    "times": parameter(
+        "s", "times of output", None, (0.0, None),
+        remedy="the columns start at time 0; for example times=[10.0, 100.0]",
+    ),
+    "initial_layer_fraction": parameter(
+        "-", "thickness of the basal layer over that of the column", 0.1, (0.0, 1.0),
+        remedy="it is a part of the thickness",
+    ),
+    "step": parameter(
+        "s", "longest time step", None, (0.0, None), open_below=True, remedy="leave it None to have it chosen"
+    ),
+}  # fmt: skip
+
+CHOICES = {
+    "law": parameter("-", "law of the column", "ale", choices=("ale", "classical", "constant_ratio")),
+    "advance": parameter("-", "whether a column may be left alone", "lazy", choices=("lazy", "every_step")),
+    "bounded": parameter("-", "hold the pressure between suction and liquefaction", False, kind=bool),
+}

@@ -1,0 +1,210 @@
+"""What is simulated and how, as one value: laws, material, numerics, inflow."""
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..core.errors import ParameterError
+from ..core.hints import did_you_mean
+from ..core.parameters import NodeValues
+from ..model.inflow.hydrograph import Hydrograph
+from ..model.numerics import Numerics
+from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
+from ..physics.material import Material
+from ..physics.registry import LAWS, build_declared, build_law, law_name
+from ..record.attributes import legal
+from .digest import digest, state_of, text_of
+
+
+class NodeArray(NamedTuple):
+    """A parameter given at every node."""
+
+    values: np.ndarray  # (nodes,)
+    unit: str
+    meaning: str
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Setup:
+    """One law of each kind, the material, the numerics and what flows in: all of a run but the grid.
+
+    It is compared, hashed and pickled as a value, and its attributes are the keywords of `DebrisFlow`, so that
+    ``DebrisFlow(grid, **vars(setup))`` runs it.
+
+    Parameters
+    ----------
+    flow, friction, erosion, column : law, str or mapping, optional
+        A law, its name in any case, or plain values with its name under ``"law"``; by default the first of its kind.
+    material : Material or mapping, optional
+    numerics : Numerics or mapping, optional
+    inflow : Hydrograph, mapping or a sequence of them, optional
+
+    Raises
+    ------
+    ParameterError
+        If a law or key is unknown (the message lists the legal ones) or a value out of bounds.
+
+    Examples
+    --------
+    >>> setup = Setup(friction={"law": "voellmy", "cohesion": 100.0}, numerics={"particle_count": 500})
+    >>> setup.friction.turbulent_coefficient, setup.to_mapping()["numerics"]["particle_count"]
+    (500.0, 500)
+    >>> Setup.from_mapping(setup.to_mapping()) == setup, Setup().digest() == setup.digest()
+    (True, False)
+    """
+
+    flow: FlowLaw = None
+    friction: FrictionLaw = None
+    erosion: ErosionLaw = None
+    column: ColumnLaw = None
+    material: Material = None
+    numerics: Numerics = None
+    inflow: tuple[Hydrograph, ...] = ()
+
+    def __post_init__(self):
+        built = {kind: build_law(kind, getattr(self, kind)) for kind in LAWS}
+        built["material"] = build_declared(Material, self.material, "material")
+        built["numerics"] = build_declared(Numerics, self.numerics, "numerics")
+        built["inflow"] = _hydrographs(self.inflow)
+        for name, value in built.items():
+            object.__setattr__(self, name, value)
+
+    @property
+    def two_phases(self) -> bool:
+        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
+        return hasattr(self.flow, "drag_coefficient")
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[str, Any]) -> "Setup":
+        """Build a setup from plain values, as they come from YAML.
+
+        Parameters
+        ----------
+        mapping : mapping
+            By the names of the attributes; what is left out has its default.
+
+        Returns
+        -------
+        Setup
+
+        Raises
+        ------
+        ParameterError
+            If a key is unknown or a value is refused.
+        """
+        if not isinstance(mapping, Mapping):
+            raise ParameterError(f"Setup: a mapping is needed, got {mapping!r}")
+        legal_keys = [field.name for field in dataclasses.fields(cls)]
+        for key in mapping:
+            if key not in legal_keys:
+                hint = did_you_mean(key, legal_keys)
+                raise ParameterError(f"Setup: unknown key {key!r}{hint}; allowed: {', '.join(legal_keys)}")
+        return cls(**mapping)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return all values, defaults included, as numbers, words, lists and mappings; what is not set is left out.
+
+        Returns
+        -------
+        dict
+            `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared is
+            there with its class and how it prints, and one whose class has no name in `LAWS` with its class: from those
+            no setup can be built.
+        """
+        return self._mapping(lambda kind, name, array: array.values.tolist())
+
+    def _mapping(self, array_of) -> dict[str, Any]:
+        """Return the mapping; ``array_of(kind, name, values)`` stands for the values of a parameter at nodes."""
+
+        def values_of(kind, obj):
+            values = {field.name: getattr(obj, field.name) for field in dataclasses.fields(obj)}
+            plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+            return {
+                name: array_of(kind, name, value) if isinstance(value, NodeValues) else value
+                for name, value in plain.items() if value is not None
+            }  # fmt: skip
+
+        mapping: dict[str, Any] = {}
+        for kind in LAWS:
+            law = getattr(self, kind)
+            values = values_of(kind, law) if is_declared(law) else {"repr": text_of(law)}
+            mapping[kind] = {"law": law_name(kind, law)} | values
+        mapping |= {kind: values_of(kind, getattr(self, kind)) for kind in ("material", "numerics")}
+        return mapping | {"inflow": [values_of("inflow", hydrograph) for hydrograph in self.inflow]}
+
+    def digest(self) -> str:
+        """Return 32 hexadecimal digits that are the same for equal setups in every process, and else differ.
+
+        Of a law that is not declared they tell class, state and how it prints.
+        """
+        laws = {kind: (law_name(kind, law := getattr(self, kind)), state_of(law)) for kind in LAWS}
+        return digest([laws, *(state_of(part) for part in (self.material, self.numerics)), list(self.inflow)])
+
+    # ---- in a Dataset ----
+
+    def node_arrays(self) -> dict[str, NodeArray]:
+        """Return what is given at every node, by the name of a variable, such as ``friction__cohesion``."""
+        return {
+            _variable(kind, field.name): NodeArray(value.values, field.metadata["unit"], field.metadata["meaning"])
+            for kind in LAWS if is_declared(law := getattr(self, kind))
+            for field in dataclasses.fields(law) if isinstance(value := getattr(law, field.name), NodeValues)
+        }  # fmt: skip
+
+    def to_attributes(self) -> dict[str, str]:
+        """Return the setup as attributes of a Dataset that has `node_arrays` as variables, and its digest."""
+        mapping = self._mapping(lambda kind, name, array: {"variable": _variable(kind, name)})
+        return {"setup": json.dumps(mapping), "setup_digest": self.digest()}
+
+    @classmethod
+    def from_dataset(cls, dataset: xr.Dataset) -> "Setup":
+        """Return the setup of a run from its maps, or from snapshots that have all variables.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+
+        Returns
+        -------
+        Setup
+            Equal to that of the run.
+
+        Raises
+        ------
+        ParameterError
+            If the Dataset has no setup, lacks a variable, or a law of it cannot be built from plain values.
+        """
+        if "setup" not in dataset.attrs:
+            raise ParameterError("Setup: the Dataset has no attribute 'setup'; give the maps or snapshots of a flow")
+        mapping = json.loads(dataset.attrs["setup"])
+        for kind in LAWS:
+            for key, value in mapping[kind].items():
+                if not isinstance(value, Mapping):
+                    continue
+                if (name := value["variable"]) not in dataset:
+                    raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")
+                mapping[kind][key] = dataset[name].values.reshape(-1)
+        return cls.from_mapping(mapping)
+
+
+def is_declared(obj) -> bool:
+    """Return whether the parameters of an object are all declared."""
+    return dataclasses.is_dataclass(obj) and all("meaning" in field.metadata for field in dataclasses.fields(obj))
+
+
+def _variable(kind: str, name: str) -> str:
+    return legal(f"{kind}__{name}")
+
+
+def _hydrographs(inflow) -> tuple[Hydrograph, ...]:
+    """Return what stands for an inflow: none, a Hydrograph, a mapping, or several of them."""
+    if inflow is None:
+        return ()
+    if isinstance(inflow, Hydrograph | Mapping):
+        inflow = (inflow,)
+    if isinstance(inflow, str) or not hasattr(inflow, "__iter__"):
+        raise ParameterError(f"inflow must be a Hydrograph, a mapping, or a list of them, got {inflow!r}")
+    return tuple(build_declared(Hydrograph, one, "inflow") for one in inflow)
