@@ -17,9 +17,9 @@ def check_lines(terrain, inflow: Inflow) -> None:
 
 def check_strips(terrain, inflow: Inflow) -> None:
     """Refuse strips of prescribed flow that are not on core nodes of a `Terrain`; their direction must be known."""
-    for source in () if inflow.over else inflow.sources:
+    for source, direction in () if inflow.over else zip(inflow.sources, inflow.directions, strict=True):
         steps = np.append(np.arange(0.0, source.strip, 0.25 * min(terrain.spacing)), source.strip)
-        strip = _line(terrain, source)[:, :, None] + source.towards[:, None, None] * steps
+        strip = _line(terrain, source)[:, :, None] + direction[:, None, None] * steps
         name = f"the strip of {source.strip:.3g} m behind it, in which the flow is prescribed,"
         remedy = "; more particles make it shorter"
         _check_points(terrain, source.hydrograph, strip.reshape(2, -1), f"the line and {name}", remedy)

@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.memento import Memento
 from .fields import NODE_FIELDS
 from .interruption import Interruption
 from .outputs import Outputs
@@ -33,19 +32,19 @@ class Moment:
         simulation = writer.simulation
         self.rows, self._writer = rows, writer
         self._draining = NodeBackup(writer.draining, slice(None))
-        self._border = writer.state.copy()
-        laws = [simulation.physics, *vars(simulation.physics).values(), simulation.numerics]
-        self._model = Memento([simulation], [simulation.bed, *laws])
+        self._border, self._model = writer.state.copy(), simulation.state.copy()
+        self._simulation = dict(vars(simulation))  # the bed it lies on and what belongs to that, replaced by each call
 
     def restore(self) -> None:
         """Go back, as often as wanted."""
-        writer, surface = self._writer, self._writer.state.grid_bed.surface
+        writer, simulation = self._writer, self._writer.simulation
+        surface = writer.state.grid_bed.surface
         self._draining.restore()
         self.rows.restore()
-        writer.state = self._border.copy()
-        self._model.restore()
+        vars(simulation).update(self._simulation)
+        writer.state, simulation.state = self._border.copy(), self._model.copy()
         if writer.state.bed is not None:
-            writer.simulation.bed = writer.state.bed
+            simulation.bed = writer.state.bed
         if writer.state.grid_bed.surface is surface:  # else it was made in the call that is undone
             writer.state.grid_bed.restore_surface(writer.elevation, self.rows.nodes)
 

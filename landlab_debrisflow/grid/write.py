@@ -81,31 +81,31 @@ class FieldWriter:
     def follow_step(self) -> None:
         """Keep rows after a step, and record the maps if the flow may have got on by then."""
         self.keep_rows()
-        if self.state.peak_maps.is_due(self.simulation.time, self.simulation.survey.fastest):
+        if self.state.peak_maps.is_due(self.simulation.time, self.simulation.state.limits.fastest):
             self.record()
 
     def record(self) -> None:
         """Write the maps of now and of peaks."""
         sim = self.simulation
-        self.state.peak_maps.record(sim.particles, sim.matter.density(sim.particles), sim.time)
+        self.state.peak_maps.record(sim.particles, sim.phases.density(sim.particles), sim.time)
 
     @contextmanager
     def present(self):
         """Write the present into the fields for the time of the block, and put all of it back."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
-        particles, peak_maps, accounts = sim.particles, state.peak_maps, {ERODED, DEPOSIT}
+        model, peak_maps, accounts = sim.state, state.peak_maps, {ERODED, DEPOSIT}
         outputs = {field.name for field in NODE_FIELDS if field.name.startswith(OUTPUT_PREFIX) and field.name in at}
         kept = (
             NodeBackup([at[name] for name in outputs - accounts], self._nodes_near()),
             NodeBackup([at[name] for name in accounts], self.rows.nodes), NodeBackup(self.draining, slice(None)),
         )  # fmt: skip
-        sim.particles, state.peak_maps = particles.copy(), copy(peak_maps)
+        sim.state, state.peak_maps = model.copy(), copy(peak_maps)
         try:
             self._write(self.rows.nodes)
             yield
         finally:
             with self._interruption.deferred():
-                sim.particles, state.peak_maps = particles, peak_maps
+                sim.state, state.peak_maps = model, peak_maps
                 for backup in kept:
                     backup.restore()
 
@@ -173,17 +173,15 @@ class FieldWriter:
     def model_volumes(self) -> ModelVolumes:
         """Return the volumes that the model measures."""
         sim = self.simulation
-        moving_solid = float(sim.matter.solid_volume(sim.particles).sum())
-        inflow, outflow = sim.inflow.volume, sim.outflow
-        return ModelVolumes(
-            self.carried_volume(), inflow, outflow.total, moving_solid, sim.settled_solid, outflow.solid
-        )
+        moving_solid = float(sim.phases.solid_volume(sim.particles).sum())
+        inflow, outflow, settled = sim.inflow.volume, sim.state.outflow, sim.state.settled_solid
+        return ModelVolumes(self.carried_volume(), inflow, outflow.total, moving_solid, settled, outflow.solid)
 
     def continue_from(self, earlier: "FieldWriter") -> None:
         """Go on with the clock and the accounts of an earlier component that holds no particles any more."""
-        sim, before = self.simulation, earlier.simulation
-        sim.time, sim.settled_solid, sim.outflow = before.time, before.settled_solid, before.outflow.copy()
+        model, before = self.simulation.state, earlier.simulation.state
+        model.time, model.settled_solid, model.outflow = before.time, before.settled_solid, before.outflow.copy()
         state, former = self.state, earlier.state
-        state.budget.continue_from(former.budget, earlier.model_volumes(), before.physics.material)
+        state.budget.continue_from(former.budget, earlier.model_volumes(), former.grid_bed.material)
         state.settled[:], state.grid_bed.eroded[:] = former.settled, former.grid_bed.eroded
         state.written = former.written

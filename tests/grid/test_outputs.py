@@ -215,8 +215,9 @@ def test_a_call_that_fails_leaves_the_outputs_of_the_other_one(monkeypatch):
     release_slab(grid, FAR, 8.0, 0.2)
     second.run_one_step(2.0)
     before = copy_fields(grid)
-    look, steps = first._simulation.rest.look, iter(range(100))
-    monkeypatch.setattr(first._simulation.rest, "judge", lambda sim: look(sim.particles) if next(steps) < 5 else 1 / 0)
+    bodies, steps = first._simulation.state.bodies, iter(range(100))
+    separate = bodies.separate
+    monkeypatch.setattr(bodies, "judge", lambda p, _: separate(p) if next(steps) < 5 else 1 / 0)
     with pytest.raises(ZeroDivisionError):
         first.run_one_step(2.0)
     assert not changed_fields(grid, before)
