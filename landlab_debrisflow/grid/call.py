@@ -48,7 +48,7 @@ class GridCall:
         """
         sim = self._simulation
         with self.rollback.around_call() as interrupted:
-            end = sim.time + duration
+            end = sim.state.time + duration
             if interrupted is None:
                 done = sim.run(*self._prepare(), end, stop_at_rest, self._listener)
             else:
@@ -73,11 +73,11 @@ class GridCall:
 
     def _prepare(self, with_release: bool = True):
         """Return the bed of the call, and the input."""
-        sim, state = self._simulation, self._writer.state
-        carried = sim.particles.volume.size > 0
-        given = self._reader.read(state.grid_bed, sim.inflow, carried, state.warned, with_release)
+        model, state = self._simulation.state, self._writer.state
+        carried = model.particles.volume.size > 0
+        given = self._reader.read(state.grid_bed, model.inflow, carried, state.warned, with_release)
         state.warned = given.warned
-        bed = state.grid_bed.lay(given, self._writer.rows, sim.inflow, sim.time)
+        bed = state.grid_bed.lay(given, self._writer.rows, model.inflow, model.time)
         state.budget.released += given.release.volume
         return bed, given
 
