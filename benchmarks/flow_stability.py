@@ -1,7 +1,7 @@
 """Where flow models fail, at full size: python -m benchmarks.flow_stability [words of the cases to run]
 
-Every case of theory section 5 that concerns the flow, on the scenes of tests/stability, without friction unless it
-says so. Printed per case: time steps and CPU time of one thread; the largest speed, and what the fall alone allows that
+Every scene of validation/cases/stability.py, without friction unless the case says so. Printed per case: time steps and
+CPU time of one thread; the largest speed, and what the fall alone allows that
 particle, (2 g (top - z))^(1/2); how far all stay below the bound with waves, (2 g (top - z))^(1/2) + 2 (g h)^(1/2);
 the highest head of a particle over the top of the body at rest (half a failing cell beyond its nodes included); the
 largest rise of the energy of the whole body, per weight, until something leaves the grid; the root mean square of the
@@ -27,8 +27,8 @@ from rich.table import Table
 
 from landlab_debrisflow.core.errors import SimulationError
 from landlab_debrisflow.model import time_step
-from tests.stability import scenes
-from tests.stability.watch import NoThrust, Scene
+from validation.cases import stability as scenes
+from validation.watch import NoThrust, Scene
 
 HERE = Path(__file__).parent
 LIMIT = 1.22

@@ -1,5 +1,6 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component."""
 
+from . import exact
 from .columns.solve import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
@@ -17,5 +18,6 @@ __all__ = [
     "ParameterError",
     "SimulationError",
     "__version__",
+    "exact",
     "solve_column",
 ]

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
+from validation.cases import stability as scenes
 from validation.grids import dry_block, inclined, place, release_cap
+from validation.watch import G, Scene
 
-from . import scenes
 from .checks import assert_sound
-from .watch import G, Scene
 
 CELERITY = math.sqrt(G * 2.0)  # of the basin, 2 m deep
 

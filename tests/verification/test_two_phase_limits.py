@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from benchmarks import two_phase
 from landlab_debrisflow.exact.columns import consolidation
 from landlab_debrisflow.physics.contracts import WATER
+from validation.cases import two_phase_strips
 from validation.cases.planes import plane
 from validation.cases.two_phase import CASES
 
@@ -54,20 +54,20 @@ def test_a_tight_mixture_is_one_phase_with_pore_pressure():
 )
 def test_without_pore_pressure_it_is_pitman_and_le(name, count, depths, momenta):
     """Against finite volumes: thickness of each phase and its momentum, relative L1."""
-    flow, _, _ = two_phase.run(name, count)
-    found = two_phase.errors(flow, name)
+    flow, _, _ = two_phase_strips.run(name, count)
+    found = two_phase_strips.errors(flow, name)
     assert max(found[:2]) < depths and max(found[2:]) < momenta
 
 
 def test_another_drag_fails_that_test():
     mixture = replace(CASES["cap"].mixture, conductivity=0.2)
-    flow, _, _ = two_phase.run("cap", 500, **two_phase.keywords(mixture))
-    assert max(two_phase.errors(flow, "cap")[:2]) > 0.02  # water that goes ahead twice as far: measured .029
+    flow, _, _ = two_phase_strips.run("cap", 500, **two_phase_strips.keywords(mixture))
+    assert max(two_phase_strips.errors(flow, "cap")[:2]) > 0.02  # water that goes ahead twice as far: measured .029
 
 
 def centres(flow):
     """Return the mean distance down the plane of grains and of water [m]."""
-    return [np.average(two_phase.profile(flow, phase)[0]) for phase in two_phase.PHASES]
+    return [np.average(two_phase_strips.profile(flow, phase)[0]) for phase in two_phase_strips.PHASES]
 
 
 def test_a_permeable_mixture_drains_by_itself():
@@ -79,7 +79,7 @@ def test_a_permeable_mixture_drains_by_itself():
     for conductivity in (0.1, 1.0, 10.0):
         mixture = replace(CASES["cap"].mixture, conductivity=conductivity)
         runs = [
-            two_phase.run("cap", 300, **two_phase.keywords(mixture, column, initial_pressure_ratio=0.0))
+            two_phase_strips.run("cap", 300, **two_phase_strips.keywords(mixture, column, initial_pressure_ratio=0.0))
             for column in ("none", "ale")
         ]
         bare, pressed = (np.array(centres(flow)) for flow, _, _ in runs)
