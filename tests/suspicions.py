@@ -1,7 +1,7 @@
 """Listen to what the package finds odd (`landlab_debrisflow/grid/doubts.py`), where nothing should be.
 
-With the fixtures `only_built` and `no_doubts` scenes are built and read as in a run, up to the moment in which particles
-would be made, and nothing was doubted until then.
+With the fixtures `only_built` and `no_doubts` scenes are built and read as in a run, up to the moment in which
+particles would be made, and nothing was doubted until then.
 """
 
 import inspect

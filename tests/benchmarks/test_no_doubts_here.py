@@ -56,9 +56,9 @@ def test_laws(slope):
 
 
 def test_two_phase():
-    two_phase = benchmark("two_phase")
-    for name in two_phase.PLACES:
-        built(two_phase.strip, name, 40)
+    strips = benchmark("two_phase").strips
+    for name in strips.PLACES:
+        built(strips.strip, name, 40)
 
 
 def test_when_ale_matters():
