@@ -72,14 +72,10 @@ def fronts(columns, counts=(750,)) -> str:
     """Return the run-out of the demo's front beyond the 100 m contour, for columns and numbers of particles [m]."""
     found = []
     for column, particles in itertools.product(columns, counts):
-        grid = tsing_shan_valley()
-        elevation, release = (
-            grid.at_node[name].reshape(grid.shape).copy()
-            for name in ("topographic__elevation", "debris_flow__release_depth")
-        )
-        flow = DebrisFlow(grid, column=column, material=MATERIAL, numerics={"particle_count": particles})
+        flow = DebrisFlow(tsing_shan_valley(), column=column, material=MATERIAL, numerics={"particle_count": particles})
+        before = flow.maps
         flow.run_until_rest()
-        found.append(measure(flow, elevation, release)["run-out of the front beyond the 100 m contour [m]"])
+        found.append(measure(flow, before)["run-out of the front beyond the 100 m contour [m]"])
     return " ".join(f"{one:.0f}" for one in found)
 
 

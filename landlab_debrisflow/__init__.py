@@ -8,6 +8,7 @@ from .core.version import __version__
 from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
+from .record.measures import measures
 
 __all__ = [
     "DebrisFlow",
@@ -19,5 +20,6 @@ __all__ = [
     "SimulationError",
     "__version__",
     "exact",
+    "measures",
     "solve_column",
 ]
