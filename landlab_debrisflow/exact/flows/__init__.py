@@ -1,4 +1,4 @@
-"""Exact solutions of depth-averaged flow on planes and in basins.
+"""Exact solutions of depth-averaged flow on planes and in basins (docs/theory.md#flow-solutions).
 
 Slope-normal form: ``h`` is the thickness across the plane [m], ``x`` points down it [m], ``u`` and ``v`` are
 depth-averaged velocities along ``x`` and ``y`` [m s-1]. Angles are in radians, ``slope`` is that of the plane; a
