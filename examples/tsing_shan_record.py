@@ -17,7 +17,7 @@ SINCE = (0.0, 4.0, 8.0, 16.0, 32.0, 128.0)
 PECLET_TIME = 40.0
 """Of the map of Péclet numbers, figure 18 [s]."""
 
-FRONT_SHARE = 0.99
+FRONT_FRACTION = 0.99
 """The front is as far as this part of the volume went at most: a stray particle is no front."""
 
 DEPOSIT = 0.1
@@ -154,7 +154,7 @@ class Record:
     def measure(self, flow, before):
         """Return `MEASURES` of the end of the run; `before` are the maps of the flow before it."""
         bare = self.soil == 0.0
-        whole = measures(flow, before, front_share=FRONT_SHARE)
+        whole = measures(flow, before, front_fraction=FRONT_FRACTION)
         beyond = measures(self.maps, inside=bare, deposit_threshold=DEPOSIT)
         eroded = self.maps.debris_flow__eroded_depth.fillna(0.0).values  # closed nodes are missing
         crossed = bare & (self.maps.debris_flow__max_depth.values > 0.0)

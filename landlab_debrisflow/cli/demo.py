@@ -27,7 +27,7 @@ LEVELS = 41
 DEPOSIT = 0.1
 """Least depth that counts as deposit, for medians and in the figure [m]."""
 
-FRONT_SHARE = 0.99
+FRONT_FRACTION = 0.99
 """The front is where this part of the deposited volume lies behind: a stray particle is no front."""
 
 
@@ -92,7 +92,7 @@ def measure(flow, before) -> dict[str, float]:
     elevation, x = before.topographic__elevation.values, before.x.values
     axis = elevation[elevation.shape[0] // 2]
     contour = np.interp(-NON_ERODIBLE_BELOW, -axis, x)
-    run = measures(flow, distance=lambda x, y: x, front_share=FRONT_SHARE)
+    run = measures(flow, distance=lambda x, y: x, front_fraction=FRONT_FRACTION)
     plain = measures(flow, inside=elevation < NON_ERODIBLE_BELOW, deposit_threshold=DEPOSIT)
     crown = np.flatnonzero((before.debris_flow__release_depth.values > 0.0).any(axis=0))[0]
     front = np.flatnonzero(x == float(run.run_out))[0]
@@ -116,9 +116,9 @@ def measure(flow, before) -> dict[str, float]:
 
 
 EXPLANATION = f"""\
-Front: where {FRONT_SHARE:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is from the \
-crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small viscosity and \
-the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. Péclet \
+Front: where {FRONT_FRACTION:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is from \
+the crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small viscosity \
+and the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. Péclet \
 numbers: peak at each eroded node, of these the largest and the median. CPU time includes loading (the first time: \
 compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
 friction is 0.30 without excess pore pressure and 0.10 at the bed's ratio of 0.65."""

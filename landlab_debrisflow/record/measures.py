@@ -9,10 +9,11 @@ from ..core.errors import InputError
 from .attributes import described
 
 ELEVATION, RELEASE = "topographic__elevation", "debris_flow__release_depth"
+DEPOSIT = "debris_flow__deposit_depth"
 
 
 def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | None = None, inside=None,
-             front_share: float = 0.99, flow_threshold: float = 0.0, erosion_threshold: float = 0.01,
+             front_fraction: float = 0.99, flow_threshold: float = 0.0, erosion_threshold: float = 0.01,
              deposit_threshold: float = 0.1) -> xr.Dataset:  # fmt: skip
     """Measure an event: run-out, travel angle, areas, volumes and peaks.
 
@@ -29,7 +30,7 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     inside : array_like of bool, shape (rows, columns) or (nodes,), optional
         Nodes to which areas, depths, peaks and the volumes of erosion and deposit are limited. Budget and run-out
         are always those of the whole event.
-    front_share : float
+    front_fraction : float
         Part of the volume that lies behind the front [-], in (0, 1]: a stray particle is no front.
     flow_threshold, erosion_threshold, deposit_threshold : float
         Least depth that counts as inundated, eroded or deposit, >= 0; depths of 0 never count [m].
@@ -50,7 +51,7 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
 
         With `before` or `distance`, of the particles if the component has any, else of the deposit:
 
-        run_out : distance of the front, which `front_share` of the volume does not exceed [m]
+        run_out : distance of the front, behind which `front_fraction` of the volume lies [m]
         farthest_run_out, centre_run_out : distance of the farthest part, and mean by volume [m]
 
         With `before`:
@@ -61,7 +62,8 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     Raises
     ------
     InputError
-        If a threshold or the share is out of bounds, or if `inside` or `before` is of another grid.
+        If a threshold or the fraction is out of bounds, if `inside` or `before` is of another grid, or if the Dataset
+        does not hold maps of one moment.
 
     References
     ----------
@@ -83,21 +85,25 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     >>> round(float(found.travel_angle), 2)  # 10 m down in 20 m
     26.57
     """
-    _check(front_share, flow_threshold, erosion_threshold, deposit_threshold)
+    _check(front_fraction, flow_threshold, erosion_threshold, deposit_threshold)
     maps = flow if isinstance(flow, xr.Dataset) else flow.maps
+    if DEPOSIT not in maps or set(maps[DEPOSIT].dims) != {"y", "x"}:
+        raise InputError(
+            f"measures: needs a DebrisFlow or its maps at one moment, got a Dataset over {dict(maps.sizes)}"
+        )
     found = _of_moment(maps) | _of_maps(_Region(maps, inside), flow_threshold, erosion_threshold, deposit_threshold)
     if before is not None or distance is not None:
-        found |= _of_way(_mass(flow, maps, before), before, distance, front_share)
+        found |= _of_way(_mass(flow, maps, before), before, distance, front_fraction)
     return xr.Dataset({name: ((), value, described(unit, words)) for name, (value, unit, words) in found.items()})
 
 
-def quantile(values, weights, share: float) -> float:
-    """Return the value which a share of the weights does not exceed.
+def quantile(values, weights, fraction: float) -> float:
+    """Return the value that a fraction of the weights does not exceed.
 
     Parameters
     ----------
     values, weights : ndarray, shape (n,)
-    share : float
+    fraction : float
         [-].
 
     Returns
@@ -112,12 +118,12 @@ def quantile(values, weights, share: float) -> float:
     """
     order = np.argsort(values)
     sums = np.cumsum(weights[order])
-    return float(values[order][min(np.searchsorted(sums, share * sums[-1]), values.size - 1)])
+    return float(values[order][min(np.searchsorted(sums, fraction * sums[-1]), values.size - 1)])
 
 
-def _check(front_share, *thresholds):
-    if not 0.0 < front_share <= 1.0:
-        raise InputError(f"measures: front_share must lie in (0, 1], got {front_share!r}")
+def _check(front_fraction, *thresholds):
+    if not 0.0 < front_fraction <= 1.0:
+        raise InputError(f"measures: front_fraction must lie in (0, 1], got {front_fraction!r}")
     if not all(0.0 <= threshold < np.inf for threshold in thresholds):
         raise InputError(f"measures: thresholds must be finite depths >= 0 [m], got {thresholds!r}")
 
@@ -161,35 +167,39 @@ def _of_moment(maps):
 def _of_maps(region, flow_threshold, erosion_threshold, deposit_threshold):
     """Return areas, volumes, depths and peaks."""
     depth, eroded, deposit = (region.at(name) for name in ("max_depth", "eroded_depth", "deposit_depth"))
-    lies = deposit[_counts(deposit, deposit_threshold)]
+    eroding, thick = _at_least(eroded, erosion_threshold), deposit[_at_least(deposit, deposit_threshold)]
     peclet = region.at("max_basal_peclet_number")
-    peclet = peclet[_counts(eroded, erosion_threshold)] if peclet.size else peclet
-
-    def peak(values):
-        return values.max() if values.size else np.nan
-
+    peclet = peclet[eroding] if peclet.size else peclet
+    inundated = _at_least(depth, flow_threshold).sum()
     return {
-        "inundated_area": (_counts(depth, flow_threshold).sum() * region.cell, "m2", "map area the flow came over"),
-        "eroded_area": (_counts(eroded, erosion_threshold).sum() * region.cell, "m2", "map area of erosion"),
-        "deposit_area": (lies.size * region.cell, "m2", "map area of the deposit"),
+        "inundated_area": (inundated * region.cell, "m2", "map area the flow came over"),
+        "eroded_area": (eroding.sum() * region.cell, "m2", "map area of erosion"),
+        "deposit_area": (thick.size * region.cell, "m2", "map area of the deposit"),
         "eroded_volume": (eroded.sum() * region.cell, "m3", "volume eroded, without the release"),
         "deposit_volume": (deposit.sum() * region.cell, "m3", "volume of the deposit"),
-        "max_depth": (peak(depth), "m", "largest depth of moving mass"),
-        "max_speed": (peak(region.at("max_speed")), "m s-1", "largest speed"),
-        "max_impact_pressure": (peak(region.at("max_impact_pressure")), "Pa", "largest density times speed squared"),
-        "max_run_up": (peak(region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
-        "max_eroded_depth": (peak(eroded), "m", "deepest erosion"),
-        "max_deposit_depth": (peak(deposit), "m", "largest depth of the deposit"),
-        "mean_deposit_depth": (lies.mean() if lies.size else np.nan, "m", "mean depth over the area of the deposit"),
-        "median_deposit_depth": (np.median(lies) if lies.size else np.nan, "m", "median over the area of the deposit"),
-        "max_basal_peclet_number": (peak(peclet), "-", "largest basal Péclet number where eroded"),
+        "max_depth": (_of(np.max, depth), "m", "largest depth of moving mass"),
+        "max_speed": (_of(np.max, region.at("max_speed")), "m s-1", "largest speed"),
+        "max_impact_pressure": (
+            _of(np.max, region.at("max_impact_pressure")), "Pa", "largest density times speed squared",
+        ),
+        "max_run_up": (_of(np.max, region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
+        "max_eroded_depth": (_of(np.max, eroded), "m", "deepest erosion"),
+        "max_deposit_depth": (_of(np.max, deposit), "m", "largest depth of the deposit"),
+        "mean_deposit_depth": (_of(np.mean, thick), "m", "mean depth over the area of the deposit"),
+        "median_deposit_depth": (_of(np.median, thick), "m", "median depth over the area of the deposit"),
+        "max_basal_peclet_number": (_of(np.max, peclet), "-", "largest basal Péclet number where eroded"),
         "median_basal_peclet_number": (
-            np.median(peclet) if peclet.size else np.nan, "-", "median basal Péclet number where eroded, of peaks",
+            _of(np.median, peclet), "-", "median of the largest basal Péclet numbers where eroded",
         ),
     }  # fmt: skip
 
 
-def _counts(depth, threshold):
+def _of(reduction, values):
+    """Return a reduction of values, NaN if there are none."""
+    return reduction(values) if values.size else np.nan
+
+
+def _at_least(depth, threshold):
     return (depth >= threshold) & (depth > 0.0)
 
 
@@ -197,16 +207,16 @@ def _mass(flow, maps, before):
     """Return x, y, bed elevation [m] and volume [m3] of the mass: particles, or nodes of the deposit."""
     if flow is not maps and (p := flow.particles).sizes["particle"]:
         return p.x.values, p.y.values, p.z.values, p.volume.values
-    deposit = np.nan_to_num(maps.debris_flow__deposit_depth.values)
+    deposit = np.nan_to_num(maps[DEPOSIT].values)
     y, x = np.meshgrid(maps.y.values, maps.x.values, indexing="ij")
-    lies = deposit > 0.0
+    covered = deposit > 0.0
     ground = maps if before is None else before
     if ground.sizes != maps.sizes and (ground.sizes["y"], ground.sizes["x"]) != deposit.shape:
         raise InputError(f"measures: before has {dict(ground.sizes)} nodes, the maps have {dict(maps.sizes)}")
-    return x[lies], y[lies], ground[ELEVATION].values[lies], deposit[lies] * _cell(maps)
+    return x[covered], y[covered], ground[ELEVATION].values[covered], deposit[covered] * _cell(maps)
 
 
-def _of_way(mass, before, distance, front_share):
+def _of_way(mass, before, distance, front_fraction):
     """Return how far the mass went, and with the ground before also the line from the crown to the front."""
     x, y, z, volume = mass
     released = None if before is None else np.nan_to_num(before[RELEASE].values)
@@ -219,9 +229,9 @@ def _of_way(mass, before, distance, front_share):
     else:
         far = np.full(x.size, np.nan) if distance is None else np.asarray(distance(x, y), float)
     known = x.size > 0 and not np.isnan(far).any()
-    front = quantile(far, volume, front_share) if known else np.nan
+    front = quantile(far, volume, front_fraction) if known else np.nan
     found = {
-        "run_out": (front, "m", f"distance of the front, behind which {front_share:.4g} of the volume lies"),
+        "run_out": (front, "m", f"distance of the front, behind which {front_fraction:.4g} of the volume lies"),
         "farthest_run_out": (far.max() if known else np.nan, "m", "distance of the farthest part"),
         "centre_run_out": (np.average(far, weights=volume) if known else np.nan, "m", "mean distance by volume"),
     }

@@ -62,9 +62,9 @@ def test_way_from_the_centre_of_the_release_and_from_its_crown():
 
 def test_the_front_is_where_the_share_lies_behind():
     tail = maps(deposit_depth=row(0.0, 0.0, 9.0, 0.9, 0.1, 0.0))
-    far = {share: float(measures(tail, BEFORE, front_share=share).run_out) for share in (0.5, 0.95, 0.995)}
+    far = {share: float(measures(tail, BEFORE, front_fraction=share).run_out) for share in (0.5, 0.95, 0.995)}
     assert far == {0.5: 15.0, 0.95: 25.0, 0.995: 35.0}
-    assert measures(tail, BEFORE, front_share=0.5).farthest_run_out == 35.0
+    assert measures(tail, BEFORE, front_fraction=0.5).farthest_run_out == 35.0
     assert quantile(np.array([3.0, 1.0, 2.0]), np.array([1.0, 1.0, 98.0]), 0.995) == 3.0
 
 
@@ -106,10 +106,16 @@ def test_every_measure_has_unit_and_meaning():
     assert measures(AFTER, BEFORE).travel_angle.units == "degree"
 
 
+@pytest.mark.parametrize("other", [xr.Dataset(), AFTER.expand_dims(time=2)], ids=["no maps", "of two moments"])
+def test_it_needs_maps_of_one_moment(other):
+    with pytest.raises(InputError, match="needs a DebrisFlow or its maps at one moment"):
+        measures(other)
+
+
 @pytest.mark.parametrize(
     ("wrong", "words"),
     [
-        ({"front_share": 0.0}, r"front_share must lie in \(0, 1\], got 0.0"),
+        ({"front_fraction": 0.0}, r"front_fraction must lie in \(0, 1\], got 0.0"),
         ({"deposit_threshold": -0.1}, "thresholds must be finite depths >= 0"),
         ({"inside": np.ones((2, 6), bool)}, r"one value for each of the 3 x 6 nodes, got shape \(2, 6\)"),
         ({"before": BEFORE.isel(x=slice(5))}, "before has"),

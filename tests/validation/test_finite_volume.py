@@ -10,6 +10,8 @@ from validation.cases.dam_breaks import CASES, circular_dam_break, rival_row
 from validation.measure import relative_errors
 from validation.rivals.finite_volume import solve
 
+pytestmark = pytest.mark.slow
+
 G = 9.81
 SLOPE = math.radians(20.0)
 PLANE = {"gravity_normal": G * math.cos(SLOPE), "gravity_along": (G * math.sin(SLOPE), 0.0)}
