@@ -196,3 +196,13 @@ def test_what_has_no_such_solution_is_refused():
         flows.mangeney(0.0, 1.0, 1.0, R15, 0.5)
     with pytest.raises(ValueError, match="rear"):
         flows.ridge(0.0, 1.0, 10.0, 1.0, R15, 0.2)
+
+
+@pytest.mark.parametrize("name", ["planar", "curved"])
+def test_thackers_surfaces_come_back_after_a_period(name):
+    solution, period = (getattr(flows, f"thacker_{name}{word}") for word in ("", "_period"))
+    size = {"radius": 30.0, "depth": 2.0}
+    x, y = np.meshgrid(np.linspace(-40.0, 40.0, 9), np.linspace(-40.0, 40.0, 7))
+    start, swung, back = (solution(x, y, part * period(**size), **size) for part in (0.0, 0.5, 1.0))
+    np.testing.assert_allclose(back, start, atol=1e-12)
+    assert abs(swung[0] - start[0]).max() > 0.3
