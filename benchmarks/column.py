@@ -19,8 +19,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.column import ALE, Classical
+from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
 from validation.cases.column_reference import CASES, FILE, PER_UNIT
 
@@ -73,7 +73,7 @@ class Run:
         self.thickness, self.volume, self.bed = history(case)
         eta, count = np.linspace(1.0, 0.0, levels), self.peclet.size
         start = {"cold": 0.0 * eta, "warm": np.where(eta > 0.0, 1.0, 0.0), "linear": case.start_base * eta}[case.start]
-        self.state = ColumnState(np.tile(start, (count, 1)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+        self.state = ColumnState(np.tile(start, (count, 1)), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
         self.base, self.at = np.zeros(count), 0
         self.advance(0)
 
@@ -176,7 +176,7 @@ def main() -> None:
                 put(f"  {levels:3d} {scheme:14s}" + "".join(f"{value:10.1f}" for value in found))
     put("")
     for levels in LEVELS:
-        put(f"{levels} levels: {8 * (levels + COLUMN_MEMORY + 2)} bytes per column, its basal pressure included")
+        put(f"{levels} levels: {8 * (levels + MEMORY_SIZE + 2)} bytes per column, its basal pressure included")
     many = Run(CASES["A_cold"], "default", 11, np.array([10.0]), 1_000_000)
     begin = time.process_time()
     for k in range(1, 21):

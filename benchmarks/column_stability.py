@@ -23,8 +23,8 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.column import ALE
+from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
 
 SCHEMES = {"default": "default", "lax_wendroff": "Lax–Wendroff (the paper's)", "upwind": "hybrid upwind, implicit"}
@@ -41,7 +41,7 @@ def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     law, cells = ALE(levels=LEVELS, scheme=scheme, loading_source="none"), LEVELS - 1
     fourier, peclet = (array.ravel() for array in np.meshgrid(FOURIER, PECLET, indexing="ij"))
     count = fourier.size
-    state = ColumnState(np.zeros((count, LEVELS)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+    state = ColumnState(np.zeros((count, LEVELS)), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
     over, under, failed = np.zeros(count), np.zeros(count), np.full(count, False)
     # lengths over the first thickness, time in steps: c_v = Fo dx^2 and e_R = Pe c_v/dx
     coefficient = fourier / cells**2

@@ -72,10 +72,10 @@ def main(particles=10_000, turns=9):
     costs, inside = {name: [] for name in flows}, {name: [] for name in flows}
     for _ in range(turns):
         for name, flow in flows.items():
-            steps, cpu = flow._simulation._steps, time.process_time()
+            steps, cpu = flow.diagnostics.steps, time.process_time()
             with timed(flow._simulation.physics) as spent:
                 flow.run_one_step(TURN)
-            per = 1e6 / (flow._simulation._steps - steps) / particles
+            per = 1e6 / (flow.diagnostics.steps - steps) / particles
             costs[name].append((time.process_time() - cpu) * per)
             inside[name].append(sum(spent) * per)
     base, base_inside = (np.array(next(iter(values.values()))) for values in (costs, inside))

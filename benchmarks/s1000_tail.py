@@ -49,7 +49,7 @@ def main(data):
     terms = {
         "speed [m/s]": speed[here],
         "gravity along the flow [m/s2]": -9.81 * direction[2],
-        "friction [m/s2]": 9.81 * 0.6 * 990.0 / 1990.0 * (1.0 - ratio) * sim.cosine[here],
+        "friction [m/s2]": 9.81 * 0.6 * 990.0 / 1990.0 * (1.0 - ratio) * p.cos_slope[here],
         "thrust along the flow [m/s2]": np.sum(p.thrust[:, here] * direction, axis=0),
         "drag [m/s2]": 9.81 * speed[here] ** 2 / (s1000.TURBULENT_COEFFICIENT * p.thickness[here]),
     }

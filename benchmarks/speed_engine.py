@@ -96,7 +96,7 @@ class SumRate(NamedTuple):
 def sums(flow, repeats) -> SumRate:
     """Time density and force of a flow as it is now: every particle, with the lengths it has."""
     sim = flow._simulation
-    p, normal = sim.particles, 9.81 * sim.cosine
+    p, normal = sim.particles, 9.81 * sim.particles.cos_slope
     moving = Moving(
         p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf),
         0.5 * normal / p.gradient_term, np.sqrt(normal * p.thickness), p.thickness, p.thickening,
@@ -191,10 +191,10 @@ def placed_valley(count, threads=1):
 STAGES = {
     "placing of the release": (release, "place_particles"), "rest of the set-up": (call.Calls, "begin"),
     "friction and kick": (step, "friction_and_kick"), "entrain": (step, "entrain"),
-    "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "find_ground"),
+    "  of it the bed": (bed.Bed, "erode"), "move": (step, "move"), "find ground": (step, "sample_bed"),
     "interact": (step, "interact"),
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
-    "consolidate": (step, "consolidate"), "check": (step, "check"),
+    "consolidate": (step, "consolidate"), "check": (step, "find_limits"),
     "wake those disturbed": (activity, "wake"), "fall asleep": (activity, "fall_asleep"),
     "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (peak_maps.Footprint, "record"),
     "cover": (call.Calls, "_cover"), "settle and finish": (call.Calls, "_close"),

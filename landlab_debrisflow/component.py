@@ -6,9 +6,9 @@ from typing import ClassVar
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
-from .core.variables import NODE_FIELDS
 from .grid import checks, doubts
 from .grid.call import Calls
+from .grid.fields import NODE_FIELDS
 from .grid.inflow_lines import read_hydrographs
 from .grid.outputs import Outputs, check_continued
 from .model.inflow.source import Inflow
@@ -243,7 +243,15 @@ class DebrisFlow(Component):
     @property
     def outflow_by_edge(self):
         """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
-        return self._simulation.outflow.by_edge(*self.grid.shape)
+        return self._simulation.state.outflow.by_edge(*self.grid.shape)
+
+    @property
+    def diagnostics(self):
+        """What the run took so far: number of steps, smallest one [s], share of particles asleep, CPU seconds by stage.
+
+        A `model.diagnostics.Diagnostics`, of all calls of this component.
+        """
+        return self._simulation.diagnostics
 
     @property
     def particles(self):
@@ -255,7 +263,7 @@ class DebrisFlow(Component):
     def columns(self):
         """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
         sim = self._simulation
-        c_v = sim.matter.coefficient_of_consolidation(sim.particles, slice(None))
+        c_v = sim.phases.coefficient_of_consolidation(sim.particles, slice(None))
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self._physics, self.elapsed_time)
 
     @property

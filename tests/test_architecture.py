@@ -17,10 +17,10 @@ FILES = sorted(PACKAGE.rglob("*.py"))
 MODULES = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path in FILES}
 
 LEVEL = {
-    "core": 0, "exact": 1, "spatial": 1, "terrain": 1, "physics": 2, "model": 3, "record": 4,
-    "columns": 5, "grid": 5, "plots": 5, "scene": 5, "cli": 6,
+    "core": 0, "exact": 1, "spatial": 1, "terrain": 1, "physics": 2, "model": 3, "grid": 4,
+    "record": 5, "columns": 6, "plots": 6, "scene": 6, "cli": 7,
 }  # fmt: skip
-TOP = 6  # component and what stands beside or above it
+TOP = 7  # component and what stands beside or above it
 KNOWS_LANDLAB = {"component", "grid/checks", "scene/tsing_shan", "plots/maps"}
 
 

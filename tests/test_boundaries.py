@@ -120,13 +120,13 @@ def test_a_neighbour_that_leaves_wakes_those_asleep():
     p.x += 52.4 - p.x.max()  # the open nodes take over at 52.5 m
     p.velocity[:] = 0.0
     p.velocity[0, np.argmax(p.x)] = 30.0
-    sim._find_everything(8)
+    sim._refresh(8)
     p.still_steps[:] = 1000
     sim.set_free()
     sim.advance(0.01)
-    assert p.count == 99 and sim.outflow.total
+    assert p.count == 99 and sim.state.outflow.total
     after = p.thickness.copy()
     p.still_steps[:] = 0
-    sim._find_everything(8)
+    sim._refresh(8)
     # a neighbour is worth some 10 % of the thickness beside it; the Newton step of one time step leaves 1 %
     np.testing.assert_allclose(after, p.thickness, rtol=0.03)

@@ -119,7 +119,7 @@ def test_a_slow_inflow_is_not_arrested_after_a_fast_release(hill, monkeypatch):
     monkeypatch.setattr(simulation, "_pass_time", lambda end: (waited.append(end), pass_time(end)))
     flow.run_one_step(60.0)
     p = simulation.particles
-    held = simulation.inflow.held(p)
+    held = simulation.inflow.prescribed(p)
     # It would wait if all were arrested. The first row enters after 10 s, the release lies still after 30 s
     assert waited == [] and held.size
     np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 0.05, rtol=1e-12)
@@ -133,7 +133,7 @@ def test_it_joins_a_release_and_erodes_only_beyond_the_strip(hill):
     assert budget["released"] == 225.0 and budget["inflow"] > 50.0 and budget["eroded"] > 10.0
     assert flow.particles.sizes["particle"] > 250
     simulation = flow._simulation
-    held = simulation.inflow.held(simulation.particles)
+    held = simulation.inflow.prescribed(simulation.particles)
     assert held.size and not simulation.particles.entrainment_rate[held].any()
     assert flow.run_until_rest() is True
 

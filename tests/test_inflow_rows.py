@@ -25,7 +25,7 @@ def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hi
     with flow._calls.all_or_nothing():
         flow._calls.begin()
     simulation = flow._simulation
-    simulation.inflow.enter(simulation, 50.0)
+    simulation.inflow.enter(simulation.particles, simulation.bed.surface, simulation.columns, 50.0)
     p, cosine = simulation.particles, 1.0 / np.hypot(1.0, 0.5)
     assert p.volume.sum() == pytest.approx(2000.0, rel=0.05)
     x = np.unique(p.x.round(9))
@@ -41,7 +41,7 @@ def test_in_the_strip_rows_are_where_the_velocity_has_brought_them():
     flow = DebrisFlow(inclined((20, 80), 5.0, 0.5), inflow=SURGE, erosion="none", numerics={"particle_count": 400})
     flow.run_one_step(3.5)
     p, inflow = flow._simulation.particles, flow._simulation.inflow
-    held, source = inflow.held(p), inflow.sources[0]
+    held, source = inflow.prescribed(p), inflow.sources[0]
     assert np.unique(p.inflow_row[held]).size > 1
     way = source.way(3.5) - source.way(inflow._time[p.inflow_row[held]])
     np.testing.assert_allclose(p.x[held], 20.0 + way / np.hypot(1.0, 0.5), rtol=1e-12)
@@ -56,12 +56,12 @@ def test_no_step_leaps_over_rows(monkeypatch):
         grid, inflow=line | {"times": [0, 30], "discharge": 200, "velocity": 20}, numerics={"particle_count": 20000},
         erosion="none",
     )  # fmt: skip
-    rows, advance, inflow = [], step.advance, flow._simulation.inflow
+    rows, advance = [], step.advance
 
     def watched(sim, dt):
-        before = inflow.rows_entered
+        before = sim.inflow.rows_entered
         advance(sim, dt)
-        rows.append(inflow.rows_entered - before)
+        rows.append(sim.inflow.rows_entered - before)
 
     monkeypatch.setattr(step, "advance", watched)
     flow.run_one_step(2.0)
@@ -97,7 +97,7 @@ def test_it_flows_in_obliquely_with_the_discharge_given():
     flow.run_one_step(5.0)
     p = flow.particles
     assert flow.budget["inflow"] == pytest.approx(150.0, rel=0.02)
-    held = flow._simulation.inflow.held(flow._simulation.particles)
+    held = flow._simulation.inflow.prescribed(flow._simulation.particles)
     ratio = p.velocity_y.values[held] / p.velocity_x.values[held]
     np.testing.assert_allclose(ratio, np.tan(np.radians(30.0)), rtol=1e-12)
     # seen from 30 degrees aside the line is shorter and the flow thicker

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from landlab_debrisflow.core.variables import NODE_FIELDS
+from landlab_debrisflow.grid.fields import NODE_FIELDS
 
 from .suspicions import suspicions
 

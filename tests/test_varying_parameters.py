@@ -9,6 +9,7 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError, ParameterError
 from landlab_debrisflow.model import step
+from landlab_debrisflow.model.basal import basal_state
 from landlab_debrisflow.physics.friction import Coulomb
 from landlab_debrisflow.physics.registry import LAWS
 from validation.grids import inclined, place, release, release_slab
@@ -88,8 +89,8 @@ def test_it_is_that_of_the_nearest_node():
     flow = two_bodies(Coulomb(basal_friction_angle=angle), {})
     sim = flow._simulation
     sim.particles.x[:] = [294.999, 295.001]  # half-way between columns 29 and 30
-    step.find_ground(sim)
-    here = step.base(sim, slice(2), "friction").parameters
+    step.sample_bed(sim.particles, sim.bed, sim.physics.material.gravity)
+    here = basal_state(sim.particles, slice(2), sim.friction).parameters
     np.testing.assert_allclose(here.basal_friction_angle, np.radians([10.0, 20.0]), rtol=1e-15)
 
 

@@ -41,7 +41,7 @@ def test_observers_are_called_after_the_steps_that_cross_their_interval_and_at_r
     assert often.times[-1] == seldom.times[-1] == end
     assert all(volume > 225.0 for volume in often.moving)  # they see the grid as it is then
     steps = np.unique(always.times)
-    assert always.times[0] == 0.0 and steps.size == flow._simulation._steps + 1
+    assert always.times[0] == 0.0 and steps.size == flow.diagnostics.steps + 1
     for watch in (often, seldom):  # a look is at the end of the first step beyond
         crossed = watch.interval * np.arange(1, int(end / watch.interval) + 1)
         assert watch.times[:-1] == steps[np.searchsorted(steps, crossed)].tolist()

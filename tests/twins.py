@@ -77,8 +77,8 @@ def build(name, observers=(), **grid):
     return DebrisFlow(make(**grid), **(keywords | {"numerics": numerics}), observers=observers)
 
 
-SCRATCH = {"_touched", "_share", "_scratch", "_before"}
-"""Arrays that are written before they are read."""
+SCRATCH = {"_touched", "_share", "_scratch", "_before", "cpu"}
+"""Arrays that are written before they are read, and what it took on this machine."""
 
 HISTORY = {"_interrupted", "interruption"}
 """What a flow may go back to, and what was the matter in its last call."""
@@ -125,7 +125,7 @@ def outcome(flow):
         found |= {f"{kind} {name}": values.values.tobytes() for name, values in dataset.variables.items()}
     found |= {f"budget {name}": volume for name, volume in flow.budget.items()}
     found |= {f"outflow {edge}": volume for edge, volume in flow.outflow_by_edge.items()}
-    return found | {"time": flow.elapsed_time, "steps": flow._simulation._steps, "at rest": flow.at_rest}
+    return found | {"time": flow.elapsed_time, "steps": flow.diagnostics.steps, "at rest": flow.at_rest}
 
 
 def different(one, other):

@@ -6,7 +6,6 @@ from numbers import Real
 import numpy as np
 import xarray as xr
 
-from ..core.variables import COLUMN_MEMORY
 from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
 from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
 from ..physics.material import Material
@@ -144,7 +143,7 @@ class _Columns:
     def __init__(self, inputs: Inputs):
         self.inputs, self.time, n = inputs, 0.0, inputs.thickness.size
         self.thickness, self.volume = inputs.thickness.copy(), inputs.thickness.copy()
-        self.state = ColumnState(inputs.profile.copy(), np.zeros((n, COLUMN_MEMORY)), np.zeros(n))
+        self.state = ColumnState(inputs.profile.copy(), np.zeros((n, inputs.law.memory_size)), np.zeros(n))
         self.base = np.zeros(n)
         self.first_eroded = np.where(inputs.entrainment_rate.at(0.0) > 0.0, 0.0, np.nan)
         inputs.law.advance(self.state, self.forcing(0.0, np.zeros(n)), 0.0, self.base)

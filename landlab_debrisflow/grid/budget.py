@@ -50,7 +50,7 @@ class Ledger:
     def budget(self, simulation) -> dict[str, float]:
         """Return all terms and the residual [m3]: released + inflow + eroded - moving - deposited - outflow."""
         moving = float(simulation.particles.volume.sum())
-        inflow, outflow = self._earlier["inflow"][0] + simulation.inflow.volume, simulation.outflow.total
+        inflow, outflow = self._earlier["inflow"][0] + simulation.inflow.volume, simulation.state.outflow.total
         return {
             "released": self.released, "inflow": inflow, "eroded": self.eroded, "moving": moving,
             "deposited": self.deposited, "outflow": outflow,
@@ -65,8 +65,8 @@ class Ledger:
             name: solid + (1.0 - porosity[name]) * (whole[name] - volume)
             for name, (volume, solid) in self._earlier.items()
         }
-        parts["moving"] = float(simulation.matter.solid_volume(simulation.particles).sum())
-        parts["deposited"], parts["outflow"] = simulation.settled_solid, simulation.outflow.solid
+        parts["moving"] = float(simulation.phases.solid_volume(simulation.particles).sum())
+        parts["deposited"], parts["outflow"] = simulation.state.settled_solid, simulation.state.outflow.solid
         phases = {"solid": parts, "water": {name: whole[name] - part for name, part in parts.items()}}
         for terms in phases.values():
             came = terms["released"] + terms["inflow"] + terms["eroded"]

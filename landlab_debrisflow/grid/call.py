@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.variables import OUTPUT_PREFIX
 from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
 from ..spatial.transfer import REACH
 from . import checks, doubts, looks
 from .budget import Ledger
+from .fields import OUTPUT_PREFIX
 from .ground import Ground
 from .inflow_lines import check_lines, check_strips
 from .interruption import Interruption
@@ -133,7 +133,7 @@ class Calls:
         bed = ground.make_bed(sim.time, sim.particles.count == 0 and sim.inflow.over)
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
-        sim.on(bed, ground.status, ground.parameters, changed)
+        sim.set_bed(bed, ground.status, ground.parameters, changed)
         names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
         shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in names}
         self._footprint = Footprint(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)
@@ -162,13 +162,13 @@ class Calls:
     def _after_step(self, began):
         sim, observers = self._simulation, self.flow._observers
         self._cover()
-        if self._footprint.is_due(sim.time, sim.survey.fastest):
+        if self._footprint.is_due(sim.time, sim.state.limits.fastest):
             self._record()
         self._look(observers if sim.idle else looks.after_step(observers, began, sim.time))
 
     def _record(self):
         sim = self._simulation
-        self._footprint.record(sim.particles, sim.matter.density(sim.particles), sim.time)
+        self._footprint.record(sim.particles, sim.phases.density(sim.particles), sim.time)
 
     # ---- what others see ----
 
@@ -181,19 +181,19 @@ class Calls:
     def _showing(self):
         """Show the present, and take all of that back."""
         sim, footprint = self._simulation, self._footprint
-        particles, at = sim.particles, self.flow.grid.at_node
+        state, at = sim.state, self.flow.grid.at_node
         shown, accounts = {f for f in self.flow._info if f.startswith(OUTPUT_PREFIX) and f in at}, {ERODED, DEPOSIT}
         kept = (
             Spot([at[name] for name in shown - accounts], self._near()),
             Spot([at[name] for name in accounts], self._undo.nodes), Spot(self._ground.draining, slice(None)),
         )  # fmt: skip
-        sim.particles, self._footprint = particles.copy(), copy(footprint)
+        sim.state, self._footprint = state.copy(), copy(footprint)
         try:
             self._show(self._undo.nodes)
             yield
         finally:
             with self.interruption.held():
-                sim.particles, self._footprint = particles, footprint
+                sim.state, self._footprint = state, footprint
                 for each in kept:
                     each.restore()
 
@@ -260,8 +260,9 @@ class Calls:
     def continue_from(self, earlier: "Calls") -> None:
         """Go on with clock and accounts of an earlier component that holds no particles any more."""
         simulation, before = self._simulation, earlier._simulation
-        simulation.time, simulation.settled_solid = before.time, before.settled_solid
-        simulation.outflow = before.outflow.copy()
+        state = simulation.state
+        state.time, state.settled_solid = before.time, before.state.settled_solid
+        state.outflow = before.state.outflow.copy()
         self.ledger.continue_from(earlier.ledger, before)
         self._settled[:], self._ground.eroded[:] = earlier._settled, earlier._ground.eroded
         self._reached = earlier._reached
@@ -278,6 +279,8 @@ class Calls:
         sim, ground, in_call = self._simulation, self._ground, [] if self._footprint is None else [self._footprint]
         # calls and ground replace what they have, if it is not in the rows
         values = [value for each in (self, ground) for value in vars(each).values() if value is not sim.bed]
-        laws = [sim.physics, *vars(sim.physics).values(), sim.numerics]
+        laws = [sim.physics, *vars(sim.physics).values(), sim.numerics, sim.particles.variables]
+        if sim.bed is not None:
+            laws += [sim.status, sim.bed.nodes, sim.bed.drained, sim.friction.parameters, sim.erosion.parameters]
         objects = [self, sim, ground, self.ledger, *in_call]
         return Moment(objects, ground, rows, ground.draining if in_call else (), [*values, *laws, *shared])

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.errors import InputError
 from ..core.hints import did_you_mean, give_number, plain
 from ..core.parameters import NodeValues, check_values
-from ..core.variables import NODE_FIELDS
+from .fields import NODE_FIELDS
 from .fills import LEAST_FILL, is_fill, replace_them
 
 FIXED_GRADIENT, LOOPED, CLOSED = 2, 3, 4  # node statuses of Landlab

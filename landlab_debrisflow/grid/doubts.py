@@ -9,8 +9,8 @@ import numpy as np
 from scipy.ndimage import find_objects, label
 
 from ..core.parameters import NodeValues
-from ..core.variables import NODE_FIELDS
 from .checks import CLOSED, where
+from .fields import NODE_FIELDS
 from .fills import is_fill, written
 
 LOWEST, HIGHEST = -12000.0, 9000.0  # of the ground on Earth [m]

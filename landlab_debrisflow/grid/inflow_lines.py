@@ -37,9 +37,9 @@ def check_lines(grid, inflow: Inflow) -> None:
 
 def check_strips(grid, inflow: Inflow) -> None:
     """Refuse likewise the strips in which the flow is prescribed, of a known direction."""
-    for source in () if inflow.over else inflow.sources:
+    for source, direction in () if inflow.over else zip(inflow.sources, inflow.directions, strict=True):
         steps = np.append(np.arange(0.0, source.strip, 0.25 * min(grid.dx, grid.dy)), source.strip)
-        strip = _line(grid, source)[:, :, None] + source.towards[:, None, None] * steps
+        strip = _line(grid, source)[:, :, None] + direction[:, None, None] * steps
         what = f"the strip of {source.strip:.3g} m behind it, in which the flow is prescribed,"
         remedy = "; more particles make it shorter"
         _check_points(grid, source.hydrograph, strip.reshape(2, -1), f"the line and {what}", remedy)

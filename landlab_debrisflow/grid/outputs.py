@@ -12,8 +12,8 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from ..core.errors import InputError
-from ..core.variables import NODE_FIELDS, OUTPUT_PREFIX
 from ..model.peak_maps import PEAKS
+from .fields import NODE_FIELDS, OUTPUT_PREFIX
 
 log = logging.getLogger("landlab_debrisflow")
 

@@ -31,7 +31,7 @@ class Reports:
             self._unrest()
 
     def _walls(self):
-        stopped = self._simulation.stopped
+        stopped = self._simulation.state.stopped
         if stopped.volume > 0.0:
             x, y = np.add(stopped.where, self._flow.grid.xy_of_lower_left)
             later = " and later" if stopped.last > stopped.first else ""

@@ -10,95 +10,79 @@ Those asleep are kept behind those awake, so the stages of a step work on one st
 
 import numpy as np
 
-from ..physics.contracts import ColumnState
-from . import step
+from .basal import BasalLaw, ColumnPhysics, column_forcing, column_state, held_at_rest, present_profiles
 
-STEPS_BETWEEN_LOOKS = 16
-"""Steps after which those that may fall asleep are looked for: looking is cheap, but not free."""
-
-
-def disturbed(sim):
-    """Return the places of those asleep whose sums over neighbours are done again in this step."""
-    p = sim.particles
-    return p.awake + np.flatnonzero(sim.computed[p.awake :])
+STEPS_BETWEEN_CHECKS = 16
+"""Steps after which particles that may fall asleep are sought: that is cheap, but not free."""
 
 
-def wake(sim, places) -> None:
+def disturbed(p):
+    """Return the places of particles asleep whose sums over neighbours are done again in this step."""
+    return p.awake + np.flatnonzero(p.summed[p.awake :])
+
+
+def wake(p, places) -> None:
     """Wake particles at sorted places; their columns must have caught up."""
-    p = sim.particles
     if places.size == 0:
         return
     first, last = p.awake, p.awake + places.size
     # those already there stay where they are: places are sorted, so the others are the last ones
-    _exchange(sim, np.setdiff1d(np.arange(first, last), places), places[places >= last])
+    p.exchange(np.setdiff1d(np.arange(first, last), places), places[places >= last])
     p.awake = last
-    none = np.zeros(places.size)
-    sim.granted, sim.granted_ratio = np.concatenate([sim.granted, none]), np.concatenate([sim.granted_ratio, none])
 
 
-def wake_all(sim) -> None:
-    """Wake everybody."""
-    p = sim.particles
+def wake_all(p, time: float, columns: ColumnPhysics) -> None:
+    """Wake every particle, its column brought to `time` [s]."""
     places = np.arange(p.awake, p.count)
-    catch_up(sim, places)
-    wake(sim, places)
+    catch_up(p, time, columns, places)
+    wake(p, places)
 
 
-def catch_up(sim, places=None) -> None:
-    """Advance columns of those asleep, at some places or all, to the present, under the load they slept under."""
-    p, law = sim.particles, sim.physics.column
+def catch_up(p, time: float, columns: ColumnPhysics, places=None) -> None:
+    """Advance columns of particles asleep, at some places or all, to `time` [s], under the load they slept under."""
     places = np.arange(p.awake, p.count) if places is None else places
     since = p.asleep_since[places]
-    for began in np.unique(since[since < sim.time]):
+    for began in np.unique(since[since < time]):
         for place in _stretches(places[since == began]):
             none = np.zeros(place.stop - place.start)
-            forced = step.forcing(sim, place, none, none)
-            law.advance(step.columns(p, place), forced, sim.time - began, p.basal_excess_pore_pressure[place])
-            p.asleep_since[place] = sim.time
+            forcing = column_forcing(p, place, columns, none, none)
+            base = p.basal_excess_pore_pressure[place]
+            columns.law.advance(column_state(p, place), forcing, time - began, base)
+            p.asleep_since[place] = time
 
 
-def fall_asleep(sim) -> None:
-    """Let those fall asleep whom nothing in their column can set free."""
-    p = sim.particles
-    lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~sim.computed[: p.awake]
+def fall_asleep(p, time: float, columns: ColumnPhysics, friction: BasalLaw, exchange, walls) -> None:
+    """Let particles fall asleep that nothing in their column can set free.
+
+    Parameters
+    ----------
+    p : Particles
+    time : float
+        [s]
+    columns : ColumnPhysics
+    friction : BasalLaw
+    exchange : Exchange
+    walls : Walls or None
+    """
+    lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~p.summed[: p.awake]
     places = np.flatnonzero(lying)
     if places.size == 0:
         return
     last = p.awake
     first = last - places.size
-    _exchange(sim, places[places < first], np.setdiff1d(np.arange(first, last), places))
-    held = _held(sim, slice(first, last)) | (p.arrested[first:last] > 0)
-    # held ones last
+    p.exchange(places[places < first], np.setdiff1d(np.arange(first, last), places))
+    which = slice(first, last)
+    highest = np.maximum(present_profiles(p, which, columns).max(axis=1), p.basal_excess_pore_pressure[which])
+    held = held_at_rest(p, which, np.maximum(highest, 0.0), friction, columns.phases, exchange, walls)
+    held |= p.arrested[which] > 0
+    # those held come last
     free, place = first + np.flatnonzero(~held), first + np.arange(held.size)
     middle = first + free.size
-    _exchange(sim, place[: free.size][held[: free.size]], free[free >= middle])
+    p.exchange(place[: free.size][held[: free.size]], free[free >= middle])
     p.awake = middle
-    p.asleep_since[middle:last] = sim.time
-    p.entrainment_rate[middle:last] = 0.0
-    sim.granted, sim.granted_ratio = sim.granted[:middle], sim.granted_ratio[:middle]
-
-
-def _held(sim, which: slice):
-    """Return whether friction holds particles under the highest pressure their columns can bring to the base."""
-    p, physics = sim.particles, sim.physics
-    n = which.stop - which.start
-    none = np.zeros(n)
-    # looking must not change how a law keeps its columns
-    now = ColumnState(*(values.copy() for values in step.columns(p, which)))
-    physics.column.synchronise(now, step.forcing(sim, which, none, none))
-    highest = np.maximum(now.profile.max(axis=1), p.basal_excess_pore_pressure[which])
-    return step.held(sim, which, np.maximum(highest, 0.0))
-
-
-def _exchange(sim, these, those) -> None:
-    """Let particles change places, with what the stages of a step hand on about them."""
-    if these.size == 0:
-        return
-    sim.particles.exchange(these, those)
-    to, of = np.concatenate([these, those]), np.concatenate([those, these])
-    for values in (sim.ground, sim.cosine, sim.computed, sim.node):
-        values[..., to] = values[..., of]
-    # an order of sorted places is not kept: it is made anew in every step
+    p.asleep_since[middle:last] = time
+    for nothing_enters in (p.entrainment_rate, p.entrained_volume, p.entrained_ratio):
+        nothing_enters[middle:last] = 0.0
 
 
 def _stretches(places):

@@ -5,9 +5,20 @@ import numpy as np
 from ..physics.contracts import WATER
 
 
-def press(sim, dt: float | None = None) -> None:
-    """Tell the bed what the flow weighs after a step, or, without one, what has lain there before."""
-    p, bed, material = sim.particles, sim.bed.pore_pressure, sim.physics.material
+def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
+    """Tell the bed what the flow weighs.
+
+    Parameters
+    ----------
+    p : Particles
+    bed : BedPressure or None
+        None: the pore pressure of the bed does not follow its load.
+    material : Material
+    time : float
+        Now [s].
+    dt : float, optional
+        Length of the step just taken [s]; without one the flow has lain there before.
+    """
     if bed is None or (p.count == 0 and dt is None):
         return
     # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
@@ -15,6 +26,6 @@ def press(sim, dt: float | None = None) -> None:
     weight[p.phase == WATER] = 0.0
     force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)
     if dt is None:
-        bed.stand(p.x, p.y, p.spread, force, sim.time)
+        bed.stand(p.x, p.y, p.spread, force, time)
     else:
-        bed.carry(p.x, p.y, p.spread, force, sim.time + dt, dt)
+        bed.carry(p.x, p.y, p.spread, force, time, dt)

@@ -17,16 +17,16 @@ CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are ope
 
 
 @inner
-def along_bed(i, push, ground, cosine, gravity):
+def along_bed(i, push, sample, cosine, gravity):
     """Return the acceleration by gravity and thrust along the bed [m s-2]."""
     c = cosine[i]
-    nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+    nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
     across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
     return push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
 
 
 @kernel
-def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest_speed, dt):
+def kick(velocity, push, sample, cosine, yield_stress, drag, mass, gravity, rest_speed, dt):
     """Accelerate along the bed for `dt` seconds, friction included, in place.
 
     Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
@@ -37,7 +37,7 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
     ----------
     velocity, push : ndarray, shape (3, n)
         Velocity [m s-1] and acceleration by inner forces [m s-2].
-    ground : ndarray, shape (6, n)
+    sample : ndarray, shape (6, n)
         As `Surface.sample` returns it.
     cosine, yield_stress, drag, mass : ndarray, shape (n,)
         cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
@@ -47,7 +47,7 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
         is infinite, whether or not.
     """
     for i in range(mass.size):
-        ax, ay, az = along_bed(i, push, ground, cosine, gravity)
+        ax, ay, az = along_bed(i, push, sample, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
         if speed == 0.0:
@@ -67,7 +67,7 @@ def kick(velocity, push, ground, cosine, yield_stress, drag, mass, gravity, rest
 
 
 @kernel
-def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, touched_wall):
+def drift(x, y, z, velocity, velocity_ratio, dx, dy, columns, status, dt, expected_elevation, left, touched_wall):
     """Move the particles, slowed by the soil they took up; nothing gets into closed nodes.
 
     Parameters
@@ -75,17 +75,17 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
     x, y : ndarray, shape (n,)
         Changed in place [m].
     velocity : ndarray, shape (3, n)
-        Multiplied by `dilution`; the drift uses the mean of before and after, which keeps the pair
+        Multiplied by `velocity_ratio`; the drift uses the mean of before and after, which keeps the pair
         erosion-drift second-order.
     z : ndarray, shape (n,)
         Elevation of the bed, as it is now, where the particles are before [m].
-    dilution : ndarray, shape (n,)
+    velocity_ratio : ndarray, shape (n,)
         Volume before over volume after entrainment [-], for the particles to move.
     status : ndarray, shape (nodes,)
         Status of the nodes.
-    owed : ndarray, shape (n,)
+    expected_elevation : ndarray, shape (n,)
         Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
-        `follow_ground`.
+        `follow_bed`.
     left : ndarray of int, shape (n,)
         Written: the open node over which the particle left, -1 if it did not, -2 if its position is not a number.
     touched_wall : ndarray of int8, shape (n,)
@@ -94,14 +94,14 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
     rows = status.size // columns
     for i in range(left.size):
         left[i] = -1
-        owed[i] = z[i] + 0.5 * dt * velocity[2, i]
-        step = 0.5 * dt * (1.0 + dilution[i])
+        expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
+        step = 0.5 * dt * (1.0 + velocity_ratio[i])
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
-            velocity[k, i] *= dilution[i]
+            velocity[k, i] *= velocity_ratio[i]
         if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):  # `stop_at_walls` looked from elsewhere
             touched_wall[i] = 1
-            new_x, new_y, owed[i] = x[i], y[i], z[i]
+            new_x, new_y, expected_elevation[i] = x[i], y[i], z[i]
             velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
         node = _nearest(new_x, new_y, dx, dy, columns, rows)
         x[i], y[i] = new_x, new_y
@@ -110,7 +110,7 @@ def drift(x, y, z, velocity, dilution, dx, dy, columns, status, dt, owed, left, 
 
 
 @kernel
-def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, touched_wall):
+def stop_at_walls(count, x, y, velocity, sample, dx, dy, columns, status, dt, touched_wall):
     """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
 
     Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it
@@ -123,11 +123,11 @@ def stop_at_walls(count, x, y, velocity, ground, dx, dy, columns, status, dt, to
             touched_wall[i] = 1
             # what is left is the projection on the direction along the wall: never faster
             if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[0, i] + velocity[2, i] * ground[1, i]) / (1.0 + ground[1, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * ground[1, i]
+                left = (velocity[0, i] + velocity[2, i] * sample[1, i]) / (1.0 + sample[1, i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * sample[1, i]
             elif status[_nearest(x[i], new_y, dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[1, i] + velocity[2, i] * ground[2, i]) / (1.0 + ground[2, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * ground[2, i]
+                left = (velocity[1, i] + velocity[2, i] * sample[2, i]) / (1.0 + sample[2, i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * sample[2, i]
             else:
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
 
@@ -160,72 +160,48 @@ def _nearest(x, y, dx, dy, columns, rows):
 
 
 @kernel
-def follow_ground(ground, velocity, cosine, z, owed, gravity, dt):
+def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     """Write cos(theta) [-] and elevation [m], and turn each velocity into the tangent plane, in place.
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the
     vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
     from step to step. What is missing of the fall is added to the kinetic energy. Without it a bed that bends
-    within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node (`owed` is
-    from `drift`; if it is empty nothing drifted).
+    within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
+    (`expected_elevation` is from `drift`; if it is empty nothing drifted).
     """
     for i in range(cosine.size):
-        c = 1.0 / np.sqrt(1.0 + ground[1, i] * ground[1, i] + ground[2, i] * ground[2, i])
-        cosine[i], z[i] = c, ground[0, i]
-        nx, ny, nz = -c * ground[1, i], -c * ground[2, i], c
+        c = 1.0 / np.sqrt(1.0 + sample[1, i] * sample[1, i] + sample[2, i] * sample[2, i])
+        cosine[i], z[i] = c, sample[0, i]
+        nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
         speed2 = u * u + v * v + w * w
         u, v, w = u - across * nx, v - across * ny, w - across * nz
         along2 = u * u + v * v + w * w
         factor = np.sqrt(speed2 / along2) if along2 > 1e-12 * speed2 else 0.0
-        if i < owed.size and speed2 > 0.0:
-            missing = owed[i] - z[i] + 0.5 * dt * w * factor
+        if i < expected_elevation.size and speed2 > 0.0:
+            missing = expected_elevation[i] - z[i] + 0.5 * dt * w * factor
             factor *= np.sqrt(max(0.0, 1.0 + 2.0 * gravity * missing / speed2))
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 
 
 @kernel
-def basal_state(
-    first, velocity, ground, cosine, gravity, tightest, thickness, density, bearing_density, pressure,
-    speed, normal_gravity, effective_normal_stress,
-):  # fmt: skip
-    """Write speed [m s-1], normal gravity with curvature [m s-2] and effective normal stress [Pa].
-
-    They are those of particles from the place `first` on, of whom thickness [m], density [kg m-3] and excess
-    pore pressure [Pa] are given; the pore water's own weight bears `bearing_density` of the latter [kg m-3].
-
-    The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
-    own spacing, and noise must not press the flow to the ground.
-    """
-    for k in range(speed.size):
-        i = first + k
-        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
-        bend = u * u * ground[3, i] + 2.0 * u * v * ground[4, i] + v * v * ground[5, i]
-        most = (u * u + v * v) / tightest
-        bend = min(max(bend, -most), most)
-        speed[k] = np.sqrt(u * u + v * v + w * w)
-        normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
-        stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
-        effective_normal_stress[k] = max(0.0, stress)
-
-
-@kernel
-def count_still_steps(x, y, z, volume, smoothing_length, anchor, anchor_volume, still_steps):
+def count_still_steps(x, y, z, volume, smoothing_length, reference_position, reference_volume, still_steps):
     """Count the steps since each particle moved or grew noticeably, in place.
 
     Parameters
     ----------
     x, y, z, volume, smoothing_length : ndarray, shape (n,)
-    anchor, anchor_volume : ndarray, shape (3, n) and (n,)
+    reference_position, reference_volume : ndarray, shape (3, n) and (n,)
         Where and how large it was when it last counted as changed [m, m3].
     still_steps : ndarray of int, shape (n,)
     """
     for i in range(x.size):
-        moved = (x[i] - anchor[0, i]) ** 2 + (y[i] - anchor[1, i]) ** 2 + (z[i] - anchor[2, i]) ** 2
-        grown = abs(volume[i] - anchor_volume[i])
+        at = reference_position[:, i]
+        moved = (x[i] - at[0]) ** 2 + (y[i] - at[1]) ** 2 + (z[i] - at[2]) ** 2
+        grown = abs(volume[i] - reference_volume[i])
         if moved > (STILL * smoothing_length[i]) ** 2 or grown > STILL * volume[i]:
-            anchor[0, i], anchor[1, i], anchor[2, i], anchor_volume[i] = x[i], y[i], z[i], volume[i]
+            at[0], at[1], at[2], reference_volume[i] = x[i], y[i], z[i], volume[i]
             still_steps[i] = 0
         else:
             still_steps[i] += 1

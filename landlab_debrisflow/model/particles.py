@@ -2,19 +2,21 @@
 
 import numpy as np
 
-from ..core.variables import PARTICLE_VARIABLES
+from .variables import PARTICLE_VARIABLES
 
 
 class Particles:
-    """Arrays of `core.variables.PARTICLE_VARIABLES` as attributes.
+    """Arrays of declared variables as attributes.
 
-    Scalars have shape (n,), vectors (3, n), columns (n, levels), their memory (n, width). The first
-    ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` tells who is who.
+    Scalars have shape (n,), vectors (components, n), columns (n, levels), their memory (n, width). The first
+    ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` numbers them for ever.
 
     Parameters
     ----------
     levels : int
         Levels of a pore-pressure column.
+    variables : sequence of Variable, optional
+        As `variables.particle_variables` returns them; by default those that every flow has.
 
     Examples
     --------
@@ -25,16 +27,14 @@ class Particles:
     (3, 6.0, (3, 3))
     """
 
-    def __init__(self, levels: int):
-        self.levels = levels
-        self.awake = self._next_identity = 0
-        for variable in PARTICLE_VARIABLES:
+    def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
+        self.levels, self.variables = levels, tuple(variables)
+        self.awake = self.ever = 0  # number of those awake; of those that there have been so far
+        for variable in self.variables:
             setattr(self, variable.name, self._new(variable, 0))
 
     def _new(self, variable, count):
-        width = self.levels if variable.per_level else variable.width
-        shape = (3, count) if variable.vector else (count, width) if width else (count,)
-        return np.full(shape, variable.initial, variable.dtype)
+        return np.full(variable.shape(count, self.levels), variable.initial, variable.dtype)
 
     @property
     def count(self) -> int:
@@ -42,31 +42,25 @@ class Particles:
         return self.volume.size
 
     @property
-    def ever(self) -> int:
-        """Number of particles that there have been so far."""
-        return self._next_identity
-
-    @property
-    def roll(self):
-        """What differs whenever particles came or went: their number, and how many there ever were."""
-        return self.volume.size, self._next_identity
+    def generation(self) -> tuple[int, int]:
+        """Number of particles, and of those that there ever were: another pair whenever particles came or went."""
+        return self.volume.size, self.ever
 
     @property
     def spread(self):
-        """Half-width of the tents in which they show on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
+        """Half-width of the hats in which they show on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
         return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:
         """Add particles that are awake, and return their places; what is not named gets its declared initial value."""
         first, n = self.awake, self.count
-        values["identity"] = self._next_identity + np.arange(count)
-        self._next_identity += count
-        for variable in PARTICLE_VARIABLES:
+        values["identity"] = self.ever + np.arange(count)
+        self.ever += count
+        for variable in self.variables:
             new = self._new(variable, count)
             if variable.name in values:
                 new[:] = values[variable.name]
-            axis = 1 if variable.vector else 0
-            setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], axis))
+            setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], variable.axis))
         self.awake += count
         moved = min(count, n - first)  # those asleep whose places the new ones take
         self.exchange(first + np.arange(moved), n + count - moved + np.arange(moved))
@@ -77,9 +71,9 @@ class Particles:
         if these.size == 0:
             return
         to, of = np.concatenate([these, those]), np.concatenate([those, these])
-        for variable in PARTICLE_VARIABLES:
+        for variable in self.variables:
             values = getattr(self, variable.name)
-            if variable.vector:
+            if variable.components:
                 values[:, to] = values[:, of]
             else:
                 values[to] = values[of]
@@ -87,14 +81,13 @@ class Particles:
     def keep(self, mask) -> None:
         """Remove all particles where `mask` is False."""
         self.awake = int(np.count_nonzero(mask[: self.awake]))
-        for variable in PARTICLE_VARIABLES:
-            axis = 1 if variable.vector else 0
-            setattr(self, variable.name, np.compress(mask, getattr(self, variable.name), axis))
+        for variable in self.variables:
+            setattr(self, variable.name, np.compress(mask, getattr(self, variable.name), variable.axis))
 
     def copy(self) -> "Particles":
         """Return an independent copy."""
-        other = Particles(self.levels)
-        other.awake, other._next_identity = self.awake, self._next_identity
-        for variable in PARTICLE_VARIABLES:
+        other = object.__new__(Particles)
+        vars(other).update(vars(self))
+        for variable in self.variables:
             setattr(other, variable.name, getattr(self, variable.name).copy())
         return other

@@ -13,93 +13,128 @@ from ..spatial.cells import sort_into_cells
 MOST_UNHELD = 0.5
 """Part of the volume of a body that may lie where friction does not hold it when it is arrested."""
 
-STEPS_BETWEEN_LOOKS = 32
+STEPS_BETWEEN_SEPARATIONS = 32
 """Steps after which bodies are told apart anew: it takes many to part or to meet."""
 
 UNKNOWN = -1
 """Number of the body of a new particle."""
 
 
-class Rest:
-    """Bodies, the most that each has moved, and which of them rest.
+class Bodies:
+    """The bodies of a flow, the most that each has moved, and which of them rest.
 
-    What is known of a body between two looks is kept per body; across a look it is carried by the particles, each of
-    which has its part, by volume, of the most kinetic energy its body had.
+    What is known of a body between two separations is kept per body; across one it is carried by the particles, each
+    of which has its part, by volume, of the most kinetic energy its body had.
+
+    Attributes
+    ----------
+    at_rest : bool
+        Whether nothing moves.
+    peak, volume : ndarray, shape (bodies,)
+        Most kinetic energy so far [m5 s-2] and volume [m3] of each body.
+    steps, known : int
+        Steps since the last separation, and how many particles there had ever been then.
     """
 
     def __init__(self):
-        self.all = False  # whether nothing moves
-        self._peak = self._volume = np.zeros(0)  # most kinetic energy [m5 s-2] and volume [m3] of each body
-        self._steps = self._known = 0  # since the last look; how many particles there had ever been then
+        self.at_rest = False
+        self.peak = self.volume = np.zeros(0)
+        self.steps = self.known = 0
 
-    def look(self, p) -> None:
+    def copy(self) -> "Bodies":
+        """Return an independent copy."""
+        other = Bodies()
+        vars(other).update(vars(self) | {"peak": self.peak.copy(), "volume": self.volume.copy()})
+        return other
+
+    def separate(self, p) -> None:
         """Tell the bodies of particles `p` apart; those that were arrested move with what has touched them."""
-        self._steps, self._known = 0, p.roll[1]
+        self.steps, self.known = 0, p.ever
         if p.count == 0:
             return
         peak = self._peak_of(p)
         p.body[:] = find_bodies(p.x, p.y, p.z, 2.0 * p.smoothing_length)
         bodies = int(p.body.max()) + 1
-        self._volume = np.bincount(p.body, p.volume, bodies)
-        self._peak = np.bincount(p.body, peak, bodies)
+        self.volume = np.bincount(p.body, p.volume, bodies)
+        self.peak = np.bincount(p.body, peak, bodies)
         touched = np.bincount(p.body, p.arrested == 0, bodies) > 0
         p.arrested[touched[p.body]] = 0
         p.rest_speed[:] = np.where(p.arrested > 0, np.inf, 0.0)
-        self.all = not touched.any()
+        self.at_rest = not touched.any()
 
     def _peak_of(self, p):
         """Return the part each particle has of the most kinetic energy of its body [m5 s-2]; new ones have none."""
         known = p.body != UNKNOWN
         part = np.zeros(p.count)
         body, volume = p.body[known], p.volume[known]
-        part[known] = self._peak[body] * (volume / np.bincount(body, volume, self._peak.size)[body])
+        part[known] = self.peak[body] * (volume / np.bincount(body, volume, self.peak.size)[body])
         return part
 
-    def judge(self, sim) -> None:
-        """Arrest the bodies of a simulation that have come to rest in the last step."""
-        p, part = sim.particles, sim.numerics.rest_energy
-        self._steps += 1
-        if p.count == 0:
-            self.all = False
-            return
-        touched = True
-        if self._steps < STEPS_BETWEEN_LOOKS and p.roll[1] == self._known:
-            energy, slow, free, touched = self._measure(sim, part)
-        if touched:
-            self.look(p)
-            energy, slow, free, _ = self._measure(sim, part)
-        self.all = free == 0
-        if slow:
-            self._arrest(sim, energy <= part * self._peak)
+    def judge(self, p, rest_energy: float):
+        """Find out which bodies have become slow in the last step.
 
-    def _measure(self, sim, part):
+        Parameters
+        ----------
+        p : Particles
+        rest_energy : float
+            Kinetic energy of a slow body over the most it had [-].
+
+        Returns
+        -------
+        ndarray of bool, shape (bodies,), or None
+            Bodies to be arrested where friction holds them; None: no particle that is free to move is in one.
+        """
+        self.steps += 1
+        if p.count == 0:
+            self.at_rest = False
+            return None
+        touched = True
+        if self.steps < STEPS_BETWEEN_SEPARATIONS and p.ever == self.known:
+            energy, slow, free, touched = self._measure(p, rest_energy)
+        if touched:
+            self.separate(p)
+            energy, slow, free, _ = self._measure(p, rest_energy)
+        self.at_rest = free == 0
+        return energy <= rest_energy * self.peak if slow else None
+
+    def _measure(self, p, part):
         """Return the kinetic energy of each body, and what `_measure` returns; what has just moved counts."""
-        p, energy = sim.particles, np.zeros(self._peak.size)
+        energy = np.zeros(self.peak.size)
         return energy, *_measure(
-            p.awake, sim.computed, p.volume, p.velocity, p.body, p.arrested, part, self._volume, energy, self._peak,
+            p.awake, p.summed, p.volume, p.velocity, p.body, p.arrested, part, self.volume, energy, self.peak,
             p.rest_speed,
         )  # fmt: skip
 
-    def _arrest(self, sim, slow) -> None:
-        """Stop those of the `slow` bodies that friction holds, and that do not move as prescribed."""
-        p, awake = sim.particles, slice(sim.particles.awake)
-        slow[p.body[sim.inflow.held(p)]] = False
-        held = sim.held(awake, p.basal_excess_pore_pressure[awake])
+    def arrest(self, p, slow, held, prescribed) -> None:
+        """Stop slow bodies that friction mostly holds, and that do not move as prescribed.
+
+        Parameters
+        ----------
+        p : Particles
+        slow : ndarray of bool, shape (bodies,)
+            Changed in place.
+        held : ndarray of bool, shape (awake,)
+            Whether friction holds a particle.
+        prescribed : ndarray of int
+            Particles whose motion is prescribed.
+        """
+        slow[p.body[prescribed]] = False
+        awake = slice(p.awake)
         unheld = np.bincount(p.body[awake], p.volume[awake] * ~held, slow.size)
-        resting = (slow & (unheld <= MOST_UNHELD * self._volume))[p.body]
+        resting = (slow & (unheld <= MOST_UNHELD * self.volume))[p.body]
         p.velocity[:, resting], p.entrainment_rate[resting], p.arrested[resting] = 0.0, 0.0, 1
         p.rest_speed[resting] = np.inf
-        self.all = bool(p.arrested.all())
+        self.at_rest = bool(p.arrested.all())
 
     def set_free(self, p) -> None:
         """Let everything move again, as if it had never moved: the ground below has changed."""
         arrested = p.arrested > 0
         p.body[arrested], p.arrested[arrested], p.rest_speed[arrested] = UNKNOWN, 0, 0.0
-        self.all, self._known = False, UNKNOWN if arrested.any() else self._known
+        self.at_rest, self.known = False, UNKNOWN if arrested.any() else self.known
 
 
 @kernel
-def _measure(awake, computed, volume, velocity, body, arrested, part, whole, energy, peak, rest_speed):
+def _measure(awake, summed, volume, velocity, body, arrested, part, whole, energy, peak, rest_speed):
     """Measure every body; return how many particles that are free to move are in slow ones, and how many there are.
 
     Also whether anything has changed in reach of one that is arrested. Written are the kinetic energy of each body, the
@@ -119,7 +154,7 @@ def _measure(awake, computed, volume, velocity, body, arrested, part, whole, ene
             free += 1
             if energy[b] <= least:
                 slow += 1
-        elif computed[i]:
+        elif summed[i]:
             touched = True
     return slow, free, touched
 

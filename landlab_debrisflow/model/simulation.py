@@ -6,56 +6,80 @@ from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
 from ..physics.registry import Physics
 from ..terrain.bed import Bed
-from . import activity, bed_load, step
+from . import activity, step
+from .basal import BasalLaw, ColumnPhysics, held_at_rest, present_profiles
+from .bed_load import load_bed
+from .deposit import extent, resting_depth
+from .diagnostics import Diagnostics
 from .inflow.source import Inflow
 from .kinematics import CLOSED
 from .numerics import Numerics
-from .outflow import Outflow
 from .particles import Particles
-from .phases.one_phase import Single
-from .phases.two_phase import Mixture
+from .phases.one_phase import OnePhaseDynamics
+from .phases.two_phase import TwoPhaseDynamics
 from .release.origins import Origins
 from .release.release import release_particles
-from .rest import Rest
-from .stopped import Stopped
-from .time_step import Pace
+from .rest import Bodies
+from .state import State
+from .time_step import viscous_share
+from .variables import particle_variables
+from .walls import Walls
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
 
 
 class Simulation:
-    """All that moves, and when.
+    """A flow: its state, and how that changes in time.
 
     Parameters
     ----------
     physics : Physics
     numerics : Numerics
     inflow : Inflow, optional
+
+    Attributes
+    ----------
+    state : State
+        All that changes in a run but the bed: to go back is to put a copy of it here.
+    phases : Phases
+    bed, status, walls, friction, erosion, columns
+        What `set_bed` was given, and how the stages of a step want it.
     """
 
     def __init__(self, physics: Physics, numerics: Numerics, inflow: Inflow | None = None):
-        self.physics, self.numerics, self.inflow = physics, numerics, inflow or Inflow()
-        self.particles = Particles(physics.column.levels)
-        self.origins = Origins()
-        self.matter = Mixture(physics) if physics.two_phases else Single(physics)
-        self.time = 0.0
-        self.outflow, self.settled_solid = Outflow(), 0.0  # the latter: grains laid into the bed so far [m3]
-        self.rest = Rest()
-        self.stopped = Stopped()
-        self._changed = True  # terrain or particles are new: neighbours and forces must be found again
-        self.bed = self.status = self.parameters = None
-        self.walled = False  # whether there are closed nodes
-        # what the stages of a step hand on to each other, per particle (model/step.py)
-        self.ground = self.cosine = self.survey = None
-        self.computed = np.zeros(0, bool)  # whose sums over neighbours were done in this step
-        self.granted = self.granted_ratio = np.zeros(0)
-        self.owed = np.zeros(0)
-        self.node = np.zeros(0, int)  # the nearest one
-        self._steps, self._pace = 0, Pace()
+        self.physics, self.numerics, flow, column = physics, numerics, physics.flow, physics.column
+        self.courant_number = numerics.courant_number * viscous_share(numerics.shock_viscosity)
+        self.phases = OnePhaseDynamics(physics.material)
+        if physics.two_phases:
+            self.phases = TwoPhaseDynamics(flow, physics.material, column.stores_pressure)
+        laws = (flow, physics.friction, physics.erosion, column, self.phases)
+        particles = Particles(column.levels, particle_variables(column, laws))
+        self.state = State(particles, inflow or Inflow())
+        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = None
 
-    def on(self, bed: Bed, status, parameters, changed: bool) -> None:
-        """Put the simulation on a bed for the call that follows.
+    @property
+    def particles(self) -> Particles:
+        """The moving mass."""
+        return self.state.particles
+
+    @property
+    def inflow(self) -> Inflow:
+        """What has flowed in, and what will."""
+        return self.state.inflow
+
+    @property
+    def time(self) -> float:
+        """Time now [s]."""
+        return self.state.time
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """What the run took so far."""
+        return self.state.counters.diagnostics
+
+    def set_bed(self, bed: Bed, status, parameters, changed: bool = True) -> None:
+        """Put the flow on a bed for the call that follows.
 
         Parameters
         ----------
@@ -63,25 +87,27 @@ class Simulation:
         status : ndarray, shape (nodes,)
             Node statuses as Landlab numbers them.
         parameters : mapping of str to NamedTuple
-            For every kind of law those of its parameters that may vary in space (`core.parameters.on_nodes`).
+            For friction and erosion those parameters of the law that may vary in space (`core.parameters.on_nodes`).
         changed : bool
             Whether the terrain differs from what the last call left.
         """
-        self.bed, self.status, self.parameters = bed, status, parameters
-        self.walled = bool(np.any(status == CLOSED))
-        self._changed |= changed
+        material, spacing = self.physics.material, min(bed.nodes.dx, bed.nodes.dy)
+        self.bed, self.status = bed, status
+        self.walls = Walls(bed.nodes, status) if np.any(status == CLOSED) else None
+        self.friction, self.erosion = (
+            BasalLaw(law, parameters[kind], material, spacing, getattr(law, "variables", ()))
+            for kind, law in (("friction", self.physics.friction), ("erosion", self.physics.erosion))
+        )
+        water_to_buoyant = material.bearing_density / material.buoyant_density
+        self.columns = ColumnPhysics(self.physics.column, material, self.phases, bed.drained, water_to_buoyant)
+        self.state.outdated |= changed
         if changed:
-            self.rest.set_free(self.particles)
-        bed_load.press(self)
+            self.set_free()
+        load_bed(self.particles, bed.pore_pressure, material, self.time)
 
     def extent(self) -> tuple[float, float]:
         """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
-        y, raster = self.particles.y, self.bed.nodes
-        ends = [(y.min(), y.max())] if y.size else []
-        if nodes := self.origins.span:  # to which may return what never moved
-            ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))
-        ends += [source.y_range for source in self.inflow.sources if not self.inflow.over]
-        return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
+        return extent(self.particles, self.state.origins, self.inflow, self.bed.nodes)
 
     def release(self, nodes, depth) -> None:
         """Turn failing ground into particles at rest on the bed below.
@@ -93,37 +119,46 @@ class Simulation:
         depth : ndarray
             Vertical thickness that fails there [m].
         """
-        p, material = self.particles, self.physics.material
-        new = release_particles(self, nodes, depth)
-        self._find_everything(FIRST_SWEEPS)
-        bed_load.press(self)
+        state, p, material, bed = self.state, self.particles, self.physics.material, self.bed
+        new = release_particles(p, state.origins, nodes, depth, bed, self.status, self.phases, self.numerics)
+        self._refresh(FIRST_SWEEPS)
+        load_bed(p, bed.pore_pressure, material, self.time)
         load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
             load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
             material.basal_layer_fraction,
         )  # fmt: skip
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
-        step.consolidate(self, 0.0)
-        self.rest.look(p)
-        self._pace.restart()
+        self._consolidate(0.0)
+        state.bodies.separate(p)
+        state.control.restart()
 
-    def _find_everything(self, sweeps: int = 1) -> None:
-        """Find ground, thickness and forces anew where particles or terrain changed by other hands."""
-        p = self.particles
-        activity.wake_all(self)
-        self.granted, self.granted_ratio = np.zeros((2, p.count))
-        step.find_ground(self)
+    def _refresh(self, sweeps: int = 1) -> None:
+        """Find bed, thickness and forces anew where particles or terrain changed by other hands."""
+        state, p, phases = self.state, self.particles, self.phases
+        activity.wake_all(p, state.time, self.columns)
+        p.entrained_volume[:], p.entrained_ratio[:] = 0.0, 0.0
+        step.sample_bed(p, self.bed, self.physics.material.gravity)
         p.still_steps[:] = 0
         for _ in range(sweeps):
-            step.interact(self)
-        step.check(self)
-        self.matter.take_up(self)  # nothing; and what the porosity is now, it is not by the flow
-        self._changed = False
+            step.interact(
+                p, state.exchange, self.physics.flow, self.numerics, self.columns, state.inflow, self.walls, state.time
+            )
+        self._find_limits()
+        phases.share_entrained(p, state.exchange)  # nothing; and what the porosity is now, it is not by the flow
+        state.outdated = False
+
+    def _find_limits(self) -> None:
+        self.state.limits = step.find_limits(self.particles, self.phases, self.courant_number, self.friction, self.time)
+
+    def _consolidate(self, dt: float) -> None:
+        prescribed = self.inflow.prescribed(self.particles)
+        step.consolidate(self.particles, self.state.exchange, self.columns, prescribed, dt)
 
     @property
     def idle(self) -> bool:
         """Whether nothing moves now (also when there is nothing)."""
-        return self.particles.count == 0 or self.rest.all
+        return self.particles.count == 0 or self.state.bodies.at_rest
 
     @property
     def at_rest(self) -> bool:
@@ -132,9 +167,9 @@ class Simulation:
 
     def start(self, end: float) -> None:
         """Get ready for the first step of a call that goes until `end` [s]."""
-        self.wait(end)
+        self.idle_until(end)
         if self.particles.count:
-            step.check(self)
+            self._find_limits()
 
     def advance(self, end: float, stop_at_rest: bool = False, after_step=None, interrupted=None) -> bool:
         """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
@@ -155,97 +190,95 @@ class Simulation:
         bool
             True if all is done; False if it was interrupted: another advance to the same end goes on to the bit.
         """
+        state = self.state
         while self.time < end and not self.at_rest:
             if interrupted is not None and interrupted():
                 return False
             if self.idle:
-                self.wait(end)
+                self.idle_until(end)
                 continue
             began, left = self.time, end - self.time
             dt = self._next_step(left)
             if self.time + dt == self.time:
                 raise SimulationError("time step", None, self.time, dt)
             step.advance(self, dt)
-            self.time = end if dt == left else self.time + dt
-            self._steps += 1
-            if self.matter.sleeps and self._steps % activity.STEPS_BETWEEN_LOOKS == 0 and self.particles.count:
-                activity.fall_asleep(self)
-            self.rest.judge(self)
+            state.time = end if dt == left else state.time + dt
+            state.counters.count(self.particles, dt)
+            self._let_rest()
             if after_step is not None:
                 after_step(began)
         if not stop_at_rest and self.time < end:
             self._pass_time(end)
         return True
 
+    def _let_rest(self) -> None:
+        """Let particles that lie still fall asleep, and arrest bodies that have come to rest in the last step."""
+        state, p = self.state, self.particles
+        due = state.counters.steps % activity.STEPS_BETWEEN_CHECKS == 0
+        if self.phases.sleeps and due and p.count:
+            activity.fall_asleep(p, state.time, self.columns, self.friction, state.exchange, self.walls)
+        slow = state.bodies.judge(p, self.numerics.rest_energy)
+        if slow is not None:
+            awake = slice(p.awake)
+            held = self.held_at_rest(awake, p.basal_excess_pore_pressure[awake])
+            state.bodies.arrest(p, slow, held, state.inflow.prescribed(p))
+
     def catch_up(self) -> None:
         """Bring the columns of particles asleep to the present."""
-        activity.catch_up(self)
+        activity.catch_up(self.particles, self.time, self.columns)
 
-    def wait(self, end: float) -> None:
+    def idle_until(self, end: float) -> None:
         """While nothing moves, let time pass until `end` [s] or until something flows in."""
-        self._wake()
+        self._refresh_if_outdated()
         if self.idle and self.time < end:
             self._pass_time(max(self.time, min(end, self.inflow.next_time)))
-            if self.inflow.enter(self, self.time):
-                self._changed = True
-                self.rest.look(self.particles)
-                self._wake()
-                self.inflow.hold(self, self.time)
+            p, state = self.particles, self.state
+            if self.inflow.enter(p, self.bed.surface, self.columns, self.time):
+                state.outdated = True
+                state.bodies.separate(p)
+                self._refresh_if_outdated()
+                self.inflow.prescribe_velocity(p, self.time)
 
-    def _wake(self) -> None:
-        """Find everything anew if terrain or particles have changed."""
-        if self._changed and self.particles.count:
-            self._find_everything()
+    def _refresh_if_outdated(self) -> None:
+        if self.state.outdated and self.particles.count:
+            self._refresh()
 
     def _pass_time(self, end: float) -> None:
         """Let time pass for what is at rest: its pore pressure still drains."""
-        if self.particles.count:
-            self.granted, self.granted_ratio = np.zeros((2, self.particles.awake))
-            step.consolidate(self, end - self.time)
-        self.time = end
+        p = self.particles
+        if p.count:
+            p.entrained_volume[: p.awake], p.entrained_ratio[: p.awake] = 0.0, 0.0
+            self._consolidate(end - self.time)
+        self.state.time = end
 
     def _next_step(self, left: float) -> float:
-        longest = self._pace.longest(self.survey.longest_step, self.survey.energy)
+        limits = self.state.limits
+        longest = self.state.control.longest(limits.longest_step, limits.energy)
         longest = min(longest, self.inflow.latest(self.time) - self.time)
         if left <= longest:
             return left
         return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
 
-    def held(self, which: slice, pressure):
+    def held_at_rest(self, which: slice, pressure):
         """Return which particles friction would hold at rest under some basal excess pore pressure [Pa], shape (n,)."""
-        return step.held(self, which, pressure)
+        return held_at_rest(
+            self.particles, which, pressure, self.friction, self.phases, self.state.exchange, self.walls
+        )
 
     def set_free(self) -> None:
         """Let what was arrested move again."""
-        self.rest.set_free(self.particles)
+        self.state.bodies.set_free(self.particles)
 
     def resting_depth(self):
         """Return nodes and the depth of particles that lie still on them [m]."""
-        p = self.particles
-        still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
-        if not still.any():
-            return np.empty(0, np.int64), np.empty(0)
-        x, y, spread, volume, origin = p.x[still], p.y[still], p.spread[still], p.volume[still], p.origin[still]
-        back = self.origins.unmoved(origin, x, y, 0.5 * spread, self.bed.nodes.core)
-        nodes, depth = self.bed.depth_of(x, y, spread, (1.0 - back) * volume)
-        returning = back > 0.0
-        old, given = self.origins.returned(origin[returning], (back * volume)[returning])
-        every, place = np.unique(np.concatenate([nodes, old]), return_inverse=True)
-        return every, np.bincount(place, np.concatenate([depth, given / self.bed.nodes.area]), every.size)
+        return resting_depth(self.particles, self.state.origins, self.bed)
 
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
-        now = self.particles
-        if now.count == 0:  # also before there is a bed
-            return now.excess_pore_pressure
-        self.particles = now.copy()  # looking must not change how a law keeps its columns
-        try:
-            none, every = np.zeros(now.count), slice(now.count)
-            state = step.columns(self.particles, every)
-            self.physics.column.synchronise(state, step.forcing(self, every, none, none))
-            return state.profile
-        finally:
-            self.particles = now
+        p = self.particles
+        if p.count == 0:  # also before there is a bed
+            return p.excess_pore_pressure
+        return present_profiles(p, slice(p.count), self.columns)
 
     def settle(self):
         """Lay the mass into the bed and forget the particles.
@@ -257,10 +290,10 @@ class Simulation:
         depth : ndarray
             Depth laid on each [m].
         """
-        p = self.particles
-        self.settled_solid += float(self.matter.solid_volume(p).sum())
+        p, state = self.particles, self.state
+        state.settled_solid += float(self.phases.solid_volume(p).sum())
         nodes, depth = self.resting_depth()
         self.bed.lay_down(nodes, depth)
         p.keep(np.zeros(p.count, bool))
-        self.origins, self.rest = Origins(), Rest()
+        state.origins, state.bodies = Origins(), Bodies()
         return nodes, depth

@@ -23,6 +23,12 @@ class Stopped:
         """Begin anew; particles that were counted are not counted again."""
         self.volume, self.first, self.last, self.where = 0.0, np.inf, -np.inf, (np.nan, np.nan)
 
+    def copy(self) -> "Stopped":
+        """Return an independent copy."""
+        other = Stopped()
+        vars(other).update(vars(self))
+        return other
+
     def count(self, p, time: float) -> None:
         """Count the particles that a wall has stopped and that were not counted before, at some time [s]."""
         new = np.flatnonzero(p.touched_wall > p.counted_at_wall)

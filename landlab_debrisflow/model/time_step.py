@@ -13,57 +13,6 @@ TERRAIN_FRACTION = 0.5
 GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
-FASTER = 1.5
-"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
-
-FIRST = 1.0 / 64.0
-"""First step after a release over the one that would be stable."""
-
-TO_STOP = 0.25
-"""Part of the time to stop, as the flow is slowing now, that a step may take; the time of rest is known to that."""
-
-SLOWEST = 1.0 / 16.0
-"""But no less than this part of the one that would be stable: what swings turns, and does not stop."""
-
-
-class Pace:
-    """Steps that follow how the flow starts and stops."""
-
-    def __init__(self):
-        self._step = self._speed = np.inf
-
-    def restart(self) -> None:
-        """Something new is released."""
-        self._step = 0.0
-
-    def longest(self, stable: float, energy: float) -> float:
-        """Return how long the next step may be [s].
-
-        Parameters
-        ----------
-        stable : float
-            What stability and resolution allow [s].
-        energy : float
-            Of the flow now [m5 s-2].
-
-        Examples
-        --------
-        >>> pace = Pace()
-        >>> pace.restart()
-        >>> pace.longest(0.64, 1.0), pace.longest(0.64, 1.0)
-        (0.01, 0.015)
-        >>> pace = Pace()
-        >>> pace.longest(0.1, 1.0), pace.longest(0.1, 0.64)  # a fifth of the speed lost in 0.1 s
-        (0.1, 0.1)
-        """
-        speed, before, step = np.sqrt(energy), self._speed, self._step
-        allowed = min(stable, max(FASTER * step, FIRST * stable))
-        if speed < before < np.inf:
-            allowed = min(allowed, max(TO_STOP * step * speed / (before - speed), SLOWEST * stable))
-        self._step, self._speed = allowed, speed
-        return float(allowed)
-
-
 LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
 """Of the fastest wave on a lattice, over celerity / smoothing length: its angular frequency, and the rate at which a
 shock viscosity of 1 damps it (docs/decisions.md, Flow 2)."""
@@ -91,8 +40,8 @@ NOT_STIFF = np.zeros(1)
 """Nothing but weight drives waves [m2 s-2]."""
 
 
-class Survey(NamedTuple):
-    """What the particles that are awake look like as a whole."""
+class StepLimits(NamedTuple):
+    """What limits the next step, and what else is asked of all particles that are awake."""
 
     longest_step: float  # that is stable [s]
     energy: float  # sum of volume times speed squared [m5 s-2]
@@ -100,10 +49,8 @@ class Survey(NamedTuple):
     broken: int  # place of a particle that is not finite, or -1
 
 
-def survey(
-    particles, computed, cosine, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF
-) -> Survey:
-    """Look at all particles that are awake.
+def reduce_particles(particles, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF):
+    """Return the `StepLimits` of all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
     against the smoothing length (the speed itself does not count), and the speed against the node spacing.
@@ -111,10 +58,7 @@ def survey(
     Parameters
     ----------
     particles : Particles
-    computed : ndarray of bool, shape (n,)
-        Those near something that moves; the others can wait for any time.
-    cosine : ndarray, shape (n,)
-        cos(theta).
+        Those not `summed` can wait for any time: nothing near them moves.
     gravity : float
         [m s-2]
     courant_number : float
@@ -125,13 +69,13 @@ def survey(
         What else but weight adds to the square of the celerity [m2 s-2].
     """
     p = particles
-    waves, growth, across, energy, fastest, broken = _survey(
-        p.awake, computed, cosine, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
+    waves, growth, across, energy, fastest, broken = _reduce(
+        p.awake, p.summed, p.cos_slope, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
         p.own_thickness, p.thickening, stiff, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
         p.entrainment_rate, p.depth, p.light,
     )  # fmt: skip
     longest = min(courant_number / max(waves, 1e-300), GROWTH / max(growth, 1e-300), across)
-    return Survey(longest, energy, fastest, broken)
+    return StepLimits(longest, energy, fastest, broken)
 
 
 MOST_CONVERGENCE = 14.0 / 3.0
@@ -140,8 +84,8 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow thickens 
 
 
 @kernel
-def _survey(
-    count, computed, cosine, gravity, way, velocity, thrust, thickness, own_thickness, thickening, stiff,
+def _reduce(
+    count, summed, cosine, gravity, way, velocity, thrust, thickness, own_thickness, thickening, stiff,
     smoothing_length, volume, pressure, entrainment_rate, depth, light,
 ):  # fmt: skip
     waves, growth, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
@@ -155,7 +99,7 @@ def _survey(
         if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:  # isfinite() is reordered away (core/jit.py)
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
-        if computed[i]:
+        if summed[i]:
             fastest_wave = np.sqrt(celerity * celerity + stiff[min(i, stiff.size - 1)])
             converging = max(thickening[i], 0.0) / own_thickness[i]
             if light[i]:

@@ -1,72 +1,90 @@
-"""Closed nodes as walls: what is near one has a mirror image behind it.
+"""Closed nodes as walls: a particle near one has a ghost behind it, its mirror image.
 
-Without images the sums over neighbours miss half of them at a wall: thickness comes out halved, and all the
-flow is pushed against it. The faces of closed nodes are the walls, so each image is in x, in y, or in both.
+Without ghosts the sums over neighbours miss half of them at a wall: thickness comes out halved, and all the
+flow is pushed against it. The faces of closed nodes are the walls, so each ghost is in x, in y, or in both.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.jit import kernel
-from ..physics.contracts import FlowState
+from ..physics.contracts import FlowState, Position, Smoothing
 from ..spatial.summation import SMOOTHING_RATIO
 from ..spatial.transfer import Nodes
 from .kinematics import CLOSED, stop_at_walls
 
 
-def mirror(state: FlowState, changed, nodes: Nodes, status, touched):
-    """Append the mirror images of particles that walls within their support make.
+class Walls(NamedTuple):
+    """Closed nodes, of which there is at least one."""
+
+    nodes: Nodes
+    status: np.ndarray  # (nodes,) as Landlab numbers them
+
+
+def ghost_particles(state: FlowState, changed, walls: Walls, touched):
+    """Append the ghosts of particles that walls within their support make: their mirror images.
 
     Parameters
     ----------
     state : FlowState
     changed : ndarray of bool, shape (n,)
         Which particles have changed.
-    nodes : Nodes
-    status : ndarray, shape (nodes,)
-        Node statuses as Landlab numbers them.
+    walls : Walls
     touched : ndarray of int8, shape (n,)
         Set to 1 for those that move towards or along a wall within their own spacing of it, not away from it.
 
     Returns
     -------
     FlowState, ndarray
-        The same with images behind the n particles; the arrays given if there is none.
+        The same with ghosts behind the n particles; the arrays given if there is none.
     """
-    support = 2.0 * state.smoothing_length
+    nodes, status, position = walls.nodes, walls.status, state.position
+    support = 2.0 * state.smoothing.length
     rows = status.size // nodes.columns
-    count = _find(state.x, state.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status, _NONE, _NOWHERE)
+    at = position.x, position.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status
+    count = _find(*at, _NONE, _NOWHERE)
     if count == 0:
         return state, changed
     source, wall = np.empty(count, np.int64), np.empty((2, count))
-    _find(state.x, state.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status, source, wall)
-    x, y, velocity = state.x[source], state.y[source], state.velocity[:, source]
-    for axis, position in enumerate((x, y)):
+    _find(*at, source, wall)
+    x, y, velocity = position.x[source], position.y[source], state.velocity[:, source]
+    gap, moving = wall - np.array([x, y]), velocity.copy()
+    for axis, place in enumerate((x, y)):
         behind = np.isfinite(wall[axis])
-        position[behind] = 2.0 * wall[axis, behind] - position[behind]
+        place[behind] = 2.0 * wall[axis, behind] - place[behind]
         velocity[axis, behind] *= -1.0
+    near = (np.abs(gap) < SPACING * support[source]) & (gap * moving[:2] >= 0.0)
+    touched[source[np.any(near, axis=0) & np.any(moving, axis=0)]] = 1
 
     def both(values):
         return np.concatenate([values, values[source]])
 
-    gap, moving = wall - np.array([state.x[source], state.y[source]]), state.velocity[:, source]
-    near = (np.abs(gap) < SPACING * support[source]) & (gap * moving[:2] >= 0.0)
-    touched[source[np.any(near, axis=0) & np.any(moving, axis=0)]] = 1
-    images = {name: both(getattr(state, name)) for name in ALIKE}
-    images |= {"x": np.concatenate([state.x, x]), "y": np.concatenate([state.y, y])}
-    images["velocity"] = np.concatenate([state.velocity, velocity], axis=1)
-    return state._replace(**images), both(changed)
+    position = Position(np.concatenate([position.x, x]), np.concatenate([position.y, y]), both(position.z))
+    alike = {name: both(getattr(state, name)) for name in ALIKE}
+    mixture = state.mixture
+    if mixture is not None:
+        mixture = mixture._replace(**{name: both(getattr(mixture, name)) for name in ALIKE_IN_MIXTURE})
+    ghosts = state._replace(
+        position=position,
+        velocity=np.concatenate([state.velocity, velocity], axis=1),
+        smoothing=Smoothing(*map(both, state.smoothing)),
+        mixture=mixture,
+        **alike,
+    )
+    return ghosts, both(changed)
 
 
-def bear(sim, which: slice, pull, ground) -> None:
-    """Take away, in place, what walls bear of the pull (3, n) on some particles at rest; `ground` (6, n) is theirs."""
-    if not sim.walled:
+def bear(x, y, pull, sample, walls: Walls | None) -> None:
+    """Take away, in place, what walls bear of the pull (3, n) on particles at rest; `sample` (6, n) is of their bed."""
+    if walls is None:
         return
-    p, nodes = sim.particles, sim.bed.nodes
+    nodes = walls.nodes
     size = np.sqrt((pull**2).sum(axis=0))
     pull *= TOUCHING * min(nodes.dx, nodes.dy) / np.maximum(size, 1e-300)
     stop_at_walls(
-        size.size, np.ascontiguousarray(p.x[which]), np.ascontiguousarray(p.y[which]), pull, ground, nodes.dx, nodes.dy,
-        nodes.columns, sim.status, 1.0, np.zeros(size.size, np.int8),
+        size.size, np.ascontiguousarray(x), np.ascontiguousarray(y), pull, sample, nodes.dx, nodes.dy, nodes.columns,
+        walls.status, 1.0, np.zeros(size.size, np.int8),
     )  # fmt: skip
     pull *= size / (TOUCHING * min(nodes.dx, nodes.dy))
 
@@ -77,32 +95,19 @@ TOUCHING = 1e-3
 SPACING = 0.5 / SMOOTHING_RATIO
 """Spacing of particles over their support."""
 
-ALIKE = (
-    "z",
-    "volume",
-    "smoothing_length",
-    "longest",
-    "thickness",
-    "thickening",
-    "gradient_term",
-    "cos_slope",
-    "density",
-    "phase",
-    "share",
-    "cross_term",
-    "mean_pressure",
-)
-"""What an image has in common with its particle."""
+ALIKE = ("volume", "thickness", "thickening", "cos_slope", "density")
+ALIKE_IN_MIXTURE = ("phase", "share", "cross_term", "mean_pressure")
+"""What a ghost has in common with its particle, beside its elevation and smoothing."""
 
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 
 @kernel
 def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
-    """Count the images, and write whose they are and the walls in x and y [m], NaN for none, if there is room.
+    """Count the ghosts, and write whose they are and the walls in x and y [m], NaN for none, if there is room.
 
-    A wall is taken to be no nearer than a quarter of a spacing, so an image is no nearer than half of one. In a
-    corner a particle and its three images in one place would sum to more than any smoothing length can make up for.
+    A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. In a
+    corner a particle and its three ghosts in one place would sum to more than any smoothing length can make up for.
     """
     found = 0
     wx, wy = np.empty(3), np.empty(3)

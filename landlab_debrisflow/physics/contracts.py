@@ -10,21 +10,27 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 from numpy import ndarray as Array
 
 
+class BasalStress(NamedTuple):
+    """Stresses at the base of the flow under each of n particles."""
+
+    effective_normal: Array  # (n,) max(0, rho' g_n h_n - p_b): all that friction must know of pore pressure [Pa]
+    liquefaction: Array  # (n,) rho' g thickness cos(theta), static gravity [Pa]
+    excess_pore_pressure: Array  # (n,) at the base [Pa]
+
+
 class BasalState(NamedTuple):
     """The base of the flow under each of n particles: what friction and erosion laws read."""
 
     depth: Array  # (n,) vertical [m]
     thickness: Array  # (n,) slope-normal [m]
     speed: Array  # (n,) along the slope [m s-1]
-    normal_gravity: Array  # (n,) with curvature, >= 0 [m s-2]
-    effective_normal_stress: Array  # (n,) max(0, rho' g_n h_n - p_b): all that friction must know of pore pressure [Pa]
-    liquefaction_pressure: Array  # (n,) rho' g thickness cos(theta), static gravity [Pa]
-    excess_pore_pressure: Array  # (n,) at the base [Pa]
     density: Array  # (n,) mixture [kg m-3]
+    normal_gravity: Array  # (n,) with curvature, >= 0 [m s-2]
+    stress: BasalStress
     eroded_depth: Array  # (n,) vertical, taken from the bed in this event, for erosion laws; else (1,) [m]
-    gravity: float  # [m s-2]
-    slip_ratio: float  # velocity at the base over the mean [-]
+    material: Any  # physics.material.Material
     parameters: Any  # NamedTuple of those of the law's parameters that may vary in space, here: (n,) or (1,), SI
+    variables: Any  # the law's own variables as attributes, (n,): written in place, they are there in the next step
 
 
 class ColumnState(NamedTuple):
@@ -37,7 +43,7 @@ class ColumnState(NamedTuple):
     """
 
     profile: Array  # (n, levels) [Pa]
-    memory: Array  # (n, core.variables.COLUMN_MEMORY), the law's own
+    memory: Array  # (n, the law's memory_size)
     clipped: Array  # (n,), pressure taken off by the bounds, times thickness, so far [Pa m]
 
 
@@ -81,6 +87,7 @@ class ColumnLaw(Protocol):
     """Excess pore pressure under a particle."""
 
     stores_pressure: ClassVar[bool]  # whether a source of pressure raises the pressure in the column
+    memory_size: ClassVar[int]  # numbers that the law keeps per column from call to call
 
     @property
     def levels(self) -> int:
@@ -97,46 +104,114 @@ MIXTURE, WATER = 0, 1
 """What a particle is of: grains, with the water between them if the flow law has one phase; or water."""
 
 
-class MixtureState(NamedTuple):
-    """What a flow law with two phases finds of the mixture at each of n particles; written where cells are awake."""
+class Position(NamedTuple):
+    """Where n particles are, on the bed."""
 
-    share: Array  # of the thickness that is of the own phase [-]
-    cross_term: Array  # [-]
-    mean_pressure: Array  # depth mean of the excess pore pressure, of the grains around, at water only [Pa]
+    x: Array  # (n,) map coordinates, from the lower left node [m]
+    y: Array
+    z: Array  # (n,) elevation of the bed [m]
+
+
+class Smoothing(NamedTuple):
+    """Over which distance each of n particles feels others."""
+
+    length: Array  # (n,) smoothing length [m]
+    longest: Array  # (n,) cap of it [m]
+    gradient_term: Array  # (n,) Omega of the grad-h formulation, of the step before [-]
+
+
+class MixtureState(NamedTuple):
+    """What a flow law with two phases finds of the mixture at each of n particles, and what it finds anew of it."""
+
+    phase: Array  # (n,) MIXTURE or WATER (int8)
+    share: Array  # (n,) of the thickness that is of the own phase, of the step before [-]
+    cross_term: Array  # (n,) as that of `spatial.cross_summation.Across`, of the step before [-]
+    mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
+    material: Any  # physics.material.Material
+    written: Any  # `MixtureSums` of those that are moved, without ghosts
+
+
+class MixtureSums(NamedTuple):
+    """What a flow law with two phases writes of the mixture, where cells are awake."""
+
+    share: Array  # (m,) of the thickness that is of the own phase [-]
+    cross_term: Array  # (m,) [-]
+    mean_pressure: Array  # (m,) depth mean of the excess pore pressure, of the grains around, at water only [Pa]
 
 
 class FlowState(NamedTuple):
-    """The moving mass as the flow law sees it, n particles on the surface."""
+    """The moving mass as the flow law sees it, n particles on the surface, ghosts behind walls included."""
 
-    x: Array  # map coordinates [m]
-    y: Array
-    z: Array  # elevation of the bed [m]
+    position: Position
     velocity: Array  # (3, n) [m s-1]
-    volume: Array  # [m3]
-    smoothing_length: Array  # [m]
-    longest: Array  # cap of the smoothing length [m]
-    thickness: Array  # slope-normal, of the own phase, of the step before [m]
-    thickening: Array  # -h div v, of the step before [m s-1]
-    gradient_term: Array  # Omega of the grad-h formulation, of the step before [-]
-    cos_slope: Array  # [-]
-    density: Array  # of the mixture [kg m-3]
-    phase: Array  # MIXTURE or WATER (int8)
-    share: Array  # of the thickness that is of the own phase, of the step before [-]
-    cross_term: Array  # as that of `spatial.across.Across`, of the step before [-]
-    mean_pressure: Array  # depth mean of the excess pore pressure [Pa]
+    volume: Array  # (n,) [m3]
+    smoothing: Smoothing
+    thickness: Array  # (n,) slope-normal, of the own phase, of the step before [m]
+    thickening: Array  # (n,) -h div v, of the step before [m s-1]
+    cos_slope: Array  # (n,) [-]
+    density: Array  # (n,) of the mixture [kg m-3]
     gravity: float  # [m s-2]
-    material: Any  # physics.material.Material
-    mixture: MixtureState  # of those that are moved, without mirror images
+    mixture: MixtureState | None  # None in a flow of one phase
 
 
 class FlowLaw(Protocol):
-    """Inner forces of the flow."""
+    """Inner forces of the flow.
+
+    A law with ``number_of_phases`` 2 has also the methods `drag_coefficient` and `coefficient_of_consolidation` of
+    `physics.flow.TwoPhase`; without that attribute there is one phase.
+    """
+
+    number_of_phases: ClassVar[int]
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
         """Write, where cells are awake, what neighbours do to each other: `spatial.summation.Sums`.
 
         That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
-        rate at which converging flow thickens. A law with two phases, one with the methods `drag_coefficient` and
-        `coefficient_of_consolidation` of `physics.flow.TwoPhase`, also writes ``state.mixture`` and returns the
-        cells of grains and of water.
+        rate at which converging flow thickens. A law with two phases also writes ``state.mixture.written`` and returns
+        the cells of grains and of water.
         """
+
+
+class Phases(Protocol):
+    """What the number of phases changes in a step (model/phases).
+
+    `particles` are all, `exchange` is what grains and water know of each other from step to step.
+    """
+
+    variables: tuple  # of Variable, beside those that every particle has
+    phase_fractions: tuple  # phase and volume fraction of each kind of particle that a volume is divided into
+    solid_fraction: float  # part of the soil that becomes the eroding particle's own: grains of two phases, all of one
+    sleeps: bool  # whether particles that lie still may be left alone
+
+    def density(self, particles) -> Array:
+        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+
+    def solid_volume(self, particles) -> Array:
+        """Return the volume of the grains in each particle, shape (n,) [m3]."""
+
+    def coefficient_of_consolidation(self, particles, which: slice) -> Array:
+        """Return the coefficient of consolidation of some columns, as long as they are many or of length 1 [m2 s-1]."""
+
+    def after_summation(self, particles, exchange, cells) -> None:
+        """Write thickness and mixture of the particles from sums over neighbours; `cells` are those of each phase."""
+
+    def kick(self, particles, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+        """Accelerate the particles that are awake along the bed for `dt` seconds, friction and drag included."""
+
+    def held_at_rest(self, particles, exchange, which: slice, yield_stress, drag, walls) -> Array:
+        """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
+
+    def limit_entrainment(self, exchange, rate) -> None:
+        """Set the erosion rate to 0 where no particle could take all of the soil, in place."""
+
+    def share_entrained(self, particles, exchange) -> None:
+        """Give to other particles what of the entrained soil is not the eroding particle's own."""
+
+    def column_forcing(self, particles, forcing: ColumnForcing, prescribed, dt: float) -> ColumnForcing:
+        """Return the forcing of the columns with the source by a change of porosity [Pa s-1]."""
+
+    def update_mean_pressure(self, particles, exchange, forcing: ColumnForcing, profiles, dt: float) -> None:
+        """Update the depth-mean pore pressure from the columns; `profiles` is called to have them at levels [Pa]."""
+
+    def celerity_squared(self, particles, dt: float) -> Array:
+        """Return by how much the square of the celerity is higher than weight makes it, (n,) or (1,) [m2 s-2]."""

@@ -48,8 +48,8 @@ class Physics:
 
     @property
     def two_phases(self) -> bool:
-        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
-        return hasattr(self.flow, "drag_coefficient")
+        """Whether grains and water move by themselves, which the flow law says."""
+        return getattr(self.flow, "number_of_phases", 1) == 2
 
 
 def build_physics(flow=None, friction=None, erosion=None, column=None, material=None) -> Physics:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from ..core.variables import NODE_FIELDS, PARTICLE_VARIABLES
+from ..grid.fields import NODE_FIELDS
 from ..model.kinematics import CLOSED
 from ..physics.column.diagnostics import consolidation_time, erosion_time
 from .attributes import (  # fmt: skip
@@ -29,11 +29,11 @@ FIELDS = {field.name: field for field in NODE_FIELDS}
 def particles_dataset(particles, lower_left, physics, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
     data, order = {}, np.argsort(particles.identity)
-    for variable in PARTICLE_VARIABLES:
+    for variable in particles.variables:
         if not variable.written or variable.per_level:
             continue
         values, attributes = getattr(particles, variable.name), described(variable.unit, variable.long_name)
-        if variable.vector:
+        if variable.components:
             for axis, part in zip("xyz", values, strict=True):
                 words = f"{variable.long_name}, {axis} component"
                 data[f"{variable.name}_{axis}"] = ("particle", part[order], described(variable.unit, words))

@@ -10,7 +10,7 @@ from validation.grids import changed_fields, copy_fields
 
 from ..twins import SCENES, Failed, Fails, build, different, failing, outcome, run_through, state
 
-STAGES = ("advance", "friction_and_kick", "entrain", "move", "find_ground", "interact", "consolidate", "check")
+STAGES = ("advance", "friction_and_kick", "entrain", "move", "sample_bed", "interact", "consolidate", "find_limits")
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +22,7 @@ def twin():
         if name not in known:
             flow = build(name)
             flow.run_until_rest()
-            known[name] = outcome(flow), state(flow), flow._simulation._steps
+            known[name] = outcome(flow), state(flow), flow.diagnostics.steps
         return known[name]
 
     return find
@@ -233,17 +233,17 @@ def test_whatever_a_step_changes_is_undone():
     flow.run_one_step(2.0)
     sim = flow._simulation
     sim.number, sim.array, sim.nested = 1, np.zeros(3), {"list": [np.zeros(2)]}
-    judge = sim.rest.judge
+    judge = sim.state.bodies.judge
 
-    def change(simulation):
+    def change(*arguments):
         sim.number += 1
         sim.array += 1.0
         sim.nested["list"][0] += 1.0
         sim.nested["list"].append(2)
-        sim.new = sim.matter.new = "new"
-        judge(simulation)
+        sim.new = sim.phases.new = "new"
+        return judge(*arguments)
 
-    sim.rest.judge = change
+    sim.state.bodies.judge = change
     before = state(flow)
     with failing(5), pytest.raises(Failed):
         flow.run_one_step(2.0)

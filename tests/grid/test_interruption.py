@@ -69,7 +69,7 @@ def test_ctrl_c_ends_the_call_after_the_step(number, expected, monkeypatch, capl
     during_a_step(monkeypatch, number, press)
     with pytest.raises(KeyboardInterrupt) as failure:
         flow.run_until_rest()
-    assert flow._simulation._steps == number - 1
+    assert flow.diagnostics.steps == number - 1
     words = f"KeyboardInterrupt at {flow.elapsed_time:.6g} s: everything computed until then is kept"
     assert words in failure.value.__notes__[0] and "run_until_rest() or run_one_step(dt) goes on" in caplog.text
     assert words in caplog.text
@@ -82,7 +82,7 @@ def test_ctrl_c_ends_the_call_after_the_step(number, expected, monkeypatch, capl
 
 def test_ctrl_c_in_the_last_step_lets_the_call_come_to_its_end(expected, monkeypatch):
     flow = build("eroding")
-    during_a_step(monkeypatch, eval(expected[1]["flow._simulation._steps"]) + 1, press)
+    during_a_step(monkeypatch, eval(expected[1]["flow._simulation.state.counters.steps"]) + 1, press)
     with pytest.raises(KeyboardInterrupt) as failure:
         flow.run_until_rest()
     assert "the call had come to its end" in failure.value.__notes__[0]
@@ -193,7 +193,7 @@ def test_an_observer_that_fails_does_not_keep_the_others_from_looking():
         flow.run_until_rest()
     flow.run_until_rest()
     assert first.looks == second.looks == third.looks  # nobody missed a look or looked twice
-    assert len(set(second.looks)) == len(second.looks) == flow._simulation._steps + 1
+    assert len(set(second.looks)) == len(second.looks) == flow.diagnostics.steps + 1
 
 
 def test_a_full_disk_loses_no_snapshots(tmp_path, monkeypatch):

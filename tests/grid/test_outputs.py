@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
-from landlab_debrisflow.core.variables import NODE_FIELDS
+from landlab_debrisflow.grid.fields import NODE_FIELDS
 from validation.grids import COARSE, changed_fields, copy_fields, inclined, release_slab
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"
@@ -215,8 +215,9 @@ def test_a_call_that_fails_leaves_the_outputs_of_the_other_one(monkeypatch):
     release_slab(grid, FAR, 8.0, 0.2)
     second.run_one_step(2.0)
     before = copy_fields(grid)
-    look, steps = first._simulation.rest.look, iter(range(100))
-    monkeypatch.setattr(first._simulation.rest, "judge", lambda sim: look(sim.particles) if next(steps) < 5 else 1 / 0)
+    bodies, steps = first._simulation.state.bodies, iter(range(100))
+    separate = bodies.separate
+    monkeypatch.setattr(bodies, "judge", lambda p, _: separate(p) if next(steps) < 5 else 1 / 0)
     with pytest.raises(ZeroDivisionError):
         first.run_one_step(2.0)
     assert not changed_fields(grid, before)

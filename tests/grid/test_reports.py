@@ -55,7 +55,7 @@ def test_a_dem_that_ends_inside_the_deposit_is_told_with_side_and_volume(caplog)
 def test_one_per_cent_is_where_telling_begins(caplog, left, tells):
     flow = place(DebrisFlow(inclined_with_release(), numerics=COARSE | {"settle": False}))
     flow._simulation.particles.volume *= 1.0 - left
-    flow._simulation.outflow.count(np.array([60]), np.array([left * 225.0]), np.array([left * 225.0]))
+    flow._simulation.state.outflow.count(np.array([60]), np.array([left * 225.0]), np.array([left * 225.0]))
     flow.run_one_step(1e-9)
     assert len(told(caplog, "left the grid")) == tells
 

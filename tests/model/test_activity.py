@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model import activity, step
+from landlab_debrisflow.model import activity
 from validation.grids import copy_fields, inclined, place, release_slab
 
 MATERIAL = {"coefficient_of_consolidation": 2e-3, "initial_pressure_ratio": 0.3}
@@ -29,10 +29,14 @@ def asleep(flow):
     return p.identity[p.awake :]
 
 
+def fall_asleep(sim):
+    activity.fall_asleep(sim.particles, sim.time, sim.columns, sim.friction, sim.state.exchange, sim.walls)
+
+
 @pytest.fixture
 def sleepless(monkeypatch):
     def switch():
-        monkeypatch.setattr(activity, "fall_asleep", lambda sim: None)
+        monkeypatch.setattr(activity, "fall_asleep", lambda *arguments: None)
 
     return switch
 
@@ -55,20 +59,20 @@ def test_who_falls_asleep(slope, base, above, sleeps):
     p.excess_pore_pressure[:] = ratio * p.liquefaction_pressure[:, None]
     p.basal_excess_pore_pressure[:] = base * p.liquefaction_pressure
     p.column_memory[:], p.velocity[:] = 0.0, 0.0
-    step.consolidate(sim, 0.0)
-    assert step.held(sim, slice(p.count), p.basal_excess_pore_pressure).mean() > 0.9  # some at the rim are pushed
-    sim.computed[:] = False
-    activity.fall_asleep(sim)
+    sim._consolidate(0.0)
+    assert sim.held_at_rest(slice(p.count), p.basal_excess_pore_pressure).mean() > 0.9  # some at the rim are pushed
+    p.summed[:] = False
+    fall_asleep(sim)
     lie = p.count - p.awake
     assert lie > 0.9 * p.count if sleeps else lie < 0.1 * p.count
     assert np.unique(p.identity).size == p.count
-    assert np.all(step.held(sim, slice(p.awake, p.count), np.zeros(lie)))
+    assert np.all(sim.held_at_rest(slice(p.awake, p.count), np.zeros(lie)))
     # who moves, or has a neighbour that does, does not sleep
-    activity.wake_all(sim)
+    activity.wake_all(p, sim.time, sim.columns)
     p.velocity[0, :] = 1e-9
-    activity.fall_asleep(sim)
-    p.velocity[:], sim.computed[:] = 0.0, True
-    activity.fall_asleep(sim)
+    fall_asleep(sim)
+    p.velocity[:], p.summed[:] = 0.0, True
+    fall_asleep(sim)
     assert p.awake == p.count
 
 
@@ -77,12 +81,11 @@ def test_who_is_disturbed_wakes_in_the_same_step(monkeypatch):
     sim, woken, most = flow._simulation, [], [0]
     wake = activity.wake
 
-    def watched(sim, places):
-        p = sim.particles
+    def watched(p, places):
         most[0] = max(most[0], p.count - p.awake)
-        disturbed = set(p.identity[p.awake :][sim.computed[p.awake :]])
-        wake(sim, places)
-        assert not sim.computed[p.awake :].any()
+        disturbed = set(p.identity[p.awake :][p.summed[p.awake :]])
+        wake(p, places)
+        assert not p.summed[p.awake :].any()
         awake = set(p.identity[: p.awake])
         assert disturbed <= awake
         woken.extend(disturbed)

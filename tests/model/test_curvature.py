@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.model.kinematics import basal_state
-from landlab_debrisflow.physics.contracts import BasalState
+from landlab_debrisflow.model.basal import press_on_bed
+from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
+from landlab_debrisflow.physics.material import Material
 
 G, SPACING = 9.81, 5.0
 
@@ -18,7 +19,7 @@ def on_bed(velocity, gradient=(0.0, 0.0), hessian=(0.0, 0.0, 0.0)):
     along = np.array([[u, v, u * gradient[0] + v * gradient[1]]]).T
     cosine = 1.0 / np.sqrt(1.0 + np.sum(np.square([gradient]), axis=1))
     speed, normal, stress, one = np.empty(1), np.empty(1), np.empty(1), np.ones(1)
-    basal_state(0, along, ground, cosine, G, SPACING, one, one, 0.0, 0.0 * one, speed, normal, stress)
+    press_on_bed(0, along, ground, cosine, G, SPACING, one, one, 0.0, 0.0 * one, speed, normal, stress)
     return float(speed[0]), float(normal[0])
 
 
@@ -56,8 +57,8 @@ def test_over_a_bump_the_flow_gets_lighter_and_without_weight_it_has_no_friction
         assert normal == 0.0
         one = np.ones(1)
         state = BasalState(
-            one, one, found * one, normal * one, 990.0 * normal * one, 9712.0 * one, 0.0 * one,
-            1990.0 * one, 0.0 * one, G, 0.0, None,
+            one, one, found * one, 1990.0 * one, normal * one,
+            BasalStress(990.0 * normal * one, 9712.0 * one, 0.0 * one), 0.0 * one, Material(gravity=G), None, None,
         )  # fmt: skip
         for law in (Coulomb(), Voellmy()):
             stress, drag = np.empty(1), np.empty(1)

@@ -68,10 +68,10 @@ def test_soil_comes_in_with_the_pressure_the_flow_has_made():
     _, flow = slope(soil=5.0)
     flow.run_one_step(7.0)
     sim = flow._simulation
-    front = (sim.particles.x[: sim.granted.size] > 80.0) & (sim.granted > 0.0)
+    front = (sim.particles.x > 80.0) & (sim.particles.entrained_volume > 0.0)
     assert np.count_nonzero(front) > 20
     # round-off of loads that came and went
-    np.testing.assert_allclose(sim.granted_ratio[front], B * 1990.0 / 990.0, rtol=1e-9)
+    np.testing.assert_allclose(sim.particles.entrained_ratio[front], B * 1990.0 / 990.0, rtol=1e-9)
 
 
 def test_a_bed_that_keeps_its_pressure_lets_the_flow_run_farther():

@@ -123,12 +123,12 @@ def test_the_peak_goes_with_the_particles_when_a_body_parts():
     flow = two_slopes(fast=6.0)
     flow.run_one_step(3.0)
     simulation = flow._simulation
-    rest, p = simulation.rest, simulation.particles
-    rest.look(p)
-    whole = rest._peak.sum()
+    bodies, p = simulation.state.bodies, simulation.particles
+    bodies.separate(p)
+    whole = bodies.peak.sum()
     p.x[p.x > np.median(p.x)] += 1000.0
-    rest.look(p)
-    assert rest._peak.sum() == pytest.approx(whole, rel=1e-12)
+    bodies.separate(p)
+    assert bodies.peak.sum() == pytest.approx(whole, rel=1e-12)
     parts = np.bincount(p.body, p.volume)
     # by volume: within the volume of the few that had parted before
-    np.testing.assert_allclose(np.sort(rest._peak / whole), np.sort(parts / parts.sum()), atol=0.02)
+    np.testing.assert_allclose(np.sort(bodies.peak / whole), np.sort(parts / parts.sum()), atol=0.02)

@@ -6,26 +6,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from landlab_debrisflow.model.time_step import (
-    FASTER,
-    FIRST,
-    GROWTH,
-    SLOWEST,
-    TERRAIN_FRACTION,
-    TO_STOP,
-    Pace,
-    survey,
-    viscous_share,
-)
+from landlab_debrisflow.model.step_control import FASTER, FIRST, SLOWEST, TO_STOP, StepControl
+from landlab_debrisflow.model.time_step import GROWTH, TERRAIN_FRACTION, reduce_particles, viscous_share
 
 G, COURANT, SPACING = 9.81, 0.6, 5.0
 
 
 def paced(energies, stable=1.0, restart=False):
-    pace = Pace()
+    control = StepControl()
     if restart:
-        pace.restart()
-    return [pace.longest(stable, energy) for energy in energies]
+        control.restart()
+    return [control.longest(stable, energy) for energy in energies]
 
 
 def test_after_a_release_steps_grow_from_a_small_one_to_what_is_stable():
@@ -43,9 +34,9 @@ def test_without_a_release_and_without_slowing_a_step_is_what_is_stable():
 
 def test_a_stop_is_met_in_ever_shorter_steps():
     """At a constant deceleration from speed 1 in 10 s, steps of 1 s at most."""
-    pace, time, times = Pace(), 0.0, []
+    control, time, times = StepControl(), 0.0, []
     while time < 10.0 and len(times) < 200:
-        step = pace.longest(1.0, (1.0 - 0.1 * time) ** 2)
+        step = control.longest(1.0, (1.0 - 0.1 * time) ** 2)
         times.append(step)
         time += step
     # a step takes a quarter of the time that is left, but not less than a sixteenth of what is stable
@@ -99,7 +90,8 @@ def particles():
 
 def look(particles, computed=None):
     computed = np.ones(6, bool) if computed is None else computed
-    return survey(particles, computed, np.full(6, 0.8), G, COURANT, SPACING)
+    particles.summed, particles.cos_slope = computed, np.full(6, 0.8)
+    return reduce_particles(particles, G, COURANT, SPACING)
 
 
 CELERITY = math.sqrt(G * 0.8 * 2.0)

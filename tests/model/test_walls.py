@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.kinematics import CLOSED
-from landlab_debrisflow.model.walls import mirror
-from landlab_debrisflow.physics.contracts import FlowState
+from landlab_debrisflow.model.walls import Walls, ghost_particles
+from landlab_debrisflow.physics.contracts import FlowState, Position, Smoothing
 from landlab_debrisflow.physics.flow import OnePhase
 from landlab_debrisflow.spatial.cells import sort_into_cells
 from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, Sums
@@ -27,23 +27,23 @@ def state(x, y, velocity=None, longest=1e9):
     one, zero = np.ones(n), np.zeros(n)
     velocity = np.zeros((3, n)) if velocity is None else velocity
     return FlowState(
-        x, y, zero, velocity, one, SMOOTHING_RATIO * one, longest * one, one, zero, one, one, one, zero, one, zero,
-        zero, 9.81, None, None,
+        Position(x, y, zero), velocity, one, Smoothing(SMOOTHING_RATIO * one, longest * one, one), one, zero, one, one,
+        9.81, None,
     )  # fmt: skip
 
 
 def reflect(flow, changed=None):
-    n = flow.x.size
+    n = flow.position.x.size
     touched = np.zeros(n, np.int8)
     changed = np.ones(n, bool) if changed is None else changed
-    return *mirror(flow, changed, *raster(), touched), touched
+    return *ghost_particles(flow, changed, Walls(*raster()), touched), touched
 
 
 def test_away_from_walls_nothing_is_touched():
     flow, changed = state(np.array([20.0, 30.0]), np.array([20.0, 25.0])), np.ones(2, bool)
     for closed in ("rim", "nothing"):
         touched = np.zeros(2, np.int8)
-        same, also = mirror(flow, changed, *raster(closed), touched)
+        same, also = ghost_particles(flow, changed, Walls(*raster(closed)), touched)
         assert same is flow and also is changed and not touched.any()
 
 
@@ -51,14 +51,15 @@ def test_images_are_mirrored_in_x_in_y_and_in_both():
     x, y = np.array([WEST + 1.0, 25.0]), np.array([SOUTH + 1.5, 20.0])
     velocity = np.array([[3.0, 1.0], [-4.0, 1.0], [0.5, 1.0]])
     flow, changed, _ = reflect(state(x, y, velocity), np.array([True, False]))
-    assert flow.x.size == 5 and changed.tolist() == [True, False, True, True, True]
-    found = {(a, b): (u, v, w) for a, b, (u, v, w) in zip(flow.x[2:], flow.y[2:], flow.velocity[:, 2:].T, strict=True)}
+    assert flow.position.x.size == 5 and changed.tolist() == [True, False, True, True, True]
+    ghosts = zip(flow.position.x[2:], flow.position.y[2:], flow.velocity[:, 2:].T, strict=True)
+    found = {(a, b): (u, v, w) for a, b, (u, v, w) in ghosts}
     assert found == {
         (WEST - 1.0, SOUTH + 1.5): (-3.0, -4.0, 0.5),
         (WEST + 1.0, SOUTH - 1.5): (3.0, 4.0, 0.5),
         (WEST - 1.0, SOUTH - 1.5): (-3.0, 4.0, 0.5),
     }
-    np.testing.assert_array_equal(flow.x[:2], x)
+    np.testing.assert_array_equal(flow.position.x[:2], x)
 
 
 @pytest.mark.parametrize(("across", "touches"), [(-1.0, 1), (-1e-3, 1), (1e-3, 0), (1.0, 0)])
@@ -83,12 +84,12 @@ def sums(flow, count, sweeps=1):
     out = Sums(np.empty(count), np.empty(count), np.empty(count), np.empty((3, count)), np.empty(count))
     for _ in range(sweeps):
         whole, _, _ = reflect(flow)
-        cells = sort_into_cells(whole.x, whole.y, 2.0 * whole.smoothing_length)
+        cells = sort_into_cells(whole.position.x, whole.position.y, 2.0 * whole.smoothing.length)
         OnePhase().interact(whole, cells, 1.0, 1, out)
         flow = flow._replace(
-            thickness=out.thickness.copy(), smoothing_length=out.next_length.copy(),
-            gradient_term=out.gradient_term.copy(),
-        )  # fmt: skip
+            thickness=out.thickness.copy(),
+            smoothing=flow.smoothing._replace(length=out.next_length.copy(), gradient_term=out.gradient_term.copy()),
+        )
     return out
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.core.variables import OUTPUT_PREFIX
+from landlab_debrisflow.grid.fields import OUTPUT_PREFIX
 from validation.rasters import touched_by, valley
 
 SHIFT = 6

@@ -11,7 +11,7 @@ from landlab_debrisflow import Material, Numerics
 from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.physics.contracts import BasalState
+from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, Voellmy
 from landlab_debrisflow.physics.registry import LAWS, METHOD, build_law, build_physics
@@ -54,12 +54,12 @@ def basal_state(count=50, seed=1, **given):
     liquefaction = 990.0 * 9.81 * thickness * np.cos(slope)
     pressure = given.pop("excess_pore_pressure", rng.uniform(0.0, 1.0, count) * liquefaction)
     normal_gravity = given.pop("normal_gravity", 9.81 * np.cos(slope))
+    effective = np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure)
     values = {
         "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
-        "normal_gravity": normal_gravity, "liquefaction_pressure": liquefaction, "excess_pore_pressure": pressure,
-        "effective_normal_stress": np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure),
-        "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count), "gravity": 9.81, "slip_ratio": 0.0,
-        "parameters": None,
+        "normal_gravity": normal_gravity, "stress": BasalStress(effective, liquefaction, pressure),
+        "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count),
+        "material": Material(basal_slip_ratio=given.pop("slip_ratio", 0.0)), "parameters": None, "variables": None,
     }  # fmt: skip
     return BasalState(**(values | given))
 
@@ -115,14 +115,15 @@ def test_pore_pressure_lowers_what_holds_a_body(law):
 @of_friction
 def test_pore_pressure_enters_through_the_effective_normal_stress_only(law):
     state, other = basal_state(), np.full(50, np.nan)
-    found = resistance(law, state._replace(excess_pore_pressure=other, liquefaction_pressure=other))
+    stress = state.stress._replace(excess_pore_pressure=other, liquefaction=other)
+    found = resistance(law, state._replace(stress=stress))
     np.testing.assert_array_equal(found, resistance(law, state))
 
 
 @of_friction
 @pytest.mark.parametrize("excess", [1.0, 1.5, 1e6])
 def test_what_is_liquefied_keeps_its_cohesion_only(law, excess):
-    load = basal_state().liquefaction_pressure
+    load = basal_state().stress.liquefaction
     # the small excess over 1 keeps round-off of rho' g_n h_n - p out of it
     state = basal_state(excess_pore_pressure=load * excess * (1.0 + 1e-12))
     assert np.all(resistance(law, state)[0] == strength_without_normal_stress(law))
@@ -284,8 +285,8 @@ def hand_state():
     """Two metres on a flat at 10 m/s, 9000 Pa of excess pore pressure."""
     one = np.ones(1)
     return BasalState(
-        2.5 * one, 2.0 * one, 10.0 * one, 9.81 * one, 10423.8 * one, 19423.8 * one, 9000.0 * one, 1990.0 * one,
-        0.0 * one, 9.81, 0.0, None,
+        2.5 * one, 2.0 * one, 10.0 * one, 1990.0 * one, 9.81 * one,
+        BasalStress(10423.8 * one, 19423.8 * one, 9000.0 * one), 0.0 * one, Material(), None, None,
     )  # fmt: skip
 
 

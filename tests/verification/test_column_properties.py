@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import solve_column
-from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.column import ALE, Classical
+from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
 from landlab_debrisflow.physics.contracts import (
     BASE_BY_EROSION,
     BASE_IMPERMEABLE,
@@ -81,7 +81,7 @@ class Fleet:
         self.base, self.varied = np.full(COUNT, BASE_BY_EROSION, np.int8), rng.random(COUNT) < 0.3
         self.load = self._loads()
         self.start = self._starts() * self.load[:, None] * (self.eta > 0.0)
-        self.state = ColumnState(self.start.copy(), np.zeros((COUNT, COLUMN_MEMORY)), np.zeros(COUNT))
+        self.state = ColumnState(self.start.copy(), np.zeros((COUNT, MEMORY_SIZE)), np.zeros(COUNT))
         self.friction, self.entrained, self.bed = np.zeros(COUNT), np.zeros(COUNT), self.ratio * self.load
         law.advance(self.state, self.forcing(), 0.0, self.friction)
 
@@ -259,7 +259,7 @@ def test_a_small_excess_does_not_grow(levels, contact):
     """
     law, eta = law_of(ALE, levels, 0.0, contact, "overburden"), np.linspace(1.0, 0.0, levels)
     profile = (1.0 + 1e-9) * LOAD_PER_METRE * eta * (np.arange(levels) < levels - 2)
-    state = ColumnState(profile[None].copy(), np.zeros((1, COLUMN_MEMORY)), np.zeros(1))
+    state = ColumnState(profile[None].copy(), np.zeros((1, MEMORY_SIZE)), np.zeros(1))
     thickness, worst, base = np.ones(1), 0.0, np.zeros(1)
     for step in range(STEPS):
         entrained = (0.01 if step else 0.0) * thickness
@@ -338,7 +338,7 @@ def test_what_thinning_takes_off_is_counted(steps):
     ratio, shrunk = rng.uniform(-1.0, 1.0, COUNT), rng.uniform(0.05, 1.0, COUNT)
     eta = np.linspace(1.0, 0.0, 11)
     thickness, load = np.ones(COUNT), np.full(COUNT, LOAD_PER_METRE)
-    state = ColumnState(np.outer(ratio * load, eta), np.zeros((COUNT, COLUMN_MEMORY)), np.zeros(COUNT))
+    state = ColumnState(np.outer(ratio * load, eta), np.zeros((COUNT, MEMORY_SIZE)), np.zeros(COUNT))
     law, none, one, base = ALE(), np.zeros(COUNT), np.ones(COUNT), np.zeros(COUNT)
     pressure, taken = ratio * load, none.copy()
     for step in range(steps + 1):
@@ -417,7 +417,7 @@ def test_noise_of_the_thickness_makes_no_pressure(times_step, steps, tolerance):
     """
     count, rng = 400, np.random.default_rng(0)
     law, one, none = ALE(tolerance=tolerance), np.ones(count), np.zeros(count)
-    state, base = ColumnState(np.zeros((count, 11)), np.zeros((count, COLUMN_MEMORY)), np.zeros(count)), none.copy()
+    state, base = ColumnState(np.zeros((count, 11)), np.zeros((count, MEMORY_SIZE)), np.zeros(count)), none.copy()
     ratios = []
     for step in range(steps + 1):
         thickness = one + 0.1 * rng.uniform(-1.0, 1.0, count) * (step > 0)

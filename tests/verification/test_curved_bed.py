@@ -10,7 +10,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model import step
+from landlab_debrisflow.model.basal import basal_state
 from validation.grids import dry_block, place, release_cap, throw
 from validation.measure import body
 
@@ -60,7 +60,7 @@ def test_the_bed_carries_weight_and_centripetal_force():
     """N/m = g cos phi + v^2/R, at the bottom g + v^2/R: 1.66 g here."""
     flow, phi, speed = through_the_dip(0.0, 20.0, 2.4)
     simulation = flow._simulation
-    normal = step.base(simulation, slice(simulation.particles.awake), "friction").normal_gravity
+    normal = basal_state(simulation.particles, slice(simulation.particles.awake), simulation.friction).normal_gravity
     at_bottom = abs(phi) < np.radians(3.0)
     assert at_bottom.sum() > 10
     np.testing.assert_allclose(normal[at_bottom], G + speed[at_bottom] ** 2 / RADIUS, rtol=0.01)

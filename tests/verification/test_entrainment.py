@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model import step
+from landlab_debrisflow.model import entrainment, step
 from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
 
 G, ANGLE, MU, RATE = 9.81, math.radians(30.0), 0.21, 3e-3
@@ -89,15 +89,14 @@ def test_grains_pores_and_momentum_are_what_they_were_with_what_came_in(monkeypa
     entrain, looked = step.entrain, []
     soil = 2650.0 * (1.0 - bed) + 800.0 * bed
 
-    def watched(sim, dt):
-        p = sim.particles
+    def watched(p, *rest):
         pores, mass = p.porosity * p.volume, p.density * p.volume
-        dilution = entrain(sim, dt)
-        np.testing.assert_allclose(p.porosity * p.volume, pores + bed * sim.granted, rtol=1e-14)
-        np.testing.assert_allclose(p.density * p.volume, mass + soil * sim.granted, rtol=1e-14)
-        np.testing.assert_allclose(dilution, ((mass + soil * sim.granted) / mass) ** (slip - 1.0), rtol=1e-14)
-        looked.append(sim.granted.sum())
-        return dilution
+        ratio = entrain(p, *rest)
+        np.testing.assert_allclose(p.porosity * p.volume, pores + bed * p.entrained_volume, rtol=1e-14)
+        np.testing.assert_allclose(p.density * p.volume, mass + soil * p.entrained_volume, rtol=1e-14)
+        np.testing.assert_allclose(ratio, ((mass + soil * p.entrained_volume) / mass) ** (slip - 1.0), rtol=1e-14)
+        looked.append(p.entrained_volume.sum())
+        return ratio
 
     monkeypatch.setattr(step, "entrain", watched)
     flow.run_one_step(1.0)
@@ -111,7 +110,7 @@ def test_by_hand():
     one = np.ones(1)
     volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(4)]
     out[1][:] = np.nan
-    step._take_up(
+    entrainment._mix(
         1.0 * one, 1.0, 0.5, 7.0, 4e-4 * one, 0.5, 0.2, 2650.0, 1000.0, 2.0 * one, 1.6 * one, one, 0.8 * one,
         volume, porosity, density, *out,
     )  # fmt: skip

@@ -22,19 +22,19 @@ class Sums:
     """
 
     def __init__(self, flow, monkeypatch):
-        matter = flow._simulation.matter
-        self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, matter.kick
+        phases = flow._simulation.phases
+        self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, phases.kick
 
-        def watched(sim, velocity, yield_stress, drag, rest_speed, dt):
-            p, ground, cosine = sim.particles, sim.ground, sim.cosine
+        def watched(p, exchange, velocity, yield_stress, drag, rest_speed, dt):
+            ground, cosine = p.surface_sample, p.cos_slope
             normal = cosine * np.array([-ground[1], -ground[2], np.ones(cosine.size)])
             across = ((p.thrust + np.array([[0.0], [0.0], [-G]])) * normal).sum(axis=0)
             self.thrust += dt * (p.volume * p.thrust).sum(axis=1)
             self.bed -= dt * (p.volume * (np.array([[0.0], [0.0], [G]]) + across * normal)).sum(axis=1)
             self.sizes += dt * float((p.volume * G * cosine * p.thickness * 2.33 / p.smoothing_length).sum())
-            kick(sim, velocity, yield_stress, drag, rest_speed, dt)
+            kick(p, exchange, velocity, yield_stress, drag, rest_speed, dt)
 
-        monkeypatch.setattr(matter, "kick", watched)
+        monkeypatch.setattr(phases, "kick", watched)
 
     @property
     def rounding(self):
@@ -53,9 +53,9 @@ def thrown(grid, velocity, **keywords):
     flow = place(DebrisFlow(grid, **keywords))
     simulation = flow._simulation
     simulation.set_free()
-    simulation._find_everything()
+    simulation._refresh()
     u, v = velocity
-    zx, zy = simulation.ground[1:3]
+    zx, zy = simulation.particles.surface_sample[1:3]
     simulation.particles.velocity[:] = np.array([u + 0.0 * zx, v + 0.0 * zx, u * zx + v * zy])
     return flow
 
@@ -108,14 +108,14 @@ def test_soil_that_is_picked_up_brings_no_momentum(monkeypatch):
     """The balance closes with the reaction of the bed alone, into which the body digs a hollow."""
     grid, keywords = body(soil=5.0, erosion={"law": "growth", "growth_rate": 3e-3})
     flow = thrown(grid, (12.0, -3.0), **keywords)
-    sums, bend, follow_ground = Sums(flow, monkeypatch), np.zeros(3), step.follow_ground
+    sums, bend, follow_bed = Sums(flow, monkeypatch), np.zeros(3), step.follow_bed
 
     def watched(ground, velocity, *rest):  # the reaction of a bed that curves
         was = velocity.copy()
-        follow_ground(ground, velocity, *rest)
+        follow_bed(ground, velocity, *rest)
         bend[:] += (flow._simulation.particles.volume * (velocity - was)).sum(axis=1)
 
-    monkeypatch.setattr(step, "follow_ground", watched)
+    monkeypatch.setattr(step, "follow_bed", watched)
     before, volume = momentum(flow), flow.budget["moving"]
     flow.run_one_step(4.0)
     size, bed = np.linalg.norm(before), sums.bed + bend
@@ -133,14 +133,14 @@ def test_entrainment_itself_conserves_momentum_to_round_off(monkeypatch):
     flow = thrown(grid, (12.0, -3.0), **keywords)
     taken, entrain, move = [], step.entrain, step.move
 
-    def watched_entrain(sim, dt):
-        taken.append(sim.particles.volume * sim.particles.velocity)
-        return entrain(sim, dt)
+    def watched_entrain(p, *rest):
+        taken.append(p.volume * p.velocity)
+        return entrain(p, *rest)
 
-    def watched_move(sim, dt, dilution):
-        move(sim, dt, dilution)
-        np.testing.assert_allclose(sim.particles.volume * sim.particles.velocity, taken.pop(), rtol=1e-14, atol=1e-300)
-        assert np.all(dilution < 1.0)
+    def watched_move(p, bed, status, velocity_ratio, *rest):
+        move(p, bed, status, velocity_ratio, *rest)
+        np.testing.assert_allclose(p.volume * p.velocity, taken.pop(), rtol=1e-14, atol=1e-300)
+        assert np.all(velocity_ratio < 1.0)
 
     monkeypatch.setattr(step, "entrain", watched_entrain)
     monkeypatch.setattr(step, "move", watched_move)
@@ -156,7 +156,7 @@ def test_a_wall_takes_the_momentum_towards_it_and_no_other(side, axis, velocity)
     flow = thrown(grid, velocity, **dry_block(0.0, particle_count=1, rest_energy=0.0))
     p = flow._simulation.particles
     p.least_thickness[:], p.smoothing_length[:] = 1.0, 7.0  # alone it would think itself as wide as the basin
-    flow._simulation._find_everything(8)
+    flow._simulation._refresh(8)
     before = momentum(flow)
     flow.run_one_step(9.0)  # there are 72.5 m to go
     p, after = flow.particles, momentum(flow)

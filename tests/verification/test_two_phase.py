@@ -27,7 +27,7 @@ def two_phase(**law):
 
 def awaken(flow):
     """Let everything be found anew, as after a change of terrain."""
-    flow._simulation._changed = True
+    flow._simulation.state.outdated = True
     set_free(flow)
     return flow._simulation.particles
 
@@ -83,7 +83,7 @@ def test_what_grains_lose_water_gains():
     assert np.all(abs(pushes.sum(axis=1)) <= 6e-8 * abs(pushes).sum(axis=1))  # 2e-9 to 2e-8 for four seeds
     before, none = masses(p) * p.velocity, np.zeros(p.count)
     p.thrust[:] = 0.0
-    sim.matter.kick(sim, p.velocity, none, none, np.zeros(1), 0.05)
+    sim.phases.kick(p, sim.state.exchange, p.velocity, none, none, np.zeros(1), 0.05)
     gained = masses(p) * p.velocity - before
     assert abs(gained).sum() > 1e-3 * abs(before).sum()
     assert np.all(abs(gained.sum(axis=1)) <= 1e-14 * abs(before).sum())
@@ -142,7 +142,7 @@ def test_the_decay_does_not_know_the_step():
         p.thrust[:], p.porosity[:], none = 0.0, N, np.zeros(p.count)
         p.velocity[0] = np.where(p.phase == WATER, 1.0, 0.0)
         for _ in range(parts):
-            sim.matter.kick(sim, p.velocity, none, none, np.zeros(1), 0.3 / parts)
+            sim.phases.kick(p, sim.state.exchange, p.velocity, none, none, np.zeros(1), 0.3 / parts)
         middle = abs(p.x - p.x.mean()) < 6.0
         found.append(p.velocity[0, middle & (p.phase == WATER)] - p.velocity[0, middle & (p.phase != WATER)])
     exact = math.exp(-0.3 * rate(1.0))
@@ -235,7 +235,7 @@ def test_particles_feel_the_gradients_of_both_thrusts():
     sim = flow._simulation
     for _ in range(4):
         p.mean_excess_pore_pressure[:] = base * (0.5 + 0.1 * np.cos(k * x))
-        sim._find_everything(1)
+        sim._refresh(1)
     h_w, h_s = N * (1.0 + 0.05 * np.cos(k * x)), (1.0 - N) * (1.0 + 0.02 * np.cos(k * x))
     d_w, d_s = -N * 0.05 * k * np.sin(k * x), -(1.0 - N) * 0.02 * k * np.sin(k * x)
     h, dh, pressure, dp = h_s + h_w, d_s + d_w, base * (0.5 + 0.1 * np.cos(k * x)), -base * 0.1 * k * np.sin(k * x)
@@ -265,7 +265,7 @@ class TightInDepth(TwoPhase):
 class Sealed:
     """A column that keeps all pressure made by changes of porosity, the same at all levels, and never drains."""
 
-    stores_pressure, levels = True, 2
+    stores_pressure, levels, memory_size = True, 2, 0
 
     def advance(self, columns, forcing, dt, basal_pressure):
         columns.profile[:] += dt * forcing.porosity_source[:, None]
@@ -327,7 +327,7 @@ def test_porosity_stays_a_porosity(column):
     for _ in range(30):
         flow.run_one_step(0.5)
         p = flow._simulation.particles
-        steps = flow._simulation._steps
+        steps = flow.diagnostics.steps
         shown = flow.particles
         assert all(np.isfinite(shown[name].values).all() for name in ("porosity", "thickness", "velocity_x", "x"))
         assert p.porosity.min() >= 0.0 and p.porosity.max() <= 1.0

@@ -7,7 +7,6 @@ reference at 2000 cells taken linearly between their centres.
 """
 
 import math
-import time as clock
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,8 +15,7 @@ import numpy as np
 from landlab_debrisflow.physics.contracts import WATER
 from validation.cases.planes import plane
 from validation.cases.two_phase import CASES
-from validation.hooks import counting_steps
-from validation.measure import norms
+from validation.measure import advance, norms
 
 ACROSS = 12  # particles of each phase
 CELLS = 2000  # of the reference
@@ -116,7 +114,4 @@ def errors(flow, name):
 def run(name, count, **changed):
     """Run a case to its end; return the flow, CPU time [s] and steps."""
     flow = strip(name, count, **changed)
-    with counting_steps() as counted:
-        start = clock.process_time()
-        flow.run_one_step(CASES[name].time - flow.elapsed_time)
-        return flow, clock.process_time() - start, counted[0]
+    return flow, *advance(flow, CASES[name].time)

@@ -10,8 +10,9 @@ class FixedLength:
 
     def interact(self, state, cells, shock_viscosity, threads, sums):
         """Write the sums; a length at its cap is not adapted, and its gradient term is 1."""
-        length = state.smoothing_length
-        OnePhase().interact(state._replace(longest=length), cells, shock_viscosity, threads, sums)
+        length = state.smoothing.length
+        state = state._replace(smoothing=state.smoothing._replace(longest=length))
+        OnePhase().interact(state, cells, shock_viscosity, threads, sums)
         sums.next_length[:] = length[: sums.next_length.size]
 
 

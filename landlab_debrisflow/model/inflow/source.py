@@ -14,13 +14,16 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...physics.column.initial import initial_profile
-from ...physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing, ColumnState
+from ...physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing
 from ...spatial.summation import SMOOTHING_RATIO
+from ..basal import ColumnPhysics, column_state
 from ..release.placing import THICKNESS_RANGE
 from .hydrograph import Hydrograph, Integral
 
 FREE = -1
 """Number of the row of a particle that flows by itself."""
+
+NONE = np.zeros(0, int)
 
 LEAST_FALL = 1e-6
 """Slope across the line below which the ground does not say where it falls to [-]."""
@@ -51,8 +54,6 @@ class Source:
         self.particles = max(1, round(self.entered.total / particle_volume))
         self.particle_volume = self.entered.total / self.particles
         self.strip = 2.0 * SMOOTHING_RATIO * np.sqrt(self.particle_volume / hydrograph.largest_thickness)
-        towards = hydrograph.direction
-        self.towards = None if towards is None else np.array([np.cos(np.radians(towards)), np.sin(np.radians(towards))])
 
     @property
     def y_range(self):
@@ -88,16 +89,16 @@ class Source:
         """Return the value at some time of a quantity given at the hydrograph's."""
         return np.interp(time, self.times, values)
 
-    def aim(self, surface) -> None:
-        """Find out to which side of the line the ground falls, if the hydrograph does not say.
+    def direction(self, surface):
+        """Return the unit vector in which it flows, shape (2,): as the hydrograph says, or as the ground falls.
 
         Raises
         ------
         InputError
-            If it falls to neither.
+            If it falls to neither side of the line.
         """
-        if self.hydrograph.direction is not None:
-            return
+        if (given := self.hydrograph.direction) is not None:
+            return np.array([np.cos(np.radians(given)), np.sin(np.radians(given))])
         along = self.end - self.start
         left = np.array([-along[1], along[0]]) / np.hypot(*along)
         share = (np.arange(64) + 0.5) / 64
@@ -108,7 +109,7 @@ class Source:
                 f"inflow: the ground falls to neither side of the line from {h.line_start} to {h.line_end} m; "
                 f"give its direction: {degrees:.4g} or {(degrees + 180.0) % 360.0:.4g} deg from east"
             )
-        self.towards = -left * np.sign(fall)
+        return -left * np.sign(fall)
 
 
 class Inflow:
@@ -122,6 +123,13 @@ class Inflow:
         inflow is thickest.
     lower_left : array_like, shape (2,)
         Map coordinates of the lower left node [m].
+
+    Attributes
+    ----------
+    rows_entered : int
+        Rows that have entered so far.
+    directions : ndarray, shape (sources, 2)
+        Unit vectors in which the sources flow.
     """
 
     def __init__(self, hydrographs=(), numerics=None, lower_left=(0.0, 0.0)):
@@ -140,7 +148,13 @@ class Inflow:
         self._place = np.zeros(source.size, int)  # number of the row among those of its source
         for k in range(len(self.sources)):
             self._place[source == k] = np.arange(np.count_nonzero(source == k))
-        self.rows_entered = 0
+        self.rows_entered, self.directions = 0, np.zeros((len(self.sources), 2))
+
+    def copy(self) -> "Inflow":
+        """Return an independent copy; of all that differs in a run, nothing is changed in place."""
+        other = object.__new__(Inflow)
+        vars(other).update(vars(self))
+        return other
 
     @property
     def over(self) -> bool:
@@ -172,11 +186,11 @@ class Inflow:
         return float(self._sum[self.rows_entered])
 
     def aim(self, surface) -> None:
-        """Direct the sources before the first row enters; see `Source.aim`."""
-        for source in self.sources if self.rows_entered == 0 else ():
-            source.aim(surface)
+        """Direct the sources before the first row enters; see `Source.direction`."""
+        if self.sources and self.rows_entered == 0:
+            self.directions = np.array([source.direction(surface) for source in self.sources])
 
-    def enter(self, sim, time: float) -> bool:
+    def enter(self, p, surface, columns: ColumnPhysics, time: float) -> bool:
         """Let in what crosses the line until `time` [s], moved on to where it is then, and set free what has passed.
 
         Returns
@@ -185,60 +199,61 @@ class Inflow:
             Whether anything entered.
         """
         first = self.rows_entered
+        if not self.sources:
+            return False
         self.rows_entered = max(first, int(np.searchsorted(self._time, time, side="right")))
         for row in range(first, self.rows_entered):
-            self._add(sim, row, time)
-        if self.sources:
-            self._set_free(sim.particles, time)
+            self._add(p, surface, columns, row, time)
+        self._set_free(p, time)
         return self.rows_entered > first
 
-    def hold(self, sim, time: float) -> None:
+    def prescribe_velocity(self, p, time: float) -> None:
         """Give the particles in the strips the velocity prescribed at `time` [s]."""
-        held = self.held(sim.particles)
-        if held.size == 0:
+        if (which := self.prescribed(p)).size == 0:
             return
-        velocity, towards = self._prescribed(sim.particles.inflow_row[held], time)
-        fall = np.einsum("in,in->n", towards, sim.ground[1:3, held])
-        sim.particles.velocity[:, held] = velocity / np.sqrt(1.0 + fall**2) * np.array([*towards, fall])
+        speed, direction = self._motion(p.inflow_row[which], time)
+        fall = np.einsum("in,in->n", direction, p.surface_sample[1:3, which])
+        p.velocity[:, which] = speed / np.sqrt(1.0 + fall**2) * np.array([*direction, fall])
 
-    def hold_thickness(self, p, parts) -> None:
-        """Give the particles in the strips the thickness they entered with; `parts` are those of the matter."""
-        held = self.held(p)
-        part = np.array([part for _, part in parts])[p.phase[held]]
-        p.share[held] = part
-        thickness = part * self._thickness[p.inflow_row[held]]
-        p.own_thickness[held], p.gradient_term[held] = thickness, 1.0
-        p.next_smoothing_length[held] = _smoothing_length(p.volume[held], thickness, p.least_thickness[held])
+    def prescribe_thickness(self, p, phase_fractions) -> None:
+        """Give the particles in the strips the thickness they entered with; see `Phases.phase_fractions`."""
+        if (which := self.prescribed(p)).size == 0:
+            return
+        part = np.array([part for _, part in phase_fractions])[p.phase[which]]
+        p.share[which] = part
+        thickness = part * self._thickness[p.inflow_row[which]]
+        p.own_thickness[which], p.gradient_term[which] = thickness, 1.0
+        p.next_smoothing_length[which] = _smoothing_length(p.volume[which], thickness, p.least_thickness[which])
 
-    def held(self, p):
-        """Return which particles move as prescribed; they are awake."""
-        return np.flatnonzero(p.inflow_row[: p.awake] != FREE) if self.sources else np.zeros(0, int)
+    def prescribed(self, p):
+        """Return the places of particles that move as prescribed; they are awake."""
+        return np.flatnonzero(p.inflow_row[: p.awake] != FREE) if self.sources else NONE
 
-    def _prescribed(self, rows, time):
-        """Return velocity [m s-1] and direction, shape (2, n), for particles of some rows."""
-        velocity = np.array([source.at(time, source.velocity) for source in self.sources])
-        towards = np.array([source.towards for source in self.sources])
-        return velocity[self._source[rows]], towards[self._source[rows]].T
+    def _motion(self, rows, time):
+        """Return speed [m s-1] and direction, shape (2, n), of particles of some rows."""
+        speed = np.array([source.at(time, source.velocity) for source in self.sources])
+        return speed[self._source[rows]], self.directions[self._source[rows]].T
 
     def _set_free(self, p, time):
-        held = self.held(p)
-        rows = p.inflow_row[held]
+        which = self.prescribed(p)
+        rows = p.inflow_row[which]
         for k, source in enumerate(self.sources):
             passed = source.way(time) - source.way(self._time[rows]) >= source.strip
             stopped = time >= source.times[-1] or source.at(time, source.discharge) == 0.0
-            p.inflow_row[held[(self._source[rows] == k) & (passed | stopped)]] = FREE
+            p.inflow_row[which[(self._source[rows] == k) & (passed | stopped)]] = FREE
 
-    def _add(self, sim, row, time):
+    def _add(self, p, surface, columns, row, time):
         """Let one row in."""
-        p, material, source = sim.particles, sim.physics.material, self.sources[self._source[row]]
+        material, source = columns.material, self.sources[self._source[row]]
+        direction = self.directions[self._source[row]]
         count, thickness, volume = self._count[row], self._thickness[row], self._each[row]
         # rows are shifted by half a particle against each other, and none reaches beyond the line
         share = (np.arange(count) + (0.5 if count == 1 else (0.25, 0.75)[self._place[row] % 2])) / count
         x, y = source.start[:, None] + share * (source.end - source.start)[:, None]
-        fall = source.towards @ sim.bed.surface.sample(x, y)[1:3]
+        fall = direction @ surface.sample(x, y)[1:3]
         step = (source.way(time) - source.way(self._time[row])) / np.sqrt(1.0 + fall**2)
-        x, y = x + step * source.towards[0], y + step * source.towards[1]
-        ground = sim.bed.surface.sample(x, y)
+        x, y = x + step * direction[0], y + step * direction[1]
+        ground = surface.sample(x, y)
         slant = np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
         load = material.buoyant_density * material.gravity * thickness / slant
         ratio = material.initial_pressure_ratio
@@ -249,7 +264,7 @@ class Inflow:
         )  # fmt: skip
         least = THICKNESS_RANGE * source.hydrograph.largest_thickness
         length = _smoothing_length(volume, thickness, least)
-        for phase, part in sim.matter.parts:
+        for phase, part in columns.phases.phase_fractions:
             borne = load if phase == MIXTURE else np.zeros(count)
             new = p.append(
                 count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * volume,
@@ -259,19 +274,26 @@ class Inflow:
                 excess_pore_pressure=profile if phase == MIXTURE else 0.0, porosity=material.porosity,
                 porosity_before=material.porosity, density=material.density, inflow_row=row,
             )  # fmt: skip
-            self._start_columns(sim, new, borne)
+            _start_columns(p, new, borne, columns)
 
-    def _start_columns(self, sim, new, load):
-        p, material, nothing = sim.particles, sim.physics.material, np.zeros(load.size)
-        p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
-        c_v = sim.matter.coefficient_of_consolidation(p, new)
-        forcing = ColumnForcing(
-            p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),
-            np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,
-        )  # fmt: skip
-        state = ColumnState(p.excess_pore_pressure[new], p.column_memory[new], p.column_clipped[new])
-        sim.physics.column.advance(state, forcing, 0.0, p.basal_excess_pore_pressure[new])
-        sim.granted, sim.granted_ratio = np.append(sim.granted, nothing), np.append(sim.granted_ratio, nothing)
+
+def _start_columns(p, new: slice, load, columns: ColumnPhysics) -> None:
+    """Tell the column law of new columns, with their load [Pa]."""
+    nothing = np.zeros(load.size)
+    p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
+    forcing = ColumnForcing(
+        volume=p.volume[new],
+        thickness=p.thickness[new],
+        liquefaction_pressure=load,
+        entrained=nothing,
+        bed_pressure=nothing,
+        base=np.array([BASE_IMPERMEABLE], np.int8),
+        porosity_source=np.zeros(1),
+        coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, new),
+        water_to_buoyant=columns.water_to_buoyant,
+        bounded=True,
+    )
+    columns.law.advance(column_state(p, new), forcing, 0.0, p.basal_excess_pore_pressure[new])
 
 
 def _smoothing_length(volume, thickness, least):

@@ -7,9 +7,34 @@ from ...physics.contracts import WATER
 from ..kinematics import along_bed
 
 
+class Exchange:
+    """What grains and water know of each other from step to step; in a flow of one phase it stays empty.
+
+    Attributes
+    ----------
+    partners : Partners or None
+        Of the grains among the water.
+    generation : tuple of int or None
+        `Particles.generation` for which they were found.
+    age : int
+        Sums over neighbours since then.
+    steps : int
+        Times that the mean pore pressure was updated.
+    """
+
+    def __init__(self):
+        self.partners, self.generation, self.age, self.steps = None, None, 0, 0
+
+    def copy(self) -> "Exchange":
+        """Return an independent copy; partners are never changed, but replaced."""
+        other = Exchange()
+        vars(other).update(vars(self))
+        return other
+
+
 @kernel
 def kick_both(
-    of, count, index, weight, phase, velocity, push, ground, cosine, yield_stress, drag, coupling, porosity, manning,
+    of, count, index, weight, phase, velocity, push, sample, cosine, yield_stress, drag, coupling, porosity, manning,
     thickness, volume, solid_density, water_density, gravity, rest_speed, dt,
 ):  # fmt: skip
     """Solve for each grain and the water around it, exactly for constant forces; see `docs/decisions.md`, Two phases 3.
@@ -23,7 +48,7 @@ def kick_both(
     moves, received = np.empty((n, 6)), np.zeros((n, 3))  # velocity and acceleration without friction; what drag gives
     for i in range(n):
         moves[i, 0], moves[i, 1], moves[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]
-        moves[i, 3], moves[i, 4], moves[i, 5] = along_bed(i, push, ground, cosine, gravity)
+        moves[i, 3], moves[i, 4], moves[i, 5] = along_bed(i, push, sample, cosine, gravity)
     for k in range(of.size):
         i = of[k]
         u, v, w, ax, ay, az, taken = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0  # of the water around
@@ -38,7 +63,7 @@ def kick_both(
             taken += part
         if count[k] > 0:
             u, v, w, ax, ay, az = u / taken, v / taken, w / taken, ax / taken, ay / taken, az / taken
-        nx, ny, nz = -cosine[i] * ground[1, i], -cosine[i] * ground[2, i], cosine[i]
+        nx, ny, nz = -cosine[i] * sample[1, i], -cosine[i] * sample[2, i], cosine[i]
         # what water around on other slopes has across this one does not count
         across, pull = u * nx + v * ny + w * nz, ax * nx + ay * ny + az * nz
         u, v, w = u - across * nx, v - across * ny, w - across * nz
@@ -92,7 +117,7 @@ def kick_both(
             continue
         per_mass = 1.0 / (water_density * volume[i])
         gx, gy, gz = received[i, 0] * per_mass, received[i, 1] * per_mass, received[i, 2] * per_mass
-        nx, ny, nz = -cosine[i] * ground[1, i], -cosine[i] * ground[2, i], cosine[i]
+        nx, ny, nz = -cosine[i] * sample[1, i], -cosine[i] * sample[2, i], cosine[i]
         across = gx * nx + gy * ny + gz * nz
         ax, ay, az = moves[i, 3], moves[i, 4], moves[i, 5]
         u = velocity[0, i] + dt * ax + gx - across * nx
@@ -135,14 +160,14 @@ def make_whole(of, count, index, weight, porosity, volume):
 
 
 @kernel
-def share_soil(of, count, index, weight, granted, water, volume, velocity, exponent):
+def share_soil(of, count, index, weight, entrained, water, volume, velocity, exponent):
     """Share the water of the soil among the partners, in place; v goes like V^-`exponent`.
 
-    `granted` is what grains took of their own [m3], `water` how much there is of it over that in the soil [-].
+    `entrained` is what grains took of their own [m3], `water` how much there is of it over that in the soil [-].
     """
     taken = np.zeros(volume.size)
     for k in range(of.size):
-        soil = water * granted[of[k]]
+        soil = water * entrained[of[k]]
         if soil > 0.0:
             soil /= np.sum(weight[k, : count[k]])
             for s in range(count[k]):

@@ -1,39 +1,32 @@
-"""A flow of one phase, whose grains carry their pore water: what `Mixture` does otherwise.
-
-A simulation has one of the two as its ``matter``, and asks it wherever the number of phases makes a difference.
-"""
+"""A flow of one phase, whose grains carry their pore water."""
 
 import numpy as np
 
 from ...physics.contracts import MIXTURE
-from .. import walls
 from ..kinematics import kick
 from ..time_step import NOT_STIFF
+from ..walls import bear
 
 
-class Single:
-    """The one phase of a simulation.
+class OnePhaseDynamics:
+    """The `Phases` of a flow of one phase.
 
     Parameters
     ----------
-    physics : Physics
+    material : Material
     """
 
-    parts = ((MIXTURE, 1.0),)
-    """What of a volume goes into which particles: phase and part."""
-
-    own_part = 1.0
-    """What of the soil that a particle takes becomes its own; the rest goes to others."""
-
+    variables = ()
+    phase_fractions = ((MIXTURE, 1.0),)
+    solid_fraction = 1.0
     sleeps = True
-    """Whether what lies still may be left alone."""
 
-    def __init__(self, physics):
-        self._gravity = physics.material.gravity
-        self._coefficient = np.array([physics.material.coefficient_of_consolidation])
+    def __init__(self, material):
+        self.material = material
+        self._coefficient = np.array([material.coefficient_of_consolidation])
 
     def density(self, p):
-        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+        """Return the density of the mixture, shape (n,) [kg m-3]."""
         return p.density
 
     def solid_volume(self, p):
@@ -41,41 +34,43 @@ class Single:
         return p.volume * (1.0 - p.porosity)
 
     def coefficient_of_consolidation(self, p, which: slice):
-        """Return that of the columns of some particles, as long as they are many or of length 1 [m2 s-1]."""
+        """Return the coefficient of consolidation of the material, shape (1,) [m2 s-1]."""
         return self._coefficient
 
-    def found(self, p, cells) -> None:
-        """Note what the sums over neighbours found, and write the thickness of the whole."""
+    def after_summation(self, p, exchange, cells) -> None:
+        """Write the thickness, which is that of the only phase [m]."""
         p.thickness[:] = p.own_thickness
 
-    def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `kinematics.kick`."""
-        p, m = sim.particles, sim.particles.awake
-        mass = p.density[:m] * p.thickness[:m]
-        kick(velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, mass, self._gravity, rest_speed, dt)
+        m = p.awake
+        mass, gravity = p.density[:m] * p.thickness[:m], self.material.gravity
+        kick(velocity, p.thrust, p.surface_sample, p.cos_slope, yield_stress, drag, mass, gravity, rest_speed, dt)
 
-    def held(self, sim, which: slice, yield_stress, drag):
-        """Return which of some particles friction and walls would hold at rest."""
-        p, n = sim.particles, yield_stress.size
-        thrust, ground = np.ascontiguousarray(p.thrust[:, which]), np.ascontiguousarray(sim.ground[:, which])
+    def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
+        """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
+        n = yield_stress.size
+        thrust = np.ascontiguousarray(p.thrust[:, which])
+        sample = np.ascontiguousarray(p.surface_sample[:, which])
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
-        kick(pull, thrust, ground, sim.cosine[which], none, none, mass, self._gravity, np.zeros(1), 1.0)
-        walls.bear(sim, which, pull, ground)
+        gravity = self.material.gravity
+        kick(pull, thrust, sample, p.cos_slope[which], none, none, mass, gravity, np.zeros(1), 1.0)
+        bear(p.x[which], p.y[which], pull, sample, walls)
         return np.sqrt((pull**2).sum(axis=0)) <= yield_stress / mass
 
-    def refuse_soil(self, rate) -> None:
-        """Set the rate of erosion to 0 where nobody could take all of the soil, in place."""
+    def limit_entrainment(self, exchange, rate) -> None:
+        """Leave the erosion rate as it is: every particle can take soil."""
 
-    def take_up(self, sim) -> None:
-        """Pass on what of the soil is not the particles' own."""
+    def share_entrained(self, p, exchange) -> None:
+        """Leave the soil where it is: all of it is the particle's own."""
 
-    def force(self, sim, forced, dt: float):
-        """Return the forcing of the columns with what phases make of it."""
-        return forced
+    def column_forcing(self, p, forcing, prescribed, dt: float):
+        """Return the forcing of the columns as it is: porosity changes by erosion only."""
+        return forcing
 
-    def follow(self, sim, forced, dt: float) -> None:
-        """Follow what of the columns acts on the flow, after they were advanced."""
+    def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
+        """Leave the mean pore pressure unknown: the pressure of the flow does not depend on it."""
 
-    def celerity_squared(self, sim, dt: float):
-        """Return by how much the square of the celerity is higher than weight makes it, (n,) or (1,) [m2 s-2]."""
+    def celerity_squared(self, p, dt: float):
+        """Return 0, shape (1,) [m2 s-2]: nothing but weight drives waves."""
         return NOT_STIFF

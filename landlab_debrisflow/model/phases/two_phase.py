@@ -1,21 +1,23 @@
 """What a flow of two phases does besides: grains and water drag each other, share the soil, and squeeze the pores.
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
-is dragged along. All is exchanged between grains and their partners among the water (`spatial.across.find_partners`),
-with weights that sum to 1, so what one gives the other gets, to the last digit. `Single` is the same for one phase.
+is dragged along. All is exchanged between grains and their partners among the water
+(`spatial.cross_summation.find_partners`), with weights that sum to 1, so what
+one gives the other gets, to the last digit.
 """
 
 import numpy as np
 
 from ...core.jit import kernel
+from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.cross_summation import find_partners
-from .. import walls
 from ..kinematics import kick
 from ..time_step import NOT_STIFF
+from ..walls import bear
 from .exchange import kick_both, make_whole, share_soil
 
-STEPS_BETWEEN_LOOKS = 16
+STEPS_BETWEEN_PROFILES = 16
 """Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
 of it is followed, which can be fast, and drains at `DRAINAGE`."""
 
@@ -30,27 +32,35 @@ LEAST = 1e-6
 """Least part of the volume that either phase is taken to have."""
 
 
-class Mixture:
-    """The two phases of a simulation.
+class TwoPhaseDynamics:
+    """The `Phases` of a flow of grains and water.
 
     Parameters
     ----------
-    physics : Physics
-        With a flow law of two phases.
+    law : FlowLaw
+        With two phases.
+    material : Material
+    stores_pressure : bool
+        Whether a source of pressure raises the pressure in the columns.
     """
+
+    variables = (
+        Variable("cross_term", "-", "grad-h term of the other phase", written=False),
+        Variable("mean_excess_pore_pressure", "Pa", "its depth mean", written=False),
+        Variable("porosity_before", "-", "before the flow of the step changed it", written=False),
+        Variable("phase_drag", "Pa s m-1", "drag between the phases, per area and relative velocity", written=False,
+                 scratch=True),
+        Variable("bed_drag", "s-1", "drag of the bed on water, over its speed and mass", written=False, scratch=True),
+        Variable("drainage_rate", "s-1", "rate at which the mean pressure drains", written=False, scratch=True),
+    )  # fmt: skip
 
     sleeps = False
     """It would save 1 to 2 %, and partners would have to follow."""
 
-    def __init__(self, physics):
-        self.law, self.material, self.column = physics.flow, physics.material, physics.column
-        porosity = self.material.porosity
-        self.parts = ((MIXTURE, 1.0 - porosity), (WATER, porosity))
-        self.own_part = 1.0 - self.material.soil_porosity
-        self.coupling = self.manning = None  # drag per area and relative velocity [Pa s m-1]; of the bed on water [s-1]
-        self.drainage = None  # [s-1]
-        self.partners, self._found_for, self._found = None, None, 0  # of the grains; for whom and how long ago
-        self._steps = 0
+    def __init__(self, law, material, stores_pressure: bool):
+        self.law, self.material, self.stores_pressure = law, material, stores_pressure
+        self.phase_fractions = ((MIXTURE, 1.0 - material.porosity), (WATER, material.porosity))
+        self.solid_fraction = 1.0 - material.soil_porosity
 
     def density(self, p):
         """Return the density of what each particle is of, shape (n,) [kg m-3]."""
@@ -64,28 +74,29 @@ class Mixture:
         """Return that of the columns of some particles [m2 s-1]: the drag between phases is that within a column."""
         return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
 
-    def found(self, p, cells) -> None:
-        """Note what the sums over neighbours found of the mixture; `cells` are those of grains and of water."""
+    def after_summation(self, p, exchange, cells) -> None:
+        """Write thickness, porosity and drag from the sums; `cells` are those of grains and of water."""
         material, law = self.material, self.law
         _mix(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
         np.divide(p.own_thickness, p.share, out=p.thickness)
-        self.coupling = law.drag_coefficient(p.porosity, material) * p.thickness
-        self.drainage = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
-        self.manning = np.zeros(1)
+        p.phase_drag[:] = law.drag_coefficient(p.porosity, material) * p.thickness
+        p.drainage_rate[:] = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
         if law.manning_coefficient > 0.0:
-            self.manning = material.gravity * law.manning_coefficient**2 / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
-        if p.roll != self._found_for or self._found == STEPS_WITH_PARTNERS:
-            self.partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
-            make_whole(*self.partners, p.porosity, p.volume)
-            self._found_for, self._found = p.roll, 0
-        self._found += 1
+            roughness = material.gravity * law.manning_coefficient**2
+            p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
+        if p.generation != exchange.generation or exchange.age == STEPS_WITH_PARTNERS:
+            partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
+            make_whole(*partners, p.porosity, p.volume)
+            exchange.partners, exchange.generation, exchange.age = partners, p.generation, 0
+        exchange.age += 1
 
-    def kick(self, sim, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
 
         Parameters
         ----------
-        sim : Simulation
+        p : Particles
+        exchange : Exchange
         velocity : ndarray, shape (3, n)
             Changed in place [m s-1].
         yield_stress, drag, rest_speed
@@ -93,85 +104,87 @@ class Mixture:
         dt : float
             [s]
         """
-        p, material = sim.particles, self.material
+        material = self.material
         kick_both(
-            *self.partners, p.phase, velocity, p.thrust, sim.ground, sim.cosine, yield_stress, drag, self.coupling,
-            p.porosity, self.manning, p.thickness, p.volume, material.solid_density, material.water_density,
-            material.gravity, rest_speed, dt,
+            *exchange.partners, p.phase, velocity, p.thrust, p.surface_sample, p.cos_slope, yield_stress, drag,
+            p.phase_drag, p.porosity, p.bed_drag, p.thickness, p.volume, material.solid_density,
+            material.water_density, material.gravity, rest_speed, dt,
         )  # fmt: skip
         _hold_back(velocity, p.light)
 
-    def held(self, sim, which: slice, yield_stress, drag):
+    def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
         """Return which grains friction and walls would hold at rest, and which water drag; `which` are all."""
-        p, none, at_rest = sim.particles, np.zeros(sim.particles.count), np.zeros(1)
+        none, at_rest = np.zeros(p.count), np.zeros(1)
         velocity, pull = np.zeros((2, 3, none.size))
-        self.kick(sim, velocity, yield_stress, drag, at_rest, 1.0)
+        self.kick(p, exchange, velocity, yield_stress, drag, at_rest, 1.0)
         free = _size(velocity)
-        walls.bear(sim, which, velocity, sim.ground)
+        bear(p.x, p.y, velocity, p.surface_sample, walls)
         left = _size(velocity)
         leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # along the wall friction holds it
-        kick(pull, p.thrust, sim.ground, sim.cosine, none, none, none + 1.0, self.material.gravity, at_rest, 1.0)
-        walls.bear(sim, which, pull, sim.ground)
+        gravity = self.material.gravity
+        kick(pull, p.thrust, p.surface_sample, p.cos_slope, none, none, none + 1.0, gravity, at_rest, 1.0)
+        bear(p.x, p.y, pull, p.surface_sample, walls)
         seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
-        return np.where(p.phase == WATER, seeping <= p.rest_speed * self.coupling, leaning | (left == 0.0))
+        return np.where(p.phase == WATER, seeping <= p.rest_speed * p.phase_drag, leaning | (left == 0.0))
 
-    def refuse_soil(self, rate) -> None:
+    def limit_entrainment(self, exchange, rate) -> None:
         """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""
         takes = np.zeros(rate.size, bool)
-        takes[self.partners.of[self.partners.count > 0]] = True
+        takes[exchange.partners.of[exchange.partners.count > 0]] = True
         rate[~takes] = 0.0
 
-    def take_up(self, sim) -> None:
+    def share_entrained(self, p, exchange) -> None:
         """Give water its part of the soil of which the grains took theirs; from here on the flow changes porosity."""
-        p, slip_ratio = sim.particles, self.material.basal_slip_ratio
-        if sim.granted.any():
-            water = 1.0 / self.own_part - 1.0  # over the grains in the soil
-            share_soil(*self.partners, sim.granted, water, p.volume, p.velocity, 1.0 - slip_ratio)
+        if p.entrained_volume.any():
+            water = 1.0 / self.solid_fraction - 1.0  # over the grains in the soil
+            exponent = 1.0 - self.material.basal_slip_ratio
+            share_soil(*exchange.partners, p.entrained_volume, water, p.volume, p.velocity, exponent)
         p.porosity_before[:] = p.porosity
 
-    def force(self, sim, forced, dt: float):
-        """Return the forcing of the columns with what two phases make of it.
+    def column_forcing(self, p, forcing, prescribed, dt: float):
+        """Return the forcing of the columns with the pressure that a change of porosity makes [Pa s-1].
 
         Water that leaves relative to the grains lets their skeleton take up the load: with dn/dt the rate by
         relative motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
         """
-        p = sim.particles
         if dt == 0.0:
-            return forced
+            return forcing
         gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
-        gain[sim.inflow.held(p)] = 0.0
+        gain[prescribed] = 0.0
         gain[p.phase == WATER] = 0.0
-        return forced._replace(porosity_source=gain / dt)
+        return forcing._replace(porosity_source=gain / dt)
 
-    def follow(self, sim, forced, dt: float) -> None:
-        """Follow the depth mean of the pore pressure through a step with a source: thrust depends on it."""
-        p = sim.particles
-        if self._steps % STEPS_BETWEEN_LOOKS == 0:
-            profile = sim.columns_now()
+    def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
+        """Update the depth mean of the pore pressure, on which the pressure of the flow depends [Pa].
+
+        It is read off the columns now and then; in between it follows the source.
+        """
+        if exchange.steps % STEPS_BETWEEN_PROFILES == 0:
+            profile = profiles()
             mean = (profile.sum(axis=1) - 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
             np.copyto(p.mean_excess_pore_pressure, mean, where=p.phase != WATER)
             dt = 0.0
         weight = self.material.water_density * self.material.gravity
-        gained = dt if self.column.stores_pressure else 0.0
+        gained = dt if self.stores_pressure else 0.0
         _follow(
-            p.phase, gained, forced.porosity_source, weight, p.thickness, sim.cosine, p.liquefaction_pressure,
-            self.drainage, p.mean_excess_pore_pressure,
+            p.phase, gained, forcing.porosity_source, weight, p.thickness, p.cos_slope, p.liquefaction_pressure,
+            p.drainage_rate, p.mean_excess_pore_pressure,
         )  # fmt: skip
-        self._steps += 1
+        exchange.steps += 1
 
-    def celerity_squared(self, sim, dt: float):
+    def celerity_squared(self, p, dt: float):
         """Return by how much the square of the celerity is higher as the skeleton is stiff, shape (n,) [m2 s-2].
 
         Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
         of a velocity in a step of `dt` seconds, and drainage what is reached of a pressure.
         """
-        if not self.column.stores_pressure or sim.particles.count == 0:
+        if not self.stores_pressure or p.count == 0:
             return NOT_STIFF
-        p, material = sim.particles, self.material
+        material = self.material
         n = p.porosity
         lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
-        x = dt * self.coupling / (p.thickness * n * n) * lightness
-        return self.law.stiffness * lightness * _reached(x) * _reached(dt * self.drainage)
+        x = dt * p.phase_drag / (p.thickness * n * n) * lightness
+        return self.law.stiffness * lightness * _reached(x) * _reached(dt * p.drainage_rate)
 
 
 def _size(vectors):

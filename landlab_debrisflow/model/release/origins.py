@@ -6,7 +6,7 @@ import numpy as np
 class Origins:
     """For every particle released: its place, and the volume it took from each node.
 
-    The arrays are never changed in place: a shallow copy is a copy.
+    The arrays are never changed in place.
 
     Examples
     --------
@@ -25,6 +25,12 @@ class Origins:
         self._owner, self._node = np.zeros((2, 0), np.int64)
         self._part = np.zeros(0)
         self.span = ()  # first and last node from which anything was taken
+
+    def copy(self) -> "Origins":
+        """Return an independent copy."""
+        other = Origins()
+        vars(other).update(vars(self))
+        return other
 
     def add(self, x, y, particle, node, part):
         """Note a release and return the numbers of its particles here, shape (n,).

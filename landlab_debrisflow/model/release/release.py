@@ -23,55 +23,70 @@ flow that would get as short as it is light, and ask for such steps. So it has t
 no say in the limits by growth and convergence."""
 
 
-def release_particles(sim, nodes, depth) -> slice:
-    """Add particles for failing ground to a simulation and return their places; arguments as of its `release`."""
-    raster, material = sim.bed.nodes, sim.physics.material
-    sites = find_sites(nodes, depth, raster)
-    _warn_of_pits(sim, sites, nodes, depth)
-    counts = share_particles(sites.volume, _particle_volume(sim, nodes, depth))
-    placed = place_particles(sites, counts, sim.bed.surface)
-    ground = sim.bed.surface.sample(placed.x, placed.y)
+def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -> slice:
+    """Add particles for failing ground and return their places.
+
+    Parameters
+    ----------
+    p : Particles
+    origins : Origins
+        Told what every particle is made of.
+    nodes : ndarray of int, shape (cells,)
+        Where the ground fails, sorted.
+    depth : ndarray, shape (cells,)
+        Vertical thickness that fails there [m].
+    bed : Bed
+        What is left.
+    status : ndarray, shape (nodes,)
+        Node statuses as Landlab numbers them.
+    phases : Phases
+    numerics : Numerics
+    """
+    material, whole = phases.material, _whole_volume(p, phases)
+    sites = find_sites(nodes, depth, bed.nodes)
+    _warn_of_pits(bed, status, sites, nodes, depth)
+    counts = share_particles(sites.volume, _particle_volume(whole, bed.nodes.area, nodes, depth, numerics))
+    placed = place_particles(sites, counts, bed.surface)
+    ground = bed.surface.sample(placed.x, placed.y)
     normal = placed.depth / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
     thickest = np.zeros(sites.volume.size)
     np.maximum.at(thickest, placed.site, normal)
-    least, first = THICKNESS_RANGE * thickest[placed.site], sim.particles.awake
-    usual, deepest = _usual(sim, placed.volume, thickest)
-    origin = sim.origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
-    for phase, part in sim.matter.parts:
-        sim.particles.append(
+    least, first = THICKNESS_RANGE * thickest[placed.site], p.awake
+    deepest = max(thickest.max(), p.thickness.max(initial=0.0))
+    usual = _usual_volume(np.concatenate([placed.volume, whole]))
+    origin = origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
+    for phase, part in phases.phase_fractions:
+        p.append(
             placed.x.size, x=placed.x, y=placed.y, z=ground[0], phase=phase, share=part, volume=part * placed.volume,
             released_volume=part * placed.volume, depth=placed.depth, thickness=normal, own_thickness=part * normal,
             least_thickness=part * least, porosity=material.porosity, density=material.density, origin=origin,
             smoothing_length=SMOOTHING_RATIO * np.sqrt(placed.volume / np.maximum(normal, least)),
             light=placed.volume < LIGHT * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
-    return slice(first, sim.particles.awake)
+    return slice(first, p.awake)
 
 
-def _particle_volume(sim, nodes, depth) -> float:
+def _particle_volume(whole, area: float, nodes, depth, numerics) -> float:
     """Return the volume of a particle that is aimed at [m3]: that of what is there already, if that is more."""
-    area = sim.bed.nodes.area
-    wanted = depth.sum() * area / sim.numerics.count_for(nodes.size * area)
-    return max(wanted, float(np.median(_whole_volume(sim)))) if sim.particles.count else wanted
+    wanted = depth.sum() * area / numerics.count_for(nodes.size * area)
+    return max(wanted, float(np.median(whole))) if whole.size else wanted
 
 
-def _whole_volume(sim):
+def _whole_volume(p, phases):
     """Return the volume of particles with that of the other phase around them, shape (n,) [m3]."""
     part = np.ones(2)  # by phase
-    for phase, of_it in sim.matter.parts:
+    for phase, of_it in phases.phase_fractions:
         part[phase] = of_it
-    return sim.particles.volume / part[sim.particles.phase]
+    return p.volume / part[p.phase]
 
 
-def _usual(sim, volume, thickest):
-    """Return volume [m3] of the particles that most of the mass is in, and the largest thickness, old and new [m]."""
-    volume = np.concatenate([volume, _whole_volume(sim)])
-    return (volume**2).sum() / volume.sum(), max(thickest.max(), sim.particles.thickness.max(initial=0.0))
+def _usual_volume(volume) -> float:
+    """Return the volume of the particles that most of the mass is in [m3]."""
+    return (volume**2).sum() / volume.sum()
 
 
-def _warn_of_pits(sim, sites, nodes, depth) -> None:
-    bed = sim.bed
-    volume = volume_below_lips(sites, nodes, depth, bed.elevation, sim.status == CLOSED, bed.nodes)
+def _warn_of_pits(bed, status, sites, nodes, depth) -> None:
+    volume = volume_below_lips(sites, nodes, depth, bed.elevation, status == CLOSED, bed.nodes)
     if volume > WORTH_SAYING * sites.volume.sum():
         log.warning(
             "%.3g of the %.3g m3 released lie below the lowest ground beside their scar: a pit that they cannot leave "

@@ -5,6 +5,7 @@ from typing import ClassVar
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
 from .schemes.choices import BED_CONTACT, LOADING
+from .schemes.lazy.state import MEMORY_SIZE
 from .schemes.registry import ADVANCE, advance, check_scheme, synchronise
 
 
@@ -47,6 +48,7 @@ class ALE:
     )
 
     stores_pressure: ClassVar[bool] = True
+    memory_size: ClassVar[int] = MEMORY_SIZE
 
     def _agree(self):
         check_scheme(self)

@@ -31,7 +31,7 @@ class LiquefiedBed:
     def entrainment_rate(self, state: BasalState, out) -> None:
         """Write the erosion rate asked for [m s-1]."""
         here, tiny = state.parameters, np.finfo(float).tiny
-        friction = 2.0 * np.tan(here.basal_friction_angle) * state.effective_normal_stress
+        friction = 2.0 * np.tan(here.basal_friction_angle) * state.stress.effective_normal
         friction *= state.depth / np.maximum(state.thickness, tiny)  # over cos(theta)
         np.divide(friction, state.density * np.maximum(state.speed, self.least_speed), out=out)
         np.minimum(out, here.highest_rate, out=out)

@@ -33,6 +33,6 @@ class ShearExcess:
         here, h_n, h = state.parameters, state.thickness, state.depth
         # sin(theta) of cos(theta) = h_n/h
         sine = np.sqrt(np.maximum(0.0, (h - h_n) * (h + h_n))) / np.maximum(h, np.finfo(float).tiny)
-        excess = state.density * state.gravity * h_n * sine - here.critical_shear_stress
+        excess = state.density * state.material.gravity * h_n * sine - here.critical_shear_stress
         erodes = (here.erosion_depth_per_stress * excess > state.eroded_depth) & (state.speed > 0.0)
         np.multiply(here.erosion_rate, erodes, out=out)

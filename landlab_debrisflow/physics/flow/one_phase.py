@@ -1,5 +1,7 @@
 """Grains and water move together."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...core.parameters import declared
@@ -16,12 +18,14 @@ class OnePhase:
     Pastor et al. (2022), eq. 18, with the misprinted thrust mended.
     """
 
+    number_of_phases: ClassVar[int] = 1
+
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
         """Write thickness, smoothing length, acceleration by pressure and thickening rate."""
         normal_gravity, inertia = state.gravity * state.cos_slope, state.density / state.density.max()
         moving = Moving(
-            state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
-            0.5 * inertia * normal_gravity / state.gradient_term, np.sqrt(normal_gravity * state.thickness),
+            *state.position, state.velocity, state.volume, state.smoothing.length, state.smoothing.longest,
+            0.5 * inertia * normal_gravity / state.smoothing.gradient_term, np.sqrt(normal_gravity * state.thickness),
             state.thickness, state.thickening, inertia,
         )  # fmt: skip
         sum_over_neighbours(cells, moving, shock_viscosity, sums, threads)

@@ -1,5 +1,7 @@
 """Grains and water with velocities of their own."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from ...core.parameters import declared, parameter
@@ -42,6 +44,8 @@ class TwoPhase:
     )
     manning_coefficient: float = parameter("s m-1/3", "Manning's n of the bed, for the water alone", 0.0, (0.0, 1.0))
 
+    number_of_phases: ClassVar[int] = 2
+
     def drag_coefficient(self, porosity, material):
         """Return C_d, drag per volume and relative velocity, for some porosities, shape (n,) [Pa s m-2]."""
         if self.drag == "darcy":
@@ -58,29 +62,28 @@ class TwoPhase:
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
         """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
-        water = state.phase == WATER
+        mixture, material = state.mixture, state.mixture.material
+        water = mixture.phase == WATER
         parts = cells_of(cells, ~water), cells_of(cells, water)
-        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / state.share
-        density = np.where(water, state.material.water_density, state.material.solid_density)
+        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / mixture.share
+        density = np.where(water, material.water_density, material.solid_density)
         within, shared = self._strengths(state, water, normal_gravity, thickness)
         moving = Moving(
-            state.x, state.y, state.z, state.velocity, state.volume, state.smoothing_length, state.longest,
+            *state.position, state.velocity, state.volume, state.smoothing.length, state.smoothing.longest,
             within / density, np.sqrt(normal_gravity * thickness), state.thickness, state.thickening,
             np.ones(density.size),
         )  # fmt: skip
-        crossing = Crossing(
-            state.x, state.y, state.z, state.volume, state.smoothing_length, shared, state.mean_pressure
-        )
-        n, mixture = sums.thickness.size, state.mixture
+        crossing = Crossing(*state.position, state.volume, state.smoothing.length, shared, mixture.mean_pressure)
+        n, written = sums.thickness.size, mixture.written
         computed = cells.computed[:n]
-        across = Across(np.zeros(n), mixture.cross_term, np.zeros(n), np.zeros((3, n)))
+        across = Across(np.zeros(n), written.cross_term, np.zeros(n), np.zeros((3, n)))
         for phase in parts:
             sum_over_neighbours(phase, moving, shock_viscosity, sums, threads)
         sum_across(*parts, crossing, across, threads)
         np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
-        own = plain_thickness(state.volume[:n], state.smoothing_length[:n], sums)
-        np.divide(own, own + across.thickness, out=mixture.share, where=computed)
-        np.copyto(mixture.mean_pressure, across.mean, where=computed & water[:n])
+        own = plain_thickness(state.volume[:n], state.smoothing.length[:n], sums)
+        np.divide(own, own + across.thickness, out=written.share, where=computed)
+        np.copyto(written.mean_pressure, across.mean, where=computed & water[:n])
         return parts
 
     @staticmethod
@@ -89,12 +92,14 @@ class TwoPhase:
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
         """
-        material, share = state.material, state.share
+        mixture = state.mixture
+        material, share = mixture.material, mixture.share
         # water has that of the grains around it, and bears no more of it than its own thickness lets it
         grain_weight = (material.solid_density - material.water_density) * np.where(water, 1.0 - share, share)
         bounds = -0.5 * material.water_density * normal_gravity, 0.5 * grain_weight * normal_gravity
-        pressure = np.clip(state.mean_pressure / thickness, *bounds)
+        pressure = np.clip(mixture.mean_pressure / thickness, *bounds)
         shared = 0.5 * material.water_density * normal_gravity + pressure
         grains = 0.5 * (material.solid_density - material.water_density) * normal_gravity / share - pressure / share**2
-        within = shared * (1.0 - np.clip(state.cross_term, -MOST_CROSSED, MOST_CROSSED)) + np.where(water, 0.0, grains)
-        return within / state.gradient_term, shared
+        crossed = np.clip(mixture.cross_term, -MOST_CROSSED, MOST_CROSSED)
+        within = shared * (1.0 - crossed) + np.where(water, 0.0, grains)
+        return within / state.smoothing.gradient_term, shared

@@ -36,7 +36,7 @@ class Bingham:
         rate *= 6.0 * here.viscosity
         stress_beyond_yield(yield_stress, rate, drag)
         drag /= velocity
-        drag *= 1.0 - state.slip_ratio
+        drag *= 1.0 - state.material.basal_slip_ratio
 
 
 @kernel

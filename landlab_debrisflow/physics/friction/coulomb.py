@@ -41,5 +41,5 @@ class Coulomb:
         """Write cohesion and friction [Pa], and the viscous part over speed [Pa s m-1]."""
         here = state.parameters
         strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
-        factor = SHEAR_AT_BASE[self.velocity_profile] * (1.0 - state.slip_ratio)
+        factor = SHEAR_AT_BASE[self.velocity_profile] * (1.0 - state.material.basal_slip_ratio)
         np.divide(factor * here.viscosity, np.maximum(state.thickness, THINNEST), out=drag)

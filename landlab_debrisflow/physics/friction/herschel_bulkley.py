@@ -50,7 +50,7 @@ class HerschelBulkley:
         rate += np.log(here.consistency)
         stress_beyond_yield(yield_stress, rate, n, drag)
         drag /= velocity
-        drag *= 1.0 - state.slip_ratio
+        drag *= 1.0 - state.material.basal_slip_ratio
 
 
 def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:

@@ -49,12 +49,12 @@ class MuI:
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
         """Write static friction [Pa], and what the inertial number adds over speed [Pa s m-1]."""
-        here, stress = state.parameters, state.effective_normal_stress
+        here, stress = state.parameters, state.stress.effective_normal
         static = np.tan(here.static_friction_angle)
         np.multiply(static, stress, out=yield_stress)
         more = np.maximum(np.tan(here.limiting_friction_angle) - static, 0.0)
         # I = c v/(h sigma'^(1/2)); sigma' (mu - mu_s)/v multiplied by h sigma'^(1/2), which may be 0
-        c = 2.5 * (1.0 - state.slip_ratio) * np.sqrt(self.grain_density) * here.grain_diameter
+        c = 2.5 * (1.0 - state.material.basal_slip_ratio) * np.sqrt(self.grain_density) * here.grain_diameter
         denominator = np.sqrt(stress)
         denominator *= np.maximum(state.thickness, THINNEST)
         denominator *= here.inertial_number

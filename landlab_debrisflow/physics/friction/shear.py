@@ -17,11 +17,11 @@ THINNEST = 1e-6
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:
     """Write c + sigma' tan(phi) [Pa] (Coulomb; Terzaghi's effective stress), of c [Pa] and phi [rad], (n,) or (1,)."""
-    np.multiply(np.tan(friction_angle), state.effective_normal_stress, out=out)
+    np.multiply(np.tan(friction_angle), state.stress.effective_normal, out=out)
     out += cohesion
 
 
 def shearing(state: BasalState):
     """Return the velocity (1 - s) v of the mean [m s-1], and that over thickness [s-1], each (n,) and > 0."""
-    velocity = np.maximum((1.0 - state.slip_ratio) * state.speed, SLOWEST)
+    velocity = np.maximum((1.0 - state.material.basal_slip_ratio) * state.speed, SLOWEST)
     return velocity, velocity / np.maximum(state.thickness, THINNEST)

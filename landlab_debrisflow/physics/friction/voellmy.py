@@ -35,4 +35,4 @@ class Voellmy:
         """Write cohesion and friction [Pa], and the drag per speed, rho g v / xi [Pa s m-1]."""
         here = state.parameters
         strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
-        np.multiply(state.gravity / here.turbulent_coefficient, state.density * state.speed, out=drag)
+        np.multiply(state.material.gravity / here.turbulent_coefficient, state.density * state.speed, out=drag)

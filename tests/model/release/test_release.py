@@ -172,13 +172,13 @@ def test_a_small_release_takes_the_particle_volume_of_what_moves(second):
     flow = place(DebrisFlow(grid, **dry_block(0.2, particle_count=300)))
     there = float(flow.particles.volume[0])
     grid.at_node["debris_flow__release_depth"][[15 * 100 + 40, 5 * 100 + 70, 5 * 100 + 71]] = second
-    step = flow._simulation.survey.longest_step
+    step = flow._simulation.state.limits.longest_step
     flow.run_one_step(1e-9)
     new = flow.particles.volume.values[300:]
     volume = second * 25.0
     assert new.size == max(1, round(volume / there)) + max(1, round(2.0 * volume / there))
     assert new.sum() == pytest.approx(3.0 * volume, rel=1e-14)
-    assert flow._simulation.survey.longest_step > 0.5 * step  # with 2000 particles of its own it was 0.02 of it
+    assert flow._simulation.state.limits.longest_step > 0.5 * step  # with 2000 particles of its own it was 0.02 of it
 
 
 def test_a_large_release_beside_a_remnant_has_its_own_number():
@@ -204,7 +204,7 @@ def test_slivers_that_a_flow_buries_cost_it_no_steps(flow):
         run.run_one_step(4.0)
         p = body(run)
         heavy = p.volume > 0.1
-        found.append((run._simulation._steps, np.linalg.norm(p.velocity, axis=0).max(), p.x[heavy].max()))
+        found.append((run.diagnostics.steps, np.linalg.norm(p.velocity, axis=0).max(), p.x[heavy].max()))
     (steps, fastest, front), (more, speed, other) = found
     # measured 2 and 3 times the steps; as light as they are, slivers asked for 60 times as many, and reached 1e10 m/s
     assert more < 8 * steps and speed < 1.5 * fastest

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from landlab_debrisflow.core.variables import COLUMN_MEMORY
+from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
 from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
 
 WATER_TO_BUOYANT = 1000.0 / 990.0
@@ -33,7 +33,7 @@ class Columns:
         self.thickness = self.volume.copy()
         self.load = LOAD_PER_METRE * self.volume if load is None else np.array(load, dtype=float)
         count = self.volume.size
-        self.state = ColumnState(np.array(profile, dtype=float), np.zeros((count, COLUMN_MEMORY)), np.zeros(count))
+        self.state = ColumnState(np.array(profile, dtype=float), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
         self.base, self.bed = np.zeros(count), np.zeros(count)
         self.standing, self.source, self.bounded = np.zeros(1, np.int8), np.zeros(1), bounded
         self.law.advance(self.state, self.forcing(), 0.0, self.base)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.physics.contracts import BasalState
+from landlab_debrisflow.physics.contracts import BasalState, BasalStress
+from landlab_debrisflow.physics.material import Material
 
 G, DENSITY = 9.81, 1990.0
 
@@ -20,7 +21,16 @@ def base(speed, thickness=2.0, effective_normal_stress=1e4, slip_ratio=0.0):
     )
     none = np.full(speed.size, np.nan)  # no law of friction may look at these
     return BasalState(
-        none, thickness, speed, none, stress, none, none, np.full(speed.size, DENSITY), none, G, slip_ratio, None
+        depth=none,
+        thickness=thickness,
+        speed=speed,
+        density=np.full(speed.size, DENSITY),
+        normal_gravity=none,
+        stress=BasalStress(stress, none, none),
+        eroded_depth=none,
+        material=Material(gravity=G, basal_slip_ratio=slip_ratio),
+        parameters=None,
+        variables=None,
     )
 
 

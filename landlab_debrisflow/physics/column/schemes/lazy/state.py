@@ -1,5 +1,8 @@
 """What the default scheme remembers of a column: places in `ColumnState.memory`, and the values of CONTACT."""
 
+MEMORY_SIZE = 26
+"""Numbers that the schemes may keep per column from call to call."""
+
 # VOLUME and LOAD are of when the column was last advanced, CURRENT_LOAD of the last step; JUST is 1 until what
 # lies in the half cell of the base level came with this contact.
 CONTACT, JUST, VOLUME, LOAD, CURRENT_LOAD = range(5)

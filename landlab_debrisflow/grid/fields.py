@@ -1,0 +1,86 @@
+"""Every field of the grid, declared once: `_info` of the component, maps and files follow from here."""
+
+from typing import NamedTuple
+
+
+class NodeField(NamedTuple):
+    """One field of the grid, at nodes; `_info` of the component is made of these."""
+
+    name: str
+    intent: str
+    unit: str
+    doc: str
+    optional: bool = False
+    dtype: type = float
+    start: float = 0.0  # of an output, where nothing has come
+
+    @property
+    def info(self) -> dict:
+        """The entry of a Landlab component's `_info`."""
+        return {
+            "dtype": self.dtype, "intent": self.intent, "optional": self.optional,
+            "units": self.unit, "mapping": "node", "doc": self.doc,
+        }  # fmt: skip
+
+
+OUTPUT_PREFIX = "debris_flow__"
+
+NODE_FIELDS = (
+    # the docs of shared names are Landlab's own
+    NodeField("topographic__elevation", "inout", "m", "Land surface topographic elevation"),
+    NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
+    NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
+    NodeField(
+        "mass__wasting_id", "inout", "-",
+        "integer or float id of each mass wasting area is assigned                 "  # a continued line there
+        "to all nodes representing the mass wasting area.",
+        True, int,
+    ),
+    NodeField(
+        "bed__excess_pore_pressure_ratio", "in", "-",
+        "Excess pore pressure of the bed over its liquefaction value", True,
+    ),
+    NodeField(
+        "bed__excess_pore_pressure", "inout", "Pa",
+        "Excess pore pressure of the bed, raised by the weight of the flow, drained in time", True,
+    ),
+    NodeField(
+        "bed__drained", "in", "-", "1 where a drain holds the excess pore pressure at the base of a flow at 0", True
+    ),
+    NodeField("debris_flow__depth", "out", "m", "Vertical depth of moving mass"),
+    NodeField("debris_flow__speed", "out", "m/s", "Speed of moving mass along the bed"),
+    NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
+    NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
+    NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
+    # peaks are those of what counts as arrival, since the component or, if it was called, new_event() began
+    NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
+    NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
+    NodeField(
+        "debris_flow__max_impact_pressure", "out", "Pa",
+        "Largest density times speed squared so far; on closed nodes with the speed towards their faces",
+    ),
+    NodeField(
+        "debris_flow__max_run_up", "out", "m",
+        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes of "
+        "what stood at their faces",
+    ),
+    NodeField(
+        "debris_flow__arrival_time", "out", "s",
+        "Elapsed time of the component at first arrival; -1 where nothing came", start=-1.0,
+    ),
+    NodeField("debris_flow__eroded_depth", "out", "m", "Cumulative erosion, without the release"),
+    NodeField("debris_flow__deposit_depth", "out", "m", "Depth of mass at rest now plus what has settled"),
+    NodeField(
+        "debris_flow__basal_excess_pore_pressure", "out", "Pa",
+        "Excess pore pressure at the base of the flow; after settling, the last value",
+    ),
+    NodeField(
+        "debris_flow__max_basal_pressure_ratio", "out", "-",
+        "Largest basal excess pore pressure over its liquefaction value so far",
+    ),
+    NodeField(
+        "debris_flow__basal_peclet_number", "out", "-",
+        "Erosion rate times thickness over coefficient of consolidation, of the last erosion",
+    ),
+    NodeField("debris_flow__max_basal_peclet_number", "out", "-", "Largest basal Peclet number so far"),
+)  # fmt: skip

@@ -1,0 +1,195 @@
+"""The base of the flow: what laws are told of it, and what it does to the pore-pressure columns above it."""
+
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.jit import kernel
+from ..physics.contracts import (
+    BASE_BY_EROSION,
+    BASE_PRESCRIBED,
+    BasalState,
+    BasalStress,
+    ColumnForcing,
+    ColumnLaw,
+    ColumnState,
+    Phases,
+)
+
+BY_EROSION = np.array([BASE_BY_EROSION], np.int8)
+"""What columns stand on where nothing is drained."""
+
+NO_SOURCE = np.zeros(1)
+"""Pressure by a change of porosity [Pa s-1]: one phase has none."""
+
+NOT_ASKED = np.zeros(1)
+"""What friction laws get for the depth eroded [m]: to look it up takes time."""
+
+NO_VARIABLES = SimpleNamespace()
+
+
+class BasalLaw(NamedTuple):
+    """A law of friction or erosion on the bed of a call."""
+
+    law: Any
+    parameters: Any  # NamedTuple of arrays over nodes, or of length 1 (`core.parameters.on_nodes`)
+    material: Any  # physics.material.Material
+    spacing: float  # smaller node spacing of the raster [m]
+    variables: tuple  # of Variable, those that the law brought
+
+
+class ColumnPhysics(NamedTuple):
+    """What the columns under particles are advanced with in a call."""
+
+    law: ColumnLaw
+    material: Any  # physics.material.Material
+    phases: Phases
+    drained: Any  # ndarray of bool over nodes, where a drain holds the excess pore pressure at 0; None: nowhere
+    water_to_buoyant: float  # density of water over buoyant density [-]
+
+
+def basal_state(
+    p, which: slice, basal: BasalLaw, pressure=None, eroded_depth=NOT_ASKED, asking: bool = False
+) -> BasalState:
+    """Return the base under some particles, as a law reads it.
+
+    Parameters
+    ----------
+    p : Particles
+    which : slice
+    basal : BasalLaw
+        The law that reads it, and the parameters it has.
+    pressure : ndarray, shape (n,), optional
+        Basal excess pore pressure to suppose instead of the one there is [Pa].
+    eroded_depth : ndarray, shape (n,) or (1,)
+        Depth taken from the bed in this event [m].
+    asking : bool
+        Whether this is no part of a step: the law's variables are then copies.
+    """
+    material = basal.material
+    depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
+    pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
+    speed, normal_gravity, effective = np.empty((3, depth.size))
+    press_on_bed(
+        which.start or 0, p.velocity, p.surface_sample, p.cos_slope, material.gravity, basal.spacing,
+        thickness, density, material.bearing_density, pressure, speed, normal_gravity, effective,
+    )  # fmt: skip
+    here = (values if values.size == 1 else values[p.nearest_node[which]] for values in basal.parameters)
+    return BasalState(
+        depth=depth,
+        thickness=thickness,
+        speed=speed,
+        density=density,
+        normal_gravity=normal_gravity,
+        stress=BasalStress(effective, p.liquefaction_pressure[which], pressure),
+        eroded_depth=eroded_depth,
+        material=material,
+        parameters=type(basal.parameters)(*here),
+        variables=_variables(p, which, basal, asking) if basal.variables else NO_VARIABLES,
+    )
+
+
+def _variables(p, which: slice, basal: BasalLaw, asking: bool):
+    """Return the variables that a law brought, of some particles, as attributes."""
+    place = {False: which, True: (slice(None), which)}
+    values = {v.name: getattr(p, v.name)[place[v.components > 0]] for v in basal.variables}
+    return SimpleNamespace(**{name: value.copy() if asking else value for name, value in values.items()})
+
+
+@kernel
+def press_on_bed(
+    first, velocity, sample, cosine, gravity, tightest, thickness, density, bearing_density, pressure,
+    speed, normal_gravity, effective_normal_stress,
+):  # fmt: skip
+    """Write speed [m s-1], normal gravity with curvature [m s-2] and effective normal stress [Pa].
+
+    They are those of particles from the place `first` on, of whom thickness [m], density [kg m-3] and excess
+    pore pressure [Pa] are given; the pore water's own weight bears `bearing_density` of the latter [kg m-3].
+
+    The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
+    own spacing, and noise must not press the flow to the ground.
+    """
+    for k in range(speed.size):
+        i = first + k
+        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
+        bend = u * u * sample[3, i] + 2.0 * u * v * sample[4, i] + v * v * sample[5, i]
+        most = (u * u + v * v) / tightest
+        bend = min(max(bend, -most), most)
+        speed[k] = np.sqrt(u * u + v * v + w * w)
+        normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
+        stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
+        effective_normal_stress[k] = max(0.0, stress)
+
+
+def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False):
+    """Return yield stress [Pa] and drag [Pa s m-1] under some particles, each of shape (n,); see `basal_state`."""
+    state = basal_state(p, which, friction, pressure, asking=asking)
+    yield_stress, drag = np.empty(state.depth.size), np.empty(state.depth.size)
+    friction.law.basal_resistance(state, yield_stress, drag)
+    return yield_stress, drag
+
+
+def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, exchange, walls):
+    """Return whether friction would hold each of some particles at rest, shape (n,).
+
+    Parameters
+    ----------
+    p : Particles
+    which : slice
+    pressure : ndarray, shape (n,)
+        Basal excess pore pressure to suppose [Pa].
+    friction : BasalLaw
+    phases : Phases
+    exchange : Exchange
+    walls : Walls or None
+    """
+    yield_stress, drag = basal_resistance(p, which, friction, pressure, asking=True)
+    return phases.held_at_rest(p, exchange, which, yield_stress, drag, walls)
+
+
+# ---- columns ----
+
+
+def column_state(p, which: slice) -> ColumnState:
+    """Return the arrays of some particles as the column law knows them."""
+    return ColumnState(p.excess_pore_pressure[which], p.column_memory[which], p.column_clipped[which])
+
+
+def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained_ratio) -> ColumnForcing:
+    """Return what a step did to some columns.
+
+    Parameters
+    ----------
+    p : Particles
+    which : slice
+    columns : ColumnPhysics
+    entrained, entrained_ratio : ndarray, shape (n,)
+        Soil that came in [m3] and its excess pore pressure over the liquefaction value [-].
+    """
+    load = p.liquefaction_pressure[which]
+    bed_pressure, bases = entrained_ratio * load, BY_EROSION
+    if columns.drained is not None:
+        drained = columns.drained[p.nearest_node[which]]
+        bed_pressure[drained] = 0.0
+        bases = np.where(drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
+    return ColumnForcing(
+        volume=p.volume[which],
+        thickness=p.thickness[which],
+        liquefaction_pressure=load,
+        entrained=entrained,
+        bed_pressure=bed_pressure,
+        base=bases,
+        porosity_source=NO_SOURCE,
+        coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, which),
+        water_to_buoyant=columns.water_to_buoyant,
+        bounded=True,
+    )
+
+
+def present_profiles(p, which: slice, columns: ColumnPhysics):
+    """Return the excess pore pressure of some columns at all levels now, shape (n, levels) [Pa], changing nothing."""
+    state = ColumnState(*(values.copy() for values in column_state(p, which)))
+    none = np.zeros(state.clipped.size)
+    columns.law.synchronise(state, column_forcing(p, which, columns, none, none))
+    return state.profile

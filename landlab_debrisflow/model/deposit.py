@@ -1,0 +1,34 @@
+"""What lies still, and on which nodes it lies; and how far what moves may reach."""
+
+import numpy as np
+
+
+def resting_depth(p, origins, bed):
+    """Return nodes, shape (k,), and the depth of particles that lie still on them, shape (k,) [m].
+
+    Parameters
+    ----------
+    p : Particles
+    origins : Origins
+        What never moved goes back just where it came from.
+    bed : Bed
+    """
+    still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
+    if not still.any():
+        return np.empty(0, np.int64), np.empty(0)
+    x, y, spread, volume, origin = p.x[still], p.y[still], p.spread[still], p.volume[still], p.origin[still]
+    back = origins.unmoved(origin, x, y, 0.5 * spread, bed.nodes.core)
+    nodes, depth = bed.depth_of(x, y, spread, (1.0 - back) * volume)
+    returning = back > 0.0
+    old, given = origins.returned(origin[returning], (back * volume)[returning])
+    every, place = np.unique(np.concatenate([nodes, old]), return_inverse=True)
+    return every, np.bincount(place, np.concatenate([depth, given / bed.nodes.area]), every.size)
+
+
+def extent(p, origins, inflow, raster) -> tuple[float, float]:
+    """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
+    ends = [(p.y.min(), p.y.max())] if p.y.size else []
+    if nodes := origins.span:  # to which may return what never moved
+        ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))
+    ends += [source.y_range for source in inflow.sources if not inflow.over]
+    return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)

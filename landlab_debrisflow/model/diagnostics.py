@@ -1,0 +1,98 @@
+"""What a run took: steps, time in each stage of a step, particles that could be left alone."""
+
+import time
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+STAGES = ("friction and kick", "entrainment", "drift", "summation", "columns", "step limits")
+"""Stages of a step that are timed, in their order."""
+
+
+TIMED = 8
+"""Steps of which one is timed, to stand for all of them: reading the clock takes a hundredth of a small step."""
+
+
+class Diagnostics(NamedTuple):
+    """What a run took so far, without the work between steps."""
+
+    steps: int
+    smallest_step: float  # [s], infinite before the first
+    share_asleep: float  # particle-steps of those asleep over all [-], 0 before the first
+    cpu: Mapping[str, float]  # CPU seconds in each stage of a step, of `STAGES`
+
+
+class Counters:
+    """Counts of a run, from which `Diagnostics` are made.
+
+    Attributes
+    ----------
+    steps : int
+    smallest_step : float
+        [s]
+    particle_steps, sleeping_steps : int
+        Particles summed over the steps: all, and those asleep.
+    cpu : list of float
+        CPU seconds in each of `STAGES`, of this machine and no part of the state.
+    """
+
+    def __init__(self):
+        self.steps, self.smallest_step = 0, float("inf")
+        self.particle_steps = self.sleeping_steps = 0
+        self.cpu = [0.0] * len(STAGES)
+
+    def count(self, p, dt: float) -> None:
+        """Count a step of `dt` seconds."""
+        self.steps += 1
+        self.smallest_step = min(self.smallest_step, dt)
+        self.particle_steps += p.count
+        self.sleeping_steps += p.count - p.awake
+
+    def copy(self) -> "Counters":
+        """Return an independent copy."""
+        other = Counters()
+        vars(other).update(vars(self) | {"cpu": self.cpu.copy()})
+        return other
+
+    def clock(self):
+        """Return what measures the next step: a `StageClock` for the first ones and then for every `TIMED`-th."""
+        if self.steps < TIMED:
+            return StageClock(self.cpu, 1)
+        return NO_CLOCK if self.steps % TIMED else StageClock(self.cpu, TIMED)
+
+    @property
+    def diagnostics(self) -> Diagnostics:
+        """What they tell, as a value that stays as it is."""
+        cpu = MappingProxyType(dict(zip(STAGES, self.cpu, strict=True)))
+        return Diagnostics(self.steps, self.smallest_step, self.sleeping_steps / max(self.particle_steps, 1), cpu)
+
+
+class StageClock:
+    """Measures CPU time from stage to stage of one step.
+
+    Parameters
+    ----------
+    spent : list of float
+        CPU seconds in each stage, added to.
+    steps : int
+        Steps for which the measured one stands.
+    """
+
+    def __init__(self, spent, steps: int):
+        self._spent, self._steps, self._began = spent, steps, time.process_time()
+
+    def lap(self, stage: int) -> None:
+        """Count the time since the last lap for a stage, by its place in `STAGES`."""
+        now = time.process_time()
+        self._spent[stage] += self._steps * (now - self._began)
+        self._began = now
+
+
+class NoClock:
+    """Measures nothing."""
+
+    def lap(self, stage: int) -> None:
+        """Let a stage pass."""
+
+
+NO_CLOCK = NoClock()

@@ -1,0 +1,65 @@
+"""How long the next step is, of those that stability allows."""
+
+import numpy as np
+
+FASTER = 1.5
+"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+
+FIRST = 1.0 / 64.0
+"""First step after a release over the one that would be stable."""
+
+TO_STOP = 0.25
+"""Part of the time to stop, as the flow is slowing now, that a step may take; the time of rest is known to that."""
+
+SLOWEST = 1.0 / 16.0
+"""But no less than this part of the one that would be stable: what swings turns, and does not stop."""
+
+
+class StepControl:
+    """Steps that follow how the flow starts and stops.
+
+    Attributes
+    ----------
+    step, speed : float
+        The last step [s], and the root of the energy of the flow at its beginning [m5/2 s-1].
+    """
+
+    def __init__(self):
+        self.step = self.speed = np.inf
+
+    def copy(self) -> "StepControl":
+        """Return an independent copy."""
+        other = StepControl()
+        other.step, other.speed = self.step, self.speed
+        return other
+
+    def restart(self) -> None:
+        """Something new is released."""
+        self.step = 0.0
+
+    def longest(self, stable: float, energy: float) -> float:
+        """Return how long the next step may be [s].
+
+        Parameters
+        ----------
+        stable : float
+            What stability and resolution allow [s].
+        energy : float
+            Of the flow now [m5 s-2].
+
+        Examples
+        --------
+        >>> control = StepControl()
+        >>> control.restart()
+        >>> control.longest(0.64, 1.0), control.longest(0.64, 1.0)
+        (0.01, 0.015)
+        >>> control = StepControl()
+        >>> control.longest(0.1, 1.0), control.longest(0.1, 0.64)  # a fifth of the speed lost in 0.1 s
+        (0.1, 0.1)
+        """
+        speed, before, step = np.sqrt(energy), self.speed, self.step
+        allowed = min(stable, max(FASTER * step, FIRST * stable))
+        if speed < before < np.inf:
+            allowed = min(allowed, max(TO_STOP * step * speed / (before - speed), SLOWEST * stable))
+        self.step, self.speed = allowed, speed
+        return float(allowed)
