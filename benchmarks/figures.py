@@ -20,15 +20,16 @@ from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import LEVELS, MATERIAL, measure
+from landlab_debrisflow.exact import flows
 from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
-from tests.verification.test_block import MU, G, grown_block, sliding_cap
+from validation.cases.blocks import MU, growing_cap, sliding_cap
 
 PARTICLES = 2000
 DEMO = """
 import sys
 from pathlib import Path
 from rich.console import Console
-from landlab_debrisflow.demo import run_demo
+from landlab_debrisflow.cli.demo import run_demo
 measures = run_demo(1500, Path(sys.argv[1]), Console(quiet=True))
 print(sum(one["CPU time [s]"] for one in measures.values()))
 """
@@ -38,7 +39,7 @@ def cap_travel(degrees: float) -> float:
     """Return the relative error of the travel of a cap of 2 cm by 100 m in 8 s."""
     angle = math.radians(degrees)
     travel, _, _ = sliding_cap(angle, 0.02, 8.0, PARTICLES)
-    return travel / (0.5 * G * (math.sin(angle) - MU * math.cos(angle)) * 64.0) - 1.0
+    return travel / float(flows.sliding_block(8.0, angle, MU)[1]) - 1.0
 
 
 def balances() -> tuple[float, float]:
@@ -71,14 +72,10 @@ def fronts(columns, counts=(750,)) -> str:
     """Return the run-out of the demo's front beyond the 100 m contour, for columns and numbers of particles [m]."""
     found = []
     for column, particles in itertools.product(columns, counts):
-        grid = tsing_shan_valley()
-        elevation, release = (
-            grid.at_node[name].reshape(grid.shape).copy()
-            for name in ("topographic__elevation", "debris_flow__release_depth")
-        )
-        flow = DebrisFlow(grid, column=column, material=MATERIAL, numerics={"particle_count": particles})
+        flow = DebrisFlow(tsing_shan_valley(), column=column, material=MATERIAL, numerics={"particle_count": particles})
+        before = flow.maps
         flow.run_until_rest()
-        found.append(measure(flow, elevation, release)["run-out of the front beyond the 100 m contour [m]"])
+        found.append(measure(flow, before)["run-out of the front beyond the 100 m contour [m]"])
     return " ".join(f"{one:.0f}" for one in found)
 
 
@@ -92,8 +89,8 @@ def main():
     for degrees in (20.0, 30.0, 45.0):
         words = f"travel of a cap of {PARTICLES} particles on {degrees:g} deg, relative error"
         table.add_row(words, f"{cap_travel(degrees):.1e}", "1e-3")
-    exact = np.array([420.902947, 30.9362319, 3.53498424])  # docs/theory.md#flow-solutions: x, v, h/h0
-    error = grown_block(0.25) / exact - 1.0
+    speed, travel, ratio = flows.eroding_block(20.0, math.radians(30.0), 0.21, 3e-3)
+    error = growing_cap(0.25) / np.array([travel, speed, ratio]) - 1.0
     table.add_row("Hungr block at 20 s, relative error of x, v, h/h0", " ".join(f"{e:.1e}" for e in error), "1e-4")
     cold, warm = demo_cpu()
     for word, (runs, process), most in (("a cold", cold, 20), ("a warm", warm, 5)):

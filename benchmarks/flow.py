@@ -22,11 +22,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from validation.cases import basins as basins
-from validation.cases import blocks as blocks
-from validation.cases import planes as planes
+from validation import comparison
+from validation.cases import basins, blocks, planes
 from validation.rivals import com1dfa
-from validation.rivals import rows as rivals
 
 STRIPS = "Ritter", "Stoker", "Mangeney", "dam break 22/21"
 
@@ -36,16 +34,16 @@ def _cases():
     along, rows = (48, 96, 198), (50, 100, 200, 400)
     for case in (planes.ritter, planes.stoker, planes.mangeney):
         name = case.__name__.capitalize()
-        yield name, case, along, partial(rivals.dam_break, name), rows
-    yield "dam break 22/21", planes.slope_dam_break, along, rivals.slope_dam_break, rows
+        yield name, case, along, partial(comparison.dam_break, name), rows
+    yield "dam break 22/21", planes.slope_dam_break, along, comparison.slope_dam_break, rows
     many, cells = (500, 2000, 8000), (40, 80, 160)
-    yield "similarity", planes.similarity, many, rivals.similarity, cells
-    yield "cap 30 deg", planes.cap, many, rivals.cap, (*cells, 320)
+    yield "similarity", planes.similarity, many, comparison.similarity, cells
+    yield "cap 30 deg", planes.cap, many, comparison.cap, (*cells, 320)
     for case in (basins.thacker_planar, basins.thacker_curved):
         name = case.__name__.replace("_", " ").capitalize()
-        yield name, case, many, partial(rivals.thacker, name), cells
+        yield name, case, many, partial(comparison.thacker, name), cells
     for word, ahead in (("wet", 0.1), ("dry", 0.0)):
-        ours, volumes = partial(basins.circular_dam_break, ahead=ahead), partial(rivals.circular_dam, ahead=ahead)
+        ours, volumes = partial(basins.circular_dam_break, ahead=ahead), partial(comparison.circular_dam, ahead=ahead)
         yield f"circular dam, {word}", ours, (1000, 4000, 16000), volumes, cells
 
 
@@ -63,7 +61,7 @@ def charted(quick, put):
         cut = slice(0, 2 if quick else None)
         ours(numbers[0])  # compiles
         runs = [(ours, n) for n in numbers[cut]]
-        runs += [(partial(rivals.fixed, ours), n) for n in numbers[:2]]  # it does not converge
+        runs += [(partial(comparison.fixed, ours), n) for n in numbers[:2]]  # it does not converge
         runs += [(volumes, n) for n in cells[cut]]
         results += [put(run(n)) for run, n in runs]
     return results

@@ -1,11 +1,12 @@
 """Where flow models fail, at full size: python -m benchmarks.flow_stability [words of the cases to run]
 
-Every case of docs/theory.md#failures about the flow, on the scenes of tests/stability, without friction unless it
-says so. Printed per case: time steps and CPU time of one thread; the largest speed, and what the fall alone allows that
-particle, (2 g (top - z))^(1/2); how far all stay below the bound with waves, (2 g (top - z))^(1/2) + 2 (g h)^(1/2);
-the highest head of a particle over the top of the body at rest (half a failing cell beyond its nodes included); the
-largest rise of the energy of the whole body, per weight, until something leaves the grid; the root mean square of the
-speed at the end; the residual of the volume. (Without pressure the energy of the thickness is no part of the account.)
+Every scene of validation/cases/stability.py, the failures of docs/theory.md#failures about the flow, without friction
+unless the case says so. Printed per case: time steps and CPU time of one thread; the largest speed, and what the fall
+alone allows that particle, (2 g (top - z))^(1/2); how far all stay below the bound with waves, (2 g (top - z))^(1/2) +
+2 (g h)^(1/2); the highest head of a particle over the top of the body at rest (half a failing cell beyond its nodes
+included); the largest rise of the energy of the whole body, per weight, until something leaves the grid; the root mean
+square of the speed at the end; the residual of the volume. (Without pressure the energy of the thickness is no part of
+the account.)
 
 Writes benchmarks/flow_stability.txt and, if all cases are run, docs/flow_stability.png: the energy gained against the
 length of the step.
@@ -27,8 +28,8 @@ from rich.table import Table
 
 from landlab_debrisflow.core.errors import SimulationError
 from landlab_debrisflow.model import time_step
-from tests.stability import scenes
-from tests.stability.watch import NoThrust, Scene
+from validation.cases import stability as scenes
+from validation.watch import NoThrust, Scene
 
 HERE = Path(__file__).parent
 LIMIT = 1.22

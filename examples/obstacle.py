@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
-from landlab_debrisflow import DebrisFlow, InputError, ParameterError
+from landlab_debrisflow import DebrisFlow, InputError, ParameterError, measures
 from landlab_debrisflow.plots.maps import save_figure
 from landlab_debrisflow.record.files import check_writable
 
@@ -98,20 +98,22 @@ def main(output=None, particles: int = 2000) -> dict[str, dict[str, float]]:
 
 def measure(flow) -> dict[str, float]:
     """Return what a designer would ask of one run: name with unit, and value."""
-    at, x = flow.grid.at_node, flow.grid.x_of_node
-    inside, on_dam = buildings(flow.grid), abs(x - DAM_AT) <= DAM_WIDTH
-    beyond = x > DAM_AT + DAM_WIDTH
-    area = flow.grid.dx * flow.grid.dy
-    return {
-        "peak impact on buildings [kPa]": 1e-3 * at[IMPACT][inside].max(),
-        "peak run-up at buildings [m]": at[RUN_UP][inside].max(),
-        "peak impact where the dam is [kPa]": 1e-3 * at[IMPACT][on_dam].max(),
-        "peak run-up where the dam is [m]": at[RUN_UP][on_dam].max(),
-        "energy head before the dam [m]": at["debris_flow__max_speed"][abs(x - 265.0) < 5.0].max() ** 2 / 19.62,
-        "deposit beyond the dam [m3]": at["debris_flow__deposit_depth"][beyond].sum() * area,
+    x = flow.grid.x_of_node
+    at_buildings, on_dam, before_dam, beyond = (
+        measures(flow, inside=part)
+        for part in (buildings(flow.grid), abs(x - DAM_AT) <= DAM_WIDTH, abs(x - 265.0) < 5.0, x > DAM_AT + DAM_WIDTH)
+    )
+    found = {
+        "peak impact on buildings [kPa]": 1e-3 * at_buildings.max_impact_pressure,
+        "peak run-up at buildings [m]": at_buildings.max_run_up,
+        "peak impact where the dam is [kPa]": 1e-3 * on_dam.max_impact_pressure,
+        "peak run-up where the dam is [m]": on_dam.max_run_up,
+        "energy head before the dam [m]": before_dam.max_speed**2 / 19.62,
+        "deposit beyond the dam [m3]": beyond.deposit_volume,
         "volume released [m3]": flow.budget["released"],
         "residual of the mass balance [m3]": flow.budget["residual"],
     }
+    return {name: float(value) for name, value in found.items()}
 
 
 def table(found, particles: int) -> Table:

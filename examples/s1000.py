@@ -23,9 +23,9 @@ from rich.table import Table
 from rich.text import Text
 from s1000_scores import MEASURES, NOISE, QUOTED, ObservedPath, dig_and_spread, measure
 
-from landlab_debrisflow import DebrisFlow, InputError
+from landlab_debrisflow import DebrisFlow, InputError, measures
 from landlab_debrisflow.plots.maps import Layer, draw_maps, save_figure
-from landlab_debrisflow.record.datasets import join
+from landlab_debrisflow.record.datasets import stack
 from landlab_debrisflow.record.files import check_writable, write_dataset
 from landlab_debrisflow.record.observers import Progress
 
@@ -109,9 +109,9 @@ def main(data_dir=None, particles=2000, output_dir=".", quick=False):
         maps[name] = flow.maps
         raised = (grid.at_node["topographic__elevation"] - before).reshape(grid.shape)
         change[name] = observed.copy(data=raised)
-        eroded = maps[name].debris_flow__eroded_depth
+        outside = measures(maps[name], inside=~source)
         results[name] = measure(raised, observed, release, path) | {
-            "eroded": flow.budget["eroded"], "eroded outside": outside_volume(eroded, source),
+            "eroded": flow.budget["eroded"], "eroded outside": float(outside.eroded_volume),
             "outflow": flow.budget["outflow"], "residual": flow.budget["residual"], "duration": flow.elapsed_time,
             "cpu": cpu, "memory": peak_memory(),
         }  # fmt: skip
@@ -201,12 +201,6 @@ def peak_memory():
     return peak / (1e6 if sys.platform == "darwin" else 1e3)
 
 
-def outside_volume(depth, source):
-    """Return the volume of a depth map outside the source [m3]."""
-    cell = float(depth.x[1] - depth.x[0]) * float(depth.y[1] - depth.y[0])
-    return float(np.nansum(depth.values[~source.values]) * cell)  # closed nodes are missing
-
-
 # ---- showing ----
 
 
@@ -263,9 +257,8 @@ def print_misfits(console, results, observed):
 
 def collect(maps, change, observed, source):
     """Return one Dataset of both runs along ``run``, with the observed change."""
-    names = xr.DataArray(list(maps), dims="run", name="run")
-    both = join(list(maps.values()), names)
-    both["elevation_change"] = xr.concat(list(change.values()), names).assign_coords(x=both.x, y=both.y)
+    both = stack(list(maps.values()), "run", maps)
+    both["elevation_change"] = xr.concat(list(change.values()), both.run).assign_coords(x=both.x, y=both.y)
     both["observed_elevation_change"] = observed.assign_coords(x=both.x, y=both.y)
     both["source"] = source.astype("i1").assign_coords(x=both.x, y=both.y)
     return both

@@ -17,7 +17,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 from landlab.io import esri_ascii
 from rich.console import Console
 from tsing_shan_figures import draw_columns, draw_flow, draw_maps_of, print_table
@@ -25,7 +24,7 @@ from tsing_shan_record import Record
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
 from landlab_debrisflow.plots.maps import save_figure
-from landlab_debrisflow.record.datasets import join
+from landlab_debrisflow.record.datasets import stack
 from landlab_debrisflow.record.files import check_writable, write_dataset
 from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
 
@@ -151,8 +150,8 @@ def read_terrain(dem, release, erodible):
 
 def collect(records):
     """Return the maps of all runs along ``run``."""
-    names = xr.DataArray([f"{model}, c_v = {c_v:g} m2 s-1" for model, c_v in records], dims="run", name="run")
-    return join([record.maps for record in records.values()], names)
+    names = [f"{model}, c_v = {c_v:g} m2 s-1" for model, c_v in records]
+    return stack([record.maps for record in records.values()], "run", names)
 
 
 if __name__ == "__main__":

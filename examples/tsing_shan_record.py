@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from landlab_debrisflow import measures
+from landlab_debrisflow.record.measures import quantile
+
 LOOK = 0.5
 """Time between two looks at the particles [s]; times since the front left erodible ground are known to that."""
 
@@ -14,7 +17,7 @@ SINCE = (0.0, 4.0, 8.0, 16.0, 32.0, 128.0)
 PECLET_TIME = 40.0
 """Of the map of Péclet numbers, figure 18 [s]."""
 
-FRONT_SHARE = 0.99
+FRONT_FRACTION = 0.99
 """The front is as far as this part of the volume went at most: a stray particle is no front."""
 
 DEPOSIT = 0.1
@@ -79,6 +82,7 @@ class Record:
 
     def follow(self, flow, duration):
         """Run `flow` to the end, looking on."""
+        before = flow.maps
         flow.run_one_step(1e-6)  # takes the release
         self.look(flow, 0.0)
         self.snapshots[0.0] = self.snapshot(flow)
@@ -102,7 +106,7 @@ class Record:
                     self.marked = self.mark(now["particles"])
         self.maps, self.end = flow.maps, self.snapshot(flow)
         self.budget = flow.budget
-        self.measures = self.measure()
+        self.measures = self.measure(flow, before)
 
     def look(self, flow, time):
         """Keep where particles are."""
@@ -147,37 +151,28 @@ class Record:
 
     # ---- measures ----
 
-    def measure(self):
-        """Return `MEASURES` of the end of the run."""
-        end = self.end["particles"]
-        volume, far = end.volume.values, self.distance(end.x.values, end.y.values)
-        front = quantile(far, volume, FRONT_SHARE)
-        maps = self.maps.fillna(0.0)  # closed nodes are missing
-        deposit, eroded = maps.debris_flow__deposit_depth.values, maps.debris_flow__eroded_depth.values
+    def measure(self, flow, before):
+        """Return `MEASURES` of the end of the run; `before` are the maps of the flow before it."""
         bare = self.soil == 0.0
-        beyond = bare & (deposit >= DEPOSIT)
-        crossed = bare & (maps.debris_flow__max_depth.values > 0.0)
+        whole = measures(flow, before, front_fraction=FRONT_FRACTION)
+        beyond = measures(self.maps, inside=bare, deposit_threshold=DEPOSIT)
+        eroded = self.maps.debris_flow__eroded_depth.fillna(0.0).values  # closed nodes are missing
+        crossed = bare & (self.maps.debris_flow__max_depth.values > 0.0)
         line = self.distance(self.node_x, self.node_y)[crossed].min(initial=np.inf)
         passing, forty = (self.peclet(self.snapshots.get(key)) for key in (("since", 0.0), PECLET_TIME))
+        front = float(whole.run_out)
         return {
             "final": self.budget["moving"] + self.budget["deposited"], "eroded": self.budget["eroded"],
-            "outflow": self.budget["outflow"], "residual": self.budget["residual"], "deepest": eroded.max(),
+            "outflow": self.budget["outflow"], "residual": self.budget["residual"],
+            "deepest": float(whole.max_eroded_depth),
             "soil left": (self.soil - self.release - eroded)[eroded > 0.0].min(initial=np.inf),
-            "run-out": front, "beyond": front - line, "farthest": far.max(), "centre": np.average(far, weights=volume),
-            "angle": self.travel_angle(end, front), "passing": np.nan if self.passing is None else self.passing,
-            "mean deposit": deposit[beyond].mean() if beyond.any() else np.nan, "area": beyond.sum() * self.dx**2,
+            "run-out": front, "beyond": front - line, "farthest": float(whole.farthest_run_out),
+            "centre": float(whole.centre_run_out), "angle": float(whole.travel_angle),
+            "passing": np.nan if self.passing is None else self.passing,
+            "mean deposit": float(beyond.mean_deposit_depth), "area": float(beyond.deposit_area),
             "peclet": passing[0], "peclet 5": passing[1], "peclet 40": forty[0], "eroding 40": forty[2],
             "still": self.still,
         }  # fmt: skip
-
-    def travel_angle(self, end, front):
-        """Return the angle of the line from the crown, the highest node released, to the front [deg]."""
-        crown = np.argmax(np.where(self.release > 0.0, self.elevation, -np.inf))
-        far = self.distance(end.x.values, end.y.values)
-        at = np.argmin(abs(far - front))
-        fall = self.elevation.ravel()[crown] - end.z.values[at]
-        along = np.hypot(self.node_x.ravel()[crown] - end.x.values[at], self.node_y.ravel()[crown] - end.y.values[at])
-        return np.degrees(np.arctan2(fall, along))
 
     @staticmethod
     def peclet(snapshot):
@@ -198,10 +193,3 @@ def first_difference(one, other):
         if not (np.array_equal(*places[:2]) and np.array_equal(*places[2:])):
             return time
     return np.inf
-
-
-def quantile(values, weights, share):
-    """Return the value below which this share of the weights lies."""
-    order = np.argsort(values)
-    part = np.cumsum(weights[order])
-    return float(values[order][min(np.searchsorted(part, share * part[-1]), values.size - 1)])

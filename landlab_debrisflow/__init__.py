@@ -1,5 +1,6 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component."""
 
+from . import exact
 from .columns.solve import solve_column
 from .component import DebrisFlow
 from .core.errors import InputError, ParameterError, SimulationError
@@ -7,6 +8,7 @@ from .core.version import __version__
 from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
+from .record.measures import measures
 from .scene.setup import Setup
 
 __all__ = [
@@ -19,5 +21,7 @@ __all__ = [
     "Setup",
     "SimulationError",
     "__version__",
+    "exact",
+    "measures",
     "solve_column",
 ]

@@ -21,7 +21,10 @@ import numpy as np  # noqa: E402  numba must not be imported before the line abo
 import pytest  # noqa: E402
 
 from landlab_debrisflow.grid.call import GridCall  # noqa: E402
+from landlab_debrisflow.model.simulation import Simulation  # noqa: E402
 from validation.grids import inclined, release_slab  # noqa: E402
+
+from .suspicions import BuiltError, suspicions  # noqa: E402
 
 
 @pytest.fixture
@@ -63,3 +66,21 @@ def every_call_balances(monkeypatch):
         assert abs(rise - (gain["deposited"] - gain["released"] - gain["eroded"])) <= tolerance + rounding
 
     monkeypatch.setattr(GridCall, "run", checked)
+
+
+@pytest.fixture
+def only_built(monkeypatch):
+    """Stop every flow with a `BuiltError` when particles would be made."""
+
+    def stop(*_):
+        raise BuiltError
+
+    monkeypatch.setattr(Simulation, "release", stop)
+
+
+@pytest.fixture
+def no_doubts():
+    """Yield what is doubted, of which nothing must be left."""
+    with suspicions() as said:
+        yield said
+    assert said == []

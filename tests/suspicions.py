@@ -1,8 +1,14 @@
-"""Listens to what the package finds odd (`landlab_debrisflow/grid/doubts.py`), where nothing should be."""
+"""Listen to what the package finds odd (`landlab_debrisflow/grid/doubts.py`), where nothing should be.
+
+With the fixtures `only_built` and `no_doubts` scenes are built and read as in a run, up to the moment in which
+particles would be made, and nothing was doubted until then.
+"""
 
 import inspect
 from contextlib import ExitStack, contextmanager
 from unittest import mock
+
+import pytest
 
 from landlab_debrisflow.grid import doubts
 
@@ -26,3 +32,13 @@ def suspicions():
             if name.startswith("about_"):
                 stack.enter_context(mock.patch.object(doubts, name, listening(about)))
         yield said
+
+
+class BuiltError(Exception):
+    """All that is read before a flow moves has been read."""
+
+
+def built(run, *arguments, **keywords):
+    """Check that a flow is built and read when something is run."""
+    with pytest.raises(BuiltError):
+        run(*arguments, **keywords)

@@ -1,6 +1,7 @@
 """The shape of the package: layers, file length, names (CONTRIBUTING.md)."""
 
 import ast
+import graphlib
 import importlib
 import pathlib
 
@@ -11,6 +12,7 @@ from landlab.components import COMPONENTS
 import landlab_debrisflow
 
 PACKAGE = pathlib.Path(landlab_debrisflow.__file__).parent
+ROOT = pathlib.Path(__file__).parents[1]
 FILES = sorted(PACKAGE.rglob("*.py"))
 MODULES = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path in FILES}
 
@@ -30,9 +32,9 @@ def level(module):
     return LEVEL.get(layer(module), TOP)
 
 
-def imports(path):
-    """Yield (module inside the package or None, absolute name) of every import in a file."""
-    inside = path.relative_to(PACKAGE.parent).with_suffix("").parts
+def imports(path, root=PACKAGE.parent):
+    """Yield the absolute name, as a list, of every import in a file below `root`."""
+    inside = path.relative_to(root).with_suffix("").parts
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             for alias in node.names:
@@ -93,6 +95,42 @@ def test_few_functions_take_the_whole_simulation():
                 if WHOLE & {argument.arg for argument in arguments}:
                     found.setdefault(layer(module), []).append(f"{module}.{node.name}")
     assert {room: names for room, names in found.items() if len(names) > ROOMS.get(room, 0)} == {}
+
+
+AROUND = {"tests", "benchmarks", "validation", "examples"}
+FORBIDDEN = {
+    "landlab_debrisflow": AROUND, "examples": {"tests", "benchmarks", "validation"}, "tests/benchmarks": {"examples"},
+    "tests": {"benchmarks", "examples"}, "benchmarks": {"tests"}, "validation": {"tests", "benchmarks", "examples"},
+    "validation/rivals": {"validation.cases"},
+}  # fmt: skip
+"""What no file of a folder imports; the longest name of a folder holds. Tests of benchmarks have a folder."""
+OUTSIDE = {
+    path.relative_to(ROOT).as_posix(): path for folder in FORBIDDEN for path in sorted((ROOT / folder).rglob("*.py"))
+}
+
+
+@pytest.mark.parametrize("path", OUTSIDE)
+def test_cases_are_shared_and_nothing_else(path):
+    """Tests and benchmarks both take their cases from validation, and know nothing of each other."""
+    names = {".".join(name) for name in imports(OUTSIDE[path], ROOT)}
+    for folder in (folder for folder in FORBIDDEN if path.startswith(f"{folder}/")):
+        if folder == "tests" and path.startswith("tests/benchmarks/"):
+            continue
+        for other in FORBIDDEN[folder]:
+            assert not [name for name in names if f"{name}.".startswith(f"{other}.")], f"{path} imports {other}"
+
+
+def test_validation_imports_in_no_circle():
+    files = {path.removesuffix(".py").replace("/", "."): OUTSIDE[path] for path in OUTSIDE}
+    files = {name: path for name, path in files.items() if name.startswith("validation.")}
+    graph = {
+        name: {
+            target for one in imports(path, ROOT)
+            for target in (".".join(one), ".".join(one[:-1])) if target in files and target != name
+        }
+        for name, path in files.items()
+    }  # fmt: skip
+    tuple(graphlib.TopologicalSorter(graph).static_order())  # raises CycleError
 
 
 def test_the_layers_are_all_known():

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.errors import InputError
-from validation.grids import COARSE, inclined, place, release_cap
+from validation.grids import COARSE, inclined, place, release_cap, throw
 
 
 def sloping():
@@ -48,8 +48,8 @@ def over_a_screen(first, last, angle, speed, drained=True):
         },
     )  # fmt: skip
     place(flow)
-    flow._simulation.set_free()
-    flow._simulation.particles.velocity[[0, 2]] = np.array([[speed], [-SLOPE * speed]]) / np.hypot(1.0, SLOPE)
+    along, down = np.array([speed, -SLOPE * speed]) / np.hypot(1.0, SLOPE)
+    throw(flow, (along, None, down))
     return flow
 
 

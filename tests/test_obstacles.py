@@ -6,7 +6,7 @@ from landlab import RasterModelGrid
 from scipy.optimize import brentq
 
 from landlab_debrisflow import DebrisFlow
-from validation.grids import changed_fields, copy_fields, dry_block, place, release, release_cap
+from validation.grids import changed_fields, copy_fields, dry_block, place, release, release_cap, throw
 
 from .twins import Failed, failing
 
@@ -21,8 +21,7 @@ def field(grid, name):
 def thrown(grid, velocity, **numerics):
     """Let what is to fail move without friction, all of it at one velocity; films count, too."""
     flow = place(DebrisFlow(grid, **dry_block(0.0, arrival_depth=1e-5, **numerics)))
-    flow._simulation.set_free()
-    flow._simulation.particles.velocity[:2] = np.array(velocity, float)[:, None]
+    throw(flow, velocity)
     return flow
 
 

@@ -5,7 +5,7 @@ import pytest
 from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
-from validation.grids import dry_block, place, release_slab
+from validation.grids import dry_block, place, release_slab, throw
 
 SPACING, SLOPE, SPEED = 5.0, 0.5, 30.0
 
@@ -31,9 +31,7 @@ def thrown(wall, towards, slope=SLOPE, **numerics):
     grid.status_at_node[wall(column, row)] = grid.BC_NODE_IS_CLOSED
     release_slab(grid, (75.0, 80.0), 13.0, 1.5, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(0.2, particle_count=100, **numerics)))
-    simulation = flow._simulation
-    simulation.set_free()
-    simulation.particles.velocity[:] = SPEED * np.array([[*towards, -slope]]).T
+    throw(flow, SPEED * np.array([*towards, -slope]))
     return flow
 
 

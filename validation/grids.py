@@ -74,6 +74,27 @@ def place(flow):
     return flow
 
 
+def set_free(flow):
+    """Let what was arrested decide anew whether it moves."""
+    flow._simulation.set_free()
+
+
+def throw(flow, velocity):
+    """Give the particles of a flow a velocity, in the order in which they were released, and let them move.
+
+    Parameters
+    ----------
+    flow : DebrisFlow
+        Just placed, none of its particles asleep.
+    velocity : sequence of float, ndarray of shape (n,) or None
+        Components along x, y and z [m s-1]; None, or a z left out: as it is.
+    """
+    set_free(flow)
+    for component, value in zip(flow._simulation.particles.velocity, velocity, strict=False):
+        if value is not None:
+            component[:] = value
+
+
 def centre_of_mass(flow):
     """Return map position x [m], map velocity along x [m/s] and volume [m3] of the whole body."""
     p = flow.particles

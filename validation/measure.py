@@ -18,8 +18,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from validation.hooks import counting_steps
-
 
 class Norms(NamedTuple):
     """Relative errors [-]."""
@@ -77,12 +75,30 @@ def norms(weight, value, exact, scale=None) -> Norms:
     )
 
 
+def relative_errors(found, exact) -> dict[str, float]:
+    """Return `norms` of depth and of momentum by name, at equal weights.
+
+    Parameters
+    ----------
+    found, exact : tuple of ndarray
+        h [m], hu and hv [m2 s-1] at the same points.
+
+    Returns
+    -------
+    dict
+        ``L1_h``, ``L2_h``, ``max_h``, ``L1_hu``, ``L2_hu``, ``max_hu`` [-].
+    """
+    (h, *momentum), (exact_h, *exact_momentum) = ([np.ravel(q) for q in one] for one in (found, exact))
+    pairs = {"h": norms(1.0, h, exact_h), "hu": norms(1.0, np.stack(momentum), np.stack(exact_momentum))}
+    return {f"{norm}_{name}": value for name, of in pairs.items()
+            for norm, value in zip(("L1", "L2", "max"), of, strict=True)}  # fmt: skip
+
+
 def advance(flow, duration):
     """Run until `duration` seconds after the release; return CPU time [s] and the number of time steps."""
-    with counting_steps() as counted:
-        start = time.process_time()
-        flow.run_one_step(duration - flow.elapsed_time)
-        return time.process_time() - start, counted[0]
+    steps, start = flow.diagnostics.steps, time.process_time()
+    flow.run_one_step(duration - flow.elapsed_time)
+    return time.process_time() - start, flow.diagnostics.steps - steps
 
 
 def energy(flow, gravity=9.81) -> float:

@@ -3,15 +3,15 @@
 import time
 
 import numpy as np
-import xarray as xr
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from ..component import DebrisFlow
 from ..plots.maps import Layer, draw_maps, save_figure
-from ..record.datasets import join
+from ..record.datasets import stack
 from ..record.files import check_writable, write_dataset
+from ..record.measures import measures
 from ..record.observers import Progress
 from ..scene.tsing_shan import NON_ERODIBLE_BELOW, tsing_shan_valley
 
@@ -27,7 +27,7 @@ LEVELS = 41
 DEPOSIT = 0.1
 """Least depth that counts as deposit, for medians and in the figure [m]."""
 
-FRONT_SHARE = 0.99
+FRONT_FRACTION = 0.99
 """The front is where this part of the deposited volume lies behind: a stray particle is no front."""
 
 
@@ -54,90 +54,83 @@ def run_demo(particles: int, output_dir, console: Console) -> dict[str, dict[str
         If the files cannot be written or `particles` is out of bounds; nothing was computed.
     """
     data_path, figure_path = check_writable(output_dir / "demo.nc"), check_writable(output_dir / "demo.png")
-    maps, measures = {}, {}
+    maps, found = {}, {}
     for column, title in COLUMNS.items():
         grid = tsing_shan_valley()
-        start = xr.DataArray(grid.at_node["topographic__elevation"].reshape(grid.shape).copy(), dims=("y", "x"))
-        release = grid.at_node["debris_flow__release_depth"].reshape(grid.shape).copy()
         progress = Progress(label=f"{title:>9}")
         numerics = {"particle_count": particles}
         columns = {"law": column, "levels": LEVELS}
         flow = DebrisFlow(grid, column=columns, material=MATERIAL, numerics=numerics, observers=[progress])
-        cpu = time.process_time()
+        before, cpu = flow.maps, time.process_time()
         flow.run_until_rest()
         cpu = time.process_time() - cpu
         maps[column] = flow.maps
-        measures[title] = measure(flow, start.values, release) | {"CPU time [s]": cpu}
-    console.print(_table(measures, particles))
+        found[title] = measure(flow, before) | {"CPU time [s]": cpu}
+    console.print(_table(found, particles))
     console.print(EXPLANATION, highlight=False)
     both = _side_by_side(maps)
     write_dataset(data_path, both)
-    relief = start.assign_coords(x=both.x, y=both.y)
-    save_figure(_figure(both, relief), figure_path)
+    save_figure(_figure(both, before.topographic__elevation), figure_path)
     console.print(f"Wrote {data_path} and {figure_path}", highlight=False, soft_wrap=True)
-    return measures
+    return found
 
 
-def measure(flow, elevation, release) -> dict[str, float]:
-    """Return what a reader would ask of one run.
+def measure(flow, before) -> dict[str, float]:
+    """Return the measures of one run by name with unit; distances are along the valley.
 
     Parameters
     ----------
     flow : DebrisFlow
         At rest, on the terrain of `tsing_shan_valley`.
-    elevation, release : ndarray, shape (rows, columns)
-        Elevation before the event and thickness released [m].
+    before : xarray.Dataset
+        Its maps before the event.
 
     Returns
     -------
     dict of str to float
-        Name with unit, and value.
     """
-    maps, budget = flow.maps, flow.budget
-    x, middle = maps.x.values, elevation.shape[0] // 2
-    deposit, eroded = maps.debris_flow__deposit_depth.values, maps.debris_flow__eroded_depth.values
-    contour = np.interp(-NON_ERODIBLE_BELOW, -elevation[middle], x)
-    crown = np.flatnonzero((release > 0.0).any(axis=0))[0]
-    behind = np.cumsum(deposit.sum(axis=0)) / deposit.sum()
-    front, farthest = np.searchsorted(behind, FRONT_SHARE), np.flatnonzero(deposit.any(axis=0))[-1]
-    fall, distance = elevation[middle, crown] - elevation[middle, front], x[front] - x[crown]
-    below = (deposit >= DEPOSIT) & (elevation < NON_ERODIBLE_BELOW)
-    peclet = maps.debris_flow__max_basal_peclet_number.values[eroded > 0.01]
+    elevation, x = before.topographic__elevation.values, before.x.values
+    axis = elevation[elevation.shape[0] // 2]
+    contour = np.interp(-NON_ERODIBLE_BELOW, -axis, x)
+    run = measures(flow, distance=lambda x, y: x, front_fraction=FRONT_FRACTION)
+    plain = measures(flow, inside=elevation < NON_ERODIBLE_BELOW, deposit_threshold=DEPOSIT)
+    crown = np.flatnonzero((before.debris_flow__release_depth.values > 0.0).any(axis=0))[0]
+    front = np.flatnonzero(x == float(run.run_out))[0]
     return {
-        "released [m3]": budget["released"],
-        "eroded [m3]": budget["eroded"],
-        "final volume [m3]": budget["deposited"],
-        "deepest erosion [m]": eroded.max(),
+        "released [m3]": float(run.budget_released),
+        "eroded [m3]": float(run.budget_eroded),
+        "final volume [m3]": float(run.budget_deposited),
+        "deepest erosion [m]": float(run.max_eroded_depth),
         "run-out of the front beyond the 100 m contour [m]": x[front] - contour,
-        "run-out of the farthest particle [m]": x[farthest] - contour,
-        "travel angle [deg]": np.degrees(np.arctan2(fall, distance)),
-        "largest speed [m/s]": maps.debris_flow__max_speed.values.max(),
-        "largest depth [m]": maps.debris_flow__max_depth.values.max(),
-        "median deposit below 100 m [m]": np.median(deposit[below]) if below.any() else np.nan,
-        "basal Péclet number, largest [-]": peclet.max(),
-        "basal Péclet number, typical [-]": np.median(peclet),
+        "run-out of the farthest particle [m]": float(run.farthest_run_out) - contour,
+        "travel angle [deg]": np.degrees(np.arctan2(axis[crown] - axis[front], x[front] - x[crown])),
+        "largest speed [m/s]": float(run.max_speed),
+        "largest depth [m]": float(run.max_depth),
+        "median deposit below 100 m [m]": float(plain.median_deposit_depth),
+        "basal Péclet number, largest [-]": float(run.max_basal_peclet_number),
+        "basal Péclet number, typical [-]": float(run.median_basal_peclet_number),
         "duration of the event [s]": flow.elapsed_time,
-        "outflow over the edges [m3]": budget["outflow"],
-        "residual of the mass balance [m3]": budget["residual"],
+        "outflow over the edges [m3]": float(run.budget_outflow),
+        "residual of the mass balance [m3]": float(run.budget_residual),
     }
 
 
 EXPLANATION = f"""\
-Front: where {FRONT_SHARE:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is from the \
-crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small viscosity and \
-the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. Péclet \
+Front: where {FRONT_FRACTION:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is from \
+the crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small viscosity \
+and the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. Péclet \
 numbers: peak at each eroded node, of these the largest and the median. CPU time includes loading (the first time: \
 compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
 friction is 0.30 without excess pore pressure and 0.10 at the bed's ratio of 0.65."""
 
 
-def _table(measures, particles):
+def _table(found, particles):
     table = Table(title=f"A valley with the numbers of Tsing Shan, {particles} particles", title_justify="left")
     table.add_column("")
-    for title in measures:
+    for title in found:
         table.add_column(title, justify="right")
-    for name in next(iter(measures.values())):
-        table.add_row(escape(name), *(_number(values[name]) for values in measures.values()))
+    for name in next(iter(found.values())):
+        table.add_row(escape(name), *(_number(values[name]) for values in found.values()))
     return table
 
 
@@ -152,8 +145,7 @@ def _number(value):
 def _side_by_side(maps):
     """Join the maps of both models along a dimension ``column``, with their budgets as variables."""
     names = list(maps)
-    both = join(list(maps.values()), xr.DataArray(names, dims="column", name="column"))
-    both["column"].attrs["long_name"] = "law of the pore pressure column"
+    both = stack(list(maps.values()), "column", names, long_name="law of the pore pressure column")
     for units, unit in maps[names[0]].attrs.items():
         if units.startswith(("budget", "elapsed_time")) and units.endswith("_units"):
             name = units.removesuffix("_units")

@@ -1,1 +1,5 @@
-"""Exact solutions in closed form, of columns and of flows."""
+"""Exact solutions in closed form: pore pressure in columns, and depth-averaged flows."""
+
+from . import columns, flows
+
+__all__ = ["columns", "flows"]

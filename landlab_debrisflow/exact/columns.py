@@ -1,19 +1,24 @@
 """Closed forms of the excess pore pressure in a column (docs/theory.md#column-solutions), to test and to teach with.
 
-Everything is dimensionless: depths over the thickness, ``xi`` = 0 at the base and 1 at the surface,
-times over the consolidation time (``h^2 / c_v``), pressures over the basal pressure.
+Everything is dimensionless: heights over the thickness, ``xi`` = 0 at the base and 1 at the surface, times over the
+consolidation time (``h^2 / c_v``), pressures over the basal pressure.
 """
 
 import numpy as np
 from scipy.special import erf, erfc, erfcx
 
+LINEAR, BASAL_LAYER = "linear", "basal_layer"
+"""Profiles from which `consolidation` starts."""
+
+MOST_MODES = 10_000
+"""Of a series: the start of a linear profile is then 1 at the base to 2e-5."""
+
 
 def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.ndarray:
-    """Column that grows at a constant rate under a constant basal pressure.
+    """Return the pressure in a column that grows at a constant rate under a constant basal pressure.
 
-    Heat equation on an interval that grows (Pastor et al., 2022, eqs. 45-52), summed over images so
-    that every term is a product of an exponential and `erfcx` whose arguments are <= 0 and >= 0: no
-    term overflows or cancels, whatever the Péclet number and the time.
+    Heat equation on an interval that grows, summed over images so that every term is a product of an exponential and
+    `erfcx` whose arguments are <= 0 and >= 0: no term overflows or cancels, whatever the Péclet number and the time.
 
     Parameters
     ----------
@@ -28,8 +33,12 @@ def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.nda
 
     Returns
     -------
-    ndarray
+    ndarray, shape of `xi`
         Excess pore pressure over the basal one [-].
+
+    References
+    ----------
+    Pastor et al. (2022), eqs. 45-52.
 
     Examples
     --------
@@ -53,9 +62,25 @@ def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.nda
 
 
 def constant_local_peclet(xi, peclet: float) -> np.ndarray:
-    """Steady profile of a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
+    """Return the steady pressure in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
 
-    ``Pe (1 - xi) dp/dxi = d2p/dxi2`` (eq. 35 without time) between 1 at the base and 0 at the surface.
+    ``Pe (1 - xi) dp/dxi = d2p/dxi2`` between 1 at the base and 0 at the surface.
+
+    Parameters
+    ----------
+    xi : array_like
+        Height above the base over the thickness [-].
+    peclet : float
+        ``e_R h / c_v`` [-], >= 0.
+
+    Returns
+    -------
+    ndarray, shape of `xi`
+        Excess pore pressure over the basal one [-].
+
+    References
+    ----------
+    Pastor et al. (2022), eq. 35 without time.
 
     Examples
     --------
@@ -67,10 +92,10 @@ def constant_local_peclet(xi, peclet: float) -> np.ndarray:
     return erf(root * eta) / erf(root) if root > 1e-8 else eta
 
 
-def consolidation(xi, time: float, start: str = "linear", layer: float = 1.0) -> np.ndarray:
-    """Column over an impermeable base that consolidates through its surface.
+def consolidation(xi, time: float, start: str = LINEAR, layer: float = 1.0) -> np.ndarray:
+    """Return the pressure in a column over an impermeable base that consolidates through its surface.
 
-    Terzaghi's series (1943; Carslaw & Jaeger, 1959, section 3.4).
+    Terzaghi's series, as many terms as matter at that time.
 
     Parameters
     ----------
@@ -83,24 +108,90 @@ def consolidation(xi, time: float, start: str = "linear", layer: float = 1.0) ->
     layer : float
         Thickness of that layer over that of the column [-]; 1 is a uniform start.
 
+    Returns
+    -------
+    ndarray, shape of `xi`
+        Excess pore pressure over the basal one at time 0 [-].
+
+    References
+    ----------
+    Terzaghi (1943); Carslaw & Jaeger (1959), section 3.4.
+
     Examples
     --------
     >>> [float(consolidation(0.0, time).round(4)) for time in (0.05, 0.2, 1.0)]
     [0.7477, 0.4959, 0.0687]
     """
     xi = np.asarray(xi, dtype=float)
-    # terms beyond exp(-40), and never fewer than a linear start needs at time 0 (error 2e-5)
-    terms = 10_000 if time <= 0.0 else int(min(10_000, 5.0 + np.sqrt(40.0 / time) / np.pi))
-    waves = (np.arange(terms) + 0.5) * np.pi
-    share = 2.0 / waves**2 if start == "linear" else 2.0 * np.sin(waves * layer) / waves
-    return np.cos(xi[..., None] * waves) @ (share * np.exp(-(waves**2) * time))
+    # terms beyond exp(-40), and never fewer than a linear start needs at time 0
+    terms = MOST_MODES if time <= 0.0 else int(min(MOST_MODES, 5.0 + np.sqrt(40.0 / time) / np.pi))
+    wave, weight = consolidation_modes(terms, start, layer)
+    return np.cos(xi[..., None] * wave) @ (weight * np.exp(-(wave**2) * time))
+
+
+def basal_consolidation(time, start: str = LINEAR, layer: float = 1.0, modes: int = 2000) -> np.ndarray:
+    """Return the basal pressure of `consolidation` at many times.
+
+    Parameters
+    ----------
+    time : array_like
+        ``c_v t / h^2`` [-], >= 0.
+    start, layer
+        As of `consolidation`.
+    modes : int
+        Number of terms; 2000 leave 1e-4 at time 0, and nothing soon after.
+
+    Returns
+    -------
+    ndarray, shape of `time`
+        Basal excess pore pressure over that at time 0 [-].
+
+    Examples
+    --------
+    >>> basal_consolidation([0.05, 0.2, 1.0]).round(4)
+    array([0.7477, 0.4959, 0.0687])
+    """
+    wave, weight = consolidation_modes(modes, start, layer)
+    return np.exp(-np.multiply.outer(np.asarray(time, dtype=float), wave**2)) @ weight
+
+
+def consolidation_modes(count: int, start: str = LINEAR, layer: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+    """Return wave numbers and weights of the modes ``weight cos(wave xi) exp(-wave^2 time)`` of `consolidation`.
+
+    Parameters
+    ----------
+    count : int
+        Number of modes, the slowest first.
+    start, layer
+        As of `consolidation`.
+
+    Returns
+    -------
+    wave, weight : ndarray, shape (count,)
+        [-].
+    """
+    wave = (np.arange(count) + 0.5) * np.pi
+    return wave, 2.0 / wave**2 if start == LINEAR else 2.0 * np.sin(wave * layer) / wave
 
 
 def front(time_over_erosion_time):
-    """Height of the front between old soil and new over the thickness, without diffusion.
+    """Return the height of the front between old soil and new over the thickness, without diffusion [-].
 
     The old soil keeps its thickness while the column grows at a constant rate, so the front is at
-    ``y/h = 1/(1 + t/T_e)`` (Pastor et al., 2022, eqs. 53-58).
+    ``y/h = 1/(1 + t/T_e)`` below the surface.
+
+    Parameters
+    ----------
+    time_over_erosion_time : array_like
+        Time over ``T_e = h_0 / e_R`` [-], >= 0.
+
+    Returns
+    -------
+    float or ndarray
+
+    References
+    ----------
+    Pastor et al. (2022), eqs. 53-58.
 
     Examples
     --------

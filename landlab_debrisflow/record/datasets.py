@@ -132,13 +132,29 @@ def _axes(grid):
     return axes
 
 
-def join(maps: Sequence[xr.Dataset], along: xr.DataArray) -> xr.Dataset:
-    """Return maps of several moments or runs along a new dimension.
+def stack(maps: Sequence[xr.Dataset], dimension: str, labels, **words) -> xr.Dataset:
+    """Stack maps of several moments or runs side by side along a new dimension.
 
     Parameters of which all have the same values over nodes have them once. Attributes that are not the same for all
     are left out, as are those that are true of one moment only; variables that one has and another has not are missing
     there.
+
+    Parameters
+    ----------
+    maps : sequence of xarray.Dataset
+        All of one grid.
+    dimension : str
+        Name of the new dimension.
+    labels : array_like, shape (len(maps),)
+        Its coordinate.
+    **words
+        Attributes of the coordinate.
+
+    Returns
+    -------
+    xarray.Dataset
     """
+    along = xr.DataArray(list(labels), dims=dimension, name=dimension, attrs=words)
     first, names = maps[0], dict.fromkeys(name for one in maps for name in one)
     once = [
         name for name in names

@@ -22,7 +22,7 @@ from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..model.schedule import EVERY_STEP
 from .attributes import described
-from .datasets import join
+from .datasets import stack
 from .files import check_writable, write_dataset
 
 
@@ -114,8 +114,8 @@ class Snapshots:
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
         # elapsed time has no date to count from, so to CF it is a quantity, no time axis
-        time = xr.Variable("time", self._times, described("s", "elapsed time"))
-        series, last = join(self._maps, xr.DataArray(time, name="time")), self._maps[-1].attrs
+        time = described("s", "elapsed time")
+        series, last = stack(self._maps, "time", self._times, **time), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
 
     def write(self, path=None):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from landlab_debrisflow.exact import flows
+from landlab_debrisflow.exact import columns, flows
 
 G = 9.81
 R15, R22, R25, R30, R35 = (math.radians(angle) for angle in (15, 22, 25, 30, 35))
@@ -49,7 +49,7 @@ def test_quoted_digits_of_blocks():
     assert velocity == pytest.approx(30.9362319, **digits(7))
     assert travel == pytest.approx(420.902947, **digits(6))
     assert ratio == pytest.approx(3.53498424, **digits(8))
-    found = flows.consolidating_ratio([0.05, 0.1, 0.2, 0.5, 1.0], 1.0)
+    found = columns.basal_consolidation([0.05, 0.1, 0.2, 0.5, 1.0])
     assert found == pytest.approx([0.7477, 0.6432, 0.4959, 0.2360, 0.0687], **digits(4))
 
 
@@ -165,9 +165,10 @@ def test_sliding_and_stopping():
 @pytest.mark.parametrize("slope", [R15, R30])
 def test_consolidating_block_against_a_quadrature(start, slope):
     friction, ratio, needs = 0.45, 0.8, 10.0
+    profile = ("linear",) if start == "linear" else ("basal_layer", start)
     # fine at first, where the pressure falls like the root of time
     t = 25.0 * np.linspace(0.0, 1.0, 4001) ** 2
-    held = friction * (1.0 - ratio * flows.consolidating_ratio(t, needs, start))
+    held = friction * (1.0 - ratio * columns.basal_consolidation(t / needs, *profile))
     rate = G * (math.sin(slope) - held * math.cos(slope))
 
     def integral(values):
@@ -175,13 +176,13 @@ def test_consolidating_block_against_a_quadrature(start, slope):
 
     gained = integral(rate)
     expected = np.where(np.cumsum(gained < -1e-9) > 0, 0.0, gained)
-    velocity, travel = flows.consolidating_block(t, slope, friction, ratio, needs, start)
+    velocity, travel = flows.consolidating_block(t, slope, friction, ratio, needs, *profile)
     # trapezoids, and one interval of 6 mm/s^2 about the stop
     assert velocity == pytest.approx(expected, abs=2e-3)
     assert travel == pytest.approx(integral(expected), abs=2e-2)
     assert (velocity[-1] == pytest.approx(0.0, abs=1e-9)) == (slope == R15)
     # r = 1 of a linear start to 1e-4: the terms left out
-    assert flows.consolidating_ratio(0.0, needs) == pytest.approx(1.0, abs=2e-4)
+    assert columns.basal_consolidation(0.0 / needs) == pytest.approx(1.0, abs=2e-4)
 
 
 def test_without_pressure_the_block_just_slides_or_stays():
@@ -195,3 +196,13 @@ def test_what_has_no_such_solution_is_refused():
         flows.mangeney(0.0, 1.0, 1.0, R15, 0.5)
     with pytest.raises(ValueError, match="rear"):
         flows.ridge(0.0, 1.0, 10.0, 1.0, R15, 0.2)
+
+
+@pytest.mark.parametrize("name", ["planar", "curved"])
+def test_thackers_surfaces_come_back_after_a_period(name):
+    solution, period = (getattr(flows, f"thacker_{name}{word}") for word in ("", "_period"))
+    size = {"radius": 30.0, "depth": 2.0}
+    x, y = np.meshgrid(np.linspace(-40.0, 40.0, 9), np.linspace(-40.0, 40.0, 7))
+    start, swung, back = (solution(x, y, part * period(**size), **size) for part in (0.0, 0.5, 1.0))
+    np.testing.assert_allclose(back, start, atol=1e-12)
+    assert abs(swung[0] - start[0]).max() > 0.3

@@ -8,9 +8,8 @@ from landlab import RasterModelGrid
 from landlab.io import esri_ascii
 
 from landlab_debrisflow import DebrisFlow, InputError
+from validation.cases import stability as scenes
 from validation.grids import COARSE, changed_fields, copy_fields, inclined, release_slab
-
-from ..stability import scenes
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"
 FILLS = [-9999.0, -32768.0, -32767.0, 32767.0, 65535.0, -99999.0, -2147483648.0, 1e20, -1e30]

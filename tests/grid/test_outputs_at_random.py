@@ -7,6 +7,7 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow, InputError
 from validation.grids import release_slab
+from validation.measure import body
 
 from .test_outputs import ARRIVAL, DEPOSIT, ERODED, FAR, NEAR, PEAKS, RELEASE, SOIL, Fails, scene
 
@@ -61,7 +62,7 @@ class Player:
             self.done.append(str(refusal))
 
     def check(self, flow):
-        maps, budget, area, particles = flow.maps, flow.budget, 25.0, flow._simulation.particles
+        maps, budget, area, particles = flow.maps, flow.budget, 25.0, body(flow)
         still = ~np.any(particles.velocity, axis=0)
         # rounding of elevations of 75 m at some hundred nodes in some ten events
         size = 1e-10 * (1.0 + budget["released"])

@@ -10,7 +10,7 @@ from landlab import RasterModelGrid
 from landlab_debrisflow import DebrisFlow, SimulationError
 from landlab_debrisflow.model.particles import Particles
 from landlab_debrisflow.model.stopped import Stopped
-from validation.grids import COARSE, dry_block, inclined, place, release_slab
+from validation.grids import COARSE, dry_block, inclined, place, release_slab, throw
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"
 FLUID = {"friction": {"law": "coulomb", "basal_friction_angle": 10.0}, "numerics": COARSE}
@@ -171,8 +171,7 @@ def thrown(wall, speed, slope=0.0, friction=0.2, volume_per_node=1.5):
     grid.status_at_node[wall(grid.x_of_node)] = grid.BC_NODE_IS_CLOSED
     release_slab(grid, (75.0, 80.0), 13.0, volume_per_node, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(friction, particle_count=100)))
-    flow._simulation._arrested = False
-    flow._simulation.particles.velocity[:] = speed * np.array([[1.0, 0.0, -slope]]).T
+    throw(flow, speed * np.array([1.0, 0.0, -slope]))
     return flow
 
 

@@ -55,19 +55,20 @@ def test_a_large_slide_that_has_stopped_stays_so_while_a_slow_one_moves():
     north = p.y > 150.0
     assert not p.velocity[:, north].any() and np.all(p.arrested[north] == 1)
     assert south(flow)[1] > 1.0 and not flow.at_rest
-    before = p.x[north].copy()
+    before = flow.particles.x[flow.particles.y > 150.0]
     flow.run_one_step(1.0)
-    np.testing.assert_array_equal(flow._simulation.particles.x[flow._simulation.particles.y > 150.0], before)
+    p = flow.particles
+    np.testing.assert_array_equal(p.x[p.y > 150.0], before)
 
 
 def test_what_lies_elsewhere_is_not_woken_by_a_release():
     flow = two_slopes(fast=6.0)
     flow.run_until_rest(200.0)
-    p = flow._simulation.particles
+    p = flow.particles
     before = np.sort(p.x[p.y > 150.0])
     flow.grid.at_node["debris_flow__release_depth"][15 * 121 + 8] = 1.0  # on the side of the ridge
     flow.run_one_step(5.0)
-    p = flow._simulation.particles
+    p = flow.particles
     assert south(flow)[1] > 0.5
     np.testing.assert_array_equal(np.sort(p.x[p.y > 150.0]), before)
 
@@ -75,12 +76,11 @@ def test_what_lies_elsewhere_is_not_woken_by_a_release():
 def test_a_flow_sets_free_what_it_runs_into():
     flow = two_slopes(laid=2.0)
     assert flow.run_until_rest() is True
-    lying = flow._simulation.particles.count
+    lying = flow.particles.sizes["particle"]
     flow.grid.at_node["debris_flow__release_depth"][:] = two_slopes(fast=6.0).grid.at_node["debris_flow__release_depth"]
     was = float(flow.particles.x.mean())
     flow.run_until_rest(200.0)
-    p = flow._simulation.particles
-    assert p.x[np.argsort(p.identity)[:lying]].mean() > was + 5.0
+    assert flow.particles.x[:lying].mean() > was + 5.0
 
 
 def test_a_slow_slide_of_two_phases_does_not_stop_either():

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from benchmarks.speed_grids import touched_by, valley
 from landlab_debrisflow.grid.fields import OUTPUT_PREFIX
+from validation.rasters import touched_by, valley
 
 SHIFT = 6
 SCENE = {"spacing": 4.0, "foot": 38, "axis": 38, "top": 35, "radius": 6.0, "particles": 150}

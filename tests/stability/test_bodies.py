@@ -5,11 +5,11 @@ import pytest
 from scipy.spatial import cKDTree
 
 from landlab_debrisflow import DebrisFlow
+from validation.cases import stability as scenes
 from validation.grids import inclined, release, release_slab
+from validation.watch import Scene
 
-from . import scenes
 from .checks import assert_sound
-from .watch import Scene
 
 
 @pytest.mark.parametrize("count", [1, 2, 100])

@@ -11,8 +11,7 @@ from landlab_debrisflow.model.numerics import Numerics
 from landlab_debrisflow.physics.material import Material
 from landlab_debrisflow.physics.registry import LAWS
 from validation.grids import inclined, release_slab
-
-from .watch import FINITE
+from validation.watch import FINITE
 
 INFINITE = 1e6
 """Stands for a bound that is infinite: far beyond any use, as a length, rate, angle or number."""

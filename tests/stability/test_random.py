@@ -6,8 +6,7 @@ from hypothesis import strategies as st
 from landlab import RasterModelGrid
 
 from validation.grids import release
-
-from .watch import Scene
+from validation.watch import Scene
 
 LAWS = st.fixed_dictionaries(
     {

@@ -3,10 +3,10 @@
 import pytest
 
 from landlab_debrisflow.core.errors import ParameterError
+from validation.cases import stability as scenes
+from validation.watch import Scene
 
-from . import scenes
 from .checks import assert_sound
-from .watch import Scene
 
 LOOKS = 20
 """In a period, of which the longest steps are a seventieth."""

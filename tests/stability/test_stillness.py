@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
-from validation.grids import dry_block, inclined, place, release_cap
+from validation.cases import stability as scenes
+from validation.grids import dry_block, inclined, place, release_cap, throw
+from validation.watch import G, Scene
 
-from . import scenes
 from .checks import assert_sound
-from .watch import G, Scene
 
 CELERITY = math.sqrt(G * 2.0)  # of the basin, 2 m deep
 
@@ -55,9 +55,7 @@ def test_friction_never_reverses_a_body_thrown_uphill(degrees, courant):
     grid = inclined((15, 60), 5.0, math.tan(angle))
     release_cap(grid, (200.0, 35.0), (25.0, 25.0), 2e-3, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(mu, particle_count=100, rest_energy=0.0, courant_number=courant)))
-    simulation = flow._simulation
-    simulation.set_free()
-    simulation.particles.velocity[:] = speed * np.array([[-math.cos(angle)], [0.0], [math.sin(angle)]])
+    throw(flow, speed * np.array([-math.cos(angle), 0.0, math.sin(angle)]))
     stop = speed / (G * (mu * math.cos(angle) + math.sin(angle)))
     start = flow.particles.x.values
     before = start

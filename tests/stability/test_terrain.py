@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from . import scenes
+from validation.cases import stability as scenes
+from validation.watch import NoThrust, Scene
+
 from .checks import assert_sound
-from .watch import NoThrust, Scene
 
 
 @pytest.mark.parametrize("angle", [0.0, 20.0])

@@ -11,6 +11,8 @@ from landlab_debrisflow.exact import flows
 from validation.cases.two_phase import CASES, Case, dam_break, errors, hump, is_hyperbolic, slip_and_complex
 from validation.rivals.finite_volume_two_phase import Mixture, solve
 
+pytestmark = pytest.mark.slow
+
 G, SLOPE = 9.81, math.radians(20.0)
 LOOSE = Mixture("anderson_jackson", terminal_velocity=5.0, exponent=2.0)
 SEEPING = Mixture("darcy", conductivity=0.05)

@@ -11,7 +11,8 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model.basal import basal_state
-from validation.grids import dry_block, place, release_cap
+from validation.grids import dry_block, place, release_cap, throw
+from validation.measure import body
 
 G, RADIUS, START, MIDDLE = 9.81, 100.0, np.radians(-30.0), 70.0
 
@@ -32,14 +33,13 @@ def through_the_dip(mu, speed, duration):
     grid.add_field("topographic__elevation", RADIUS - np.sqrt(RADIUS**2 - (grid.x_of_node - MIDDLE) ** 2), at="node")
     release_cap(grid, (MIDDLE - 50.0, 30.0), (12.0, 12.0), 1e-4, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(mu, particle_count=60)))
-    simulation = flow._simulation
-    p = simulation.particles
-    simulation.set_free()
-    phi = np.arcsin((p.x - MIDDLE) / RADIUS)
-    p.velocity[[0, 2]] = np.sqrt(speed_squared(phi, mu, speed)) * np.array([np.cos(phi), np.sin(phi)])
+    phi = np.arcsin((flow.particles.x.values - MIDDLE) / RADIUS)
+    along, down = np.sqrt(speed_squared(phi, mu, speed)) * np.array([np.cos(phi), np.sin(phi)])
+    throw(flow, (along, None, down))
     flow.run_one_step(duration)
-    phi = np.arcsin((simulation.particles.x - MIDDLE) / RADIUS)
-    found = np.sqrt(np.einsum("in,in->n", simulation.particles.velocity, simulation.particles.velocity))
+    end = body(flow)
+    phi = np.arcsin((end.x - MIDDLE) / RADIUS)
+    found = np.sqrt(np.einsum("in,in->n", end.velocity, end.velocity))
     return flow, phi, found
 
 

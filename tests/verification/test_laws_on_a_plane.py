@@ -12,9 +12,11 @@ import pytest
 from landlab_debrisflow import DebrisFlow, Material
 from landlab_debrisflow.model import step
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
-from validation.grids import inclined, place, release
+from validation.grids import inclined, place, release, set_free, throw
+from validation.measure import body
 
 G, STEEP, GENTLE = 9.81, math.radians(20.0), math.radians(6.0)
+DOWN = np.array([math.cos(GENTLE), 0.0, -math.sin(GENTLE)])  # the fall line of the gentle slope
 RATIO = 0.4  # excess pore pressure over liquefaction
 
 LAWS = [
@@ -47,14 +49,9 @@ def lone(law, slope, ratio=RATIO, **material):
 
 def speed(flow):
     """Return the speed along the fall line, negative if uphill [m s-1]."""
-    u, v, w = flow._simulation.particles.velocity[:, 0]
+    u, v, w = body(flow).velocity[:, 0]
     assert v == 0.0
     return math.copysign(math.hypot(u, w), u)
-
-
-def throw(flow, velocity, slope):
-    flow._simulation.particles.velocity[:, 0] = velocity * np.array([math.cos(slope), 0.0, -math.sin(slope)])
-    flow._simulation.set_free()
 
 
 def terminal_speed(law, thickness, material, ratio=RATIO):
@@ -84,7 +81,7 @@ def terminal_speed(law, thickness, material, ratio=RATIO):
 
 
 def thickness(flow):
-    return float(flow._simulation.particles.thickness[0])
+    return float(flow.particles.thickness[0])
 
 
 @of_laws
@@ -115,15 +112,15 @@ def test_what_is_liquefied_falls_freely(law):
 def test_what_its_strength_holds_never_moves(law, dt):
     flow = lone(law, GENTLE)
     for _ in range(3):
-        flow._simulation.set_free()  # let every step decide anew
+        set_free(flow)  # let every step decide anew
         flow.run_one_step(dt)
-    assert flow.at_rest and not flow._simulation.particles.velocity.any()
+    assert flow.at_rest and not body(flow).velocity.any()
 
 
 @of_laws
 def test_what_is_thrown_stops_and_stays(law):
     flow = lone(law, GENTLE)
-    throw(flow, 3.0, GENTLE)
+    throw(flow, 3.0 * DOWN)
     # strength exceeds the drive by 0.28 of g sin(theta) at least, viscous parts help: 3/(0.28 g sin(6 deg)) = 10.5 s
     speeds = [speed(flow)]
     while len(speeds) < 45:
@@ -142,7 +139,7 @@ def test_friction_never_reverses_what_it_stops(law, velocity, gently):
     """For steps of any length, downhill and uphill: no velocity against the one before."""
     flow = gently(law)
     for dt in 10.0 ** np.arange(-4.0, 5.0):
-        throw(flow, velocity, GENTLE)
+        throw(flow, velocity * DOWN)
         sim = flow._simulation
         step.friction_and_kick(sim.particles, sim.state.exchange, sim.friction, sim.phases, sim.walls, dt)
         after = speed(flow)

@@ -7,7 +7,8 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from validation.cases import blocks
-from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab, set_free, throw
+from validation.measure import body
 
 G, MU, ANGLE = 9.81, 0.4, math.radians(15.0)
 SPEED = 10.0
@@ -18,14 +19,14 @@ def test_a_slab_below_its_friction_angle_stays_for_every_step(step):
     grid = inclined((15, 40), 10.0, math.tan(ANGLE))
     release_slab(grid, (100.0, 70.0), 35.0, 0.1, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(MU, particle_count=200, rest_energy=0.0)))
-    flow._simulation.set_free()  # let every step decide anew
+    set_free(flow)  # let every step decide anew
     start = flow.particles
     for _ in range(5):
         flow.run_one_step(step)
-        flow._simulation.set_free()
+        set_free(flow)
     # held by max(0, ...), not by a small number: to the last bit
     assert flow.particles.x.identical(start.x) and flow.particles.y.identical(start.y)
-    assert not flow._simulation.particles.velocity.any()
+    assert not body(flow).velocity.any()
 
 
 @pytest.fixture
@@ -34,14 +35,12 @@ def sliding():
     grid = inclined((15, 40), 10.0, math.tan(ANGLE))
     release_cap(grid, (100.0, 70.0), (50.0, 50.0), 2e-3, on_top=True)
     flow = place(DebrisFlow(grid, **dry_block(MU, particle_count=300, rest_energy=0.0)))
-    simulation = flow._simulation
-    simulation.set_free()
-    simulation.particles.velocity[:] = SPEED * np.array([[math.cos(ANGLE)], [0.0], [-math.sin(ANGLE)]])
+    throw(flow, SPEED * np.array([math.cos(ANGLE), 0.0, -math.sin(ANGLE)]))
     return flow
 
 
 def speeds(flow):
-    return np.linalg.norm(flow._simulation.particles.velocity, axis=0)
+    return np.linalg.norm(body(flow).velocity, axis=0)
 
 
 def test_a_sliding_slab_stops_in_time_and_stays(sliding):

@@ -15,7 +15,7 @@ from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.contracts import WATER
 from landlab_debrisflow.physics.flow import TwoPhase
 from validation.cases.planes import plane
-from validation.grids import inclined, place, release, release_cap, release_slab
+from validation.grids import inclined, place, release, release_cap, release_slab, set_free
 
 G, RHO_S, RHO_W, N = 9.81, 2650.0, 1000.0, 0.4
 M_S, M_W = RHO_S * (1.0 - N), RHO_W * N  # per thickness
@@ -28,7 +28,7 @@ def two_phase(**law):
 def awaken(flow):
     """Let everything be found anew, as after a change of terrain."""
     flow._simulation.state.outdated = True
-    flow._simulation.set_free()
+    set_free(flow)
     return flow._simulation.particles
 
 
@@ -106,16 +106,16 @@ def slab(degrees, conductivity, friction_angle, spacing=0.6, length=24.0):
             "numerics": {"particle_count": count, "settle": False, "rest_energy": 0.0},
         },
     )  # fmt: skip
-    flow._simulation.set_free()
+    set_free(flow)
     return flow, angle
 
 
 def speeds(flow, angle, centre=0.0, half=6.0):
     """Return the mean velocities of grains and water down the plane, where nothing has come from the ends."""
-    p = flow._simulation.particles
-    s, v = (p.x + flow.grid.x_of_node[0]) / math.cos(angle), p.velocity[0] / math.cos(angle)
+    p = flow.particles
+    s, v, water = p.x.values / math.cos(angle), p.velocity_x.values / math.cos(angle), p.phase.values == WATER
     near = abs(s - centre) < half
-    return v[near & (p.phase != WATER)].mean(), v[near & (p.phase == WATER)].mean()
+    return v[near & ~water].mean(), v[near & water].mean()
 
 
 @pytest.mark.parametrize(("conductivity", "parts"), [(5.0, 1), (5.0, 5), (1e-4, 1), (1e-4, 5)])
@@ -217,7 +217,7 @@ def basin(cells, across, spacing, column, per_cell=1, friction_angle=0.0, numeri
         grid, column=column, erosion="none", friction={"law": "coulomb", "basal_friction_angle": friction_angle},
         numerics=fine | (numerics or {}), **given,
     ))  # fmt: skip
-    flow._simulation.set_free()
+    set_free(flow)
     return flow
 
 

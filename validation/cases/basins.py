@@ -13,8 +13,8 @@ from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.exact import flows
 from validation.cases.dam_breaks import circular_dam_break as radial_dam_break
 from validation.grids import dry_block, place, release
-from validation.hooks import law_of_flow
 from validation.measure import Norms, Result, advance, body, compare, energy, momentum, norms
+from validation.rivals.fixed_length import law_of_flow
 
 G = 9.81
 RADIUS = 1000.0  # of Thacker's basins, 1 m deep [m]
@@ -74,7 +74,7 @@ def _thacker(name, particles, periods, frequency, speed, solution, uniform) -> R
 
 def thacker_planar(particles, periods=2.25) -> Result:
     """A flat surface swings to and fro along x, from rest."""
-    frequency = math.sqrt(2.0 * G) / RADIUS
+    frequency = 2.0 * math.pi / flows.thacker_planar_period(RADIUS)
 
     def solution(x, y, t):
         return flows.thacker_planar(x, y, t, RADIUS, orbit=(SWING, 0.0))
@@ -84,7 +84,7 @@ def thacker_planar(particles, periods=2.25) -> Result:
 
 def thacker_curved(particles, periods=2.25) -> Result:
     """A curved surface breathes, from rest at .8 of the radius."""
-    frequency = math.sqrt(8.0 * G) / RADIUS
+    frequency = 2.0 * math.pi / flows.thacker_curved_period(RADIUS)
 
     def solution(x, y, t):
         return flows.thacker_curved(x, y, t, RADIUS, first_radius=0.8 * RADIUS)

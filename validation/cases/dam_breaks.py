@@ -2,7 +2,7 @@
 
 ``case.solution(x, y, t)`` returns h, u, v; at ``t = 0`` it is the start. One-dimensional cases have no extent in y.
 Releases are about 1 m deep, and no time is a moment at which everything rests, where errors have nothing to be
-relative to.
+relative to. ``python -m validation.cases.dam_breaks`` prints errors and costs of finite volumes on all of them.
 """
 
 import math
@@ -13,6 +13,8 @@ from functools import lru_cache, partial
 import numpy as np
 
 from landlab_debrisflow.exact import flows
+from validation.measure import relative_errors
+from validation.rivals import finite_volume
 
 
 @dataclass(frozen=True)
@@ -67,20 +69,6 @@ class Case:
         return h, h * u, h * v
 
 
-def relative_errors(h, hu, hv, exact_h, exact_hu, exact_hv) -> dict[str, float]:
-    """L1, L2 and greatest error of depth and momentum over the same norm of the exact ones, at equal weights."""
-    pairs = {
-        "h": (np.abs(h - exact_h), np.abs(exact_h)),
-        "hu": (np.hypot(hu - exact_hu, hv - exact_hv), np.hypot(exact_hu, exact_hv)),
-    }
-    norms = {"L1": np.sum, "L2": np.linalg.norm, "max": np.max}
-    return {
-        f"{norm}_{name}": float(measure(error) / measure(size))
-        for name, (error, size) in pairs.items()
-        for norm, measure in norms.items()
-    }
-
-
 def _along(solution, *values):
     """A solution in one dimension as one of x, y and t, without motion across."""
 
@@ -94,10 +82,9 @@ def _along(solution, *values):
 @lru_cache(maxsize=8)
 def _radial_dam_break(time, radius, depth, depth_ahead, reach, count):
     """Centres of rings, depth and radial velocity there."""
-    from validation.rivals.finite_volume import solve  # it runs the cases of this module
-
     r = (np.arange(count) + 0.5) * reach / count
-    found = solve(np.where(r < radius, depth, depth_ahead), 0.0 * r, 0.0 * r, reach / count, time, radial=True)
+    start = np.where(r < radius, depth, depth_ahead), 0.0 * r, 0.0 * r
+    found = finite_volume.solve(*start, reach / count, time, radial=True)
     return r, found.h, np.divide(found.hu, found.h, out=np.zeros(count), where=found.h > 1e-9 * depth)
 
 
@@ -119,7 +106,7 @@ def circular_dam_break(x, y, time: float, radius: float = 10.0, depth: float = 1
 def _cases():
     r22, r30, r35 = math.radians(22.0), math.radians(30.0), math.radians(35.0)
     tan15, tan25 = math.tan(math.radians(15.0)), math.tan(math.radians(25.0))
-    swing = 2.0 * math.pi * 10.0 / math.sqrt(2.0 * flows.GRAVITY)  # 14.2 s
+    swing = flows.thacker_planar_period()  # 14.2 s
     yield Case("ritter", _along(flows.ritter), 1.0, (-10.0, 10.0))
     yield Case("stoker", _along(flows.stoker), 2.0, (-10.0, 10.0))
     yield Case("mangeney", _along(flows.mangeney, 1.0, r22, tan15), 2.0, (-16.0, 16.0), r22, tan15)
@@ -142,3 +129,48 @@ def _cases():
 
 
 CASES = {case.name: case for case in _cases()}
+
+
+def rival_row(case: Case | str, count: int) -> dict:
+    """Run a case by finite volumes on ``count`` cells along x.
+
+    Returns
+    -------
+    dict
+        ``case``, ``cells`` in all, ``spacing`` [m], ``steps``, ``cpu`` [s] of the time loop, compilation apart, and
+        the relative errors ``L1_h``, ``L2_h``, ``max_h``, ``L1_hu``, ``L2_hu``, ``max_hu``, at the centres of cells.
+    """
+    case = CASES[case] if isinstance(case, str) else case
+    x, y, spacing = case.cells(count)
+    keywords = {"gravity_normal": case.gravity_normal, "gravity_along": case.gravity_along, "friction": case.friction}
+    if case.bed is not None:
+        keywords["bed"] = case.bed(x, y)
+    start = case.state(x, y, 0.0)
+    finite_volume.solve(*start, spacing, 0.0, **keywords)  # loads or compiles
+    found = finite_volume.solve(*start, spacing, case.time, **keywords)
+    errors = relative_errors((found.h, found.hu, found.hv), case.state(x, y, case.time))
+    return {"case": case.name, "cells": x.size, "spacing": spacing, "steps": found.steps, "cpu": found.cpu, **errors}
+
+
+COUNTS = {1: (100, 200, 400, 800), 2: (40, 80, 160)}  # along x; 320 takes minutes in the basin
+NORMS = ("L1_h", "L2_h", "max_h", "L1_hu", "L2_hu", "max_hu")
+
+
+def main() -> None:
+    """Print errors and costs of finite volumes on all cases."""
+    print("relative errors; order: of L1 of h and of hu from the line above")
+    print(f"{'case':18s}{'cells':>8s}{'steps':>7s}{'CPU s':>9s}" + "".join(f"{n:>9s}" for n in NORMS) + "   order")
+    for case in CASES.values():
+        last = None
+        for count in COUNTS[len(case.extent) // 2]:
+            row = rival_row(case, count)
+            text = f"{row['case']:18s}{row['cells']:8d}{row['steps']:7d}{row['cpu']:9.2g}"
+            text += "".join(f"{row[norm]:9.1e}" for norm in NORMS)
+            if last:
+                text += "".join(f"{math.log2(last[norm] / row[norm]):6.2f}" for norm in ("L1_h", "L1_hu"))
+            print(text, flush=True)
+            last = row
+
+
+if __name__ == "__main__":
+    main()

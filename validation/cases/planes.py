@@ -18,8 +18,8 @@ from landlab import RasterModelGrid
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.exact import flows
 from validation.grids import dry_block, place, release
-from validation.hooks import law_of_flow
 from validation.measure import Result, advance, body, compare, energy
+from validation.rivals.fixed_length import law_of_flow
 
 G = 9.81
 CELL = 6  # node spacing over particle spacing of the deepest reservoir

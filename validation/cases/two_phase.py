@@ -2,6 +2,7 @@
 
 ``case.run(count, times)`` runs one by `finite_volume_two_phase`; at time 0 it gives the start for another scheme. In
 each the speeds of the equations stay real (`is_hyperbolic`), so that there is a limit to converge to.
+``python -m validation.cases.two_phase`` prints errors and costs of finite volumes.
 """
 
 import math
@@ -186,6 +187,7 @@ def convergence(case: Case, counts=COUNTS, count: int = REFERENCE) -> Iterator[R
 
 
 def main() -> None:
+    """Print errors and costs of finite volumes on all cases."""
     print(f"relative L1 errors at the last time, against the exact solution or {REFERENCE} cells; order: from the line")
     print("above; slip: greatest |v_w - v_s| over twice the slower celerity, and share of cells with complex speeds")
     names = ("h_s", "h_w", "h_s v_s", "h_w v_w")
@@ -199,3 +201,7 @@ def main() -> None:
             text += "".join(f"{order:6.2f}" for order in orders).ljust(24)
             print(text + f"{row.slip:8.3f}{row.complex_share:8.4f}", flush=True)
             last = row.errors
+
+
+if __name__ == "__main__":
+    main()

@@ -8,8 +8,8 @@ Depth-averaged flow on a plane (slope-normal form, gravity along it as an accele
 Limited slopes of h, h + z, u and v (monotonised central: van Leer, 1977); hydrostatic reconstruction of the bed
 (Audusse et al., 2004), so that a lake stays level; HLL flux with Einfeldt's speeds and the dry-front speeds of Toro
 (2001), transverse momentum carried by the mass flux (HLLC); Heun's two stages (SSP, Shu & Osher, 1988) of one step
-that keeps h >= 0; friction implicit, never reversing. Written from the papers, for these benchmarks only; nothing is
-shared with the package. ``python -m validation.rivals.finite_volume`` prints errors and costs on `dam_breaks.CASES`.
+that keeps h >= 0; friction implicit, never reversing. Written from the papers, for these comparisons only; nothing is
+shared with the package. ``python -m validation.cases.dam_breaks`` prints errors and costs.
 """
 
 import math
@@ -20,7 +20,6 @@ import numba
 import numpy as np
 
 from landlab_debrisflow.exact.flows import GRAVITY
-from validation.cases.dam_breaks import CASES, Case, relative_errors
 
 _compiled = numba.njit(cache=True, error_model="numpy")
 DRY = 1e-10  # cells thinner than this share of the greatest depth at the start have no velocity
@@ -248,47 +247,3 @@ def solve(h, hu, hv, spacing: float, time: float, gravity_normal: float = GRAVIT
     cpu = clock.process_time() - begin
     shape = np.shape(h)
     return FVResult(*(a.reshape(shape) for a in state), steps, cpu)
-
-
-def rival_row(case: Case | str, count: int) -> dict:
-    """Run a case of `dam_breaks` on ``count`` cells along x.
-
-    Returns
-    -------
-    dict
-        ``case``, ``cells`` in all, ``spacing`` [m], ``steps``, ``cpu`` [s] of the time loop, compilation apart, and
-        the relative errors ``L1_h``, ``L2_h``, ``max_h``, ``L1_hu``, ``L2_hu``, ``max_hu``, at the centres of cells.
-    """
-    case = CASES[case] if isinstance(case, str) else case
-    x, y, spacing = case.cells(count)
-    keywords = {"gravity_normal": case.gravity_normal, "gravity_along": case.gravity_along, "friction": case.friction}
-    if case.bed is not None:
-        keywords["bed"] = case.bed(x, y)
-    start = case.state(x, y, 0.0)
-    solve(*start, spacing, 0.0, **keywords)  # loads or compiles
-    found = solve(*start, spacing, case.time, **keywords)
-    errors = relative_errors(found.h, found.hu, found.hv, *case.state(x, y, case.time))
-    return {"case": case.name, "cells": x.size, "spacing": spacing, "steps": found.steps, "cpu": found.cpu, **errors}
-
-
-COUNTS = {1: (100, 200, 400, 800), 2: (40, 80, 160)}  # along x; 320 takes minutes in the basin
-NORMS = ("L1_h", "L2_h", "max_h", "L1_hu", "L2_hu", "max_hu")
-
-
-def main() -> None:
-    print("relative errors; order: of L1 of h and of hu from the line above")
-    print(f"{'case':18s}{'cells':>8s}{'steps':>7s}{'CPU s':>9s}" + "".join(f"{n:>9s}" for n in NORMS) + "   order")
-    for case in CASES.values():
-        last = None
-        for count in COUNTS[len(case.extent) // 2]:
-            row = rival_row(case, count)
-            text = f"{row['case']:18s}{row['cells']:8d}{row['steps']:7d}{row['cpu']:9.2g}"
-            text += "".join(f"{row[norm]:9.1e}" for norm in NORMS)
-            if last:
-                text += "".join(f"{math.log2(last[norm] / row[norm]):6.2f}" for norm in ("L1_h", "L1_hu"))
-            print(text, flush=True)
-            last = row
-
-
-if __name__ == "__main__":
-    main()

@@ -21,9 +21,8 @@ n (1 - n) (rho_s - rho_w) g/(V_T n^m) (Anderson & Jackson, 1967). What it can be
 Limited slopes of h_s, h_w, v_s, v_w (monotonised central: van Leer, 1977); HLL with straight paths for the products
 that are no divergence (Pares, 2006; Castro & Fernandez-Nieto, 2012), which over both phases add up to one, so that
 total momentum is kept. Heun's two stages that keep h_s, h_w >= 0; in each, drag exact for steady forces (Cox &
-Matthews, 2002) together with friction, which never reverses. Written from the papers, for these benchmarks only;
-nothing is shared with the package. ``python -m validation.rivals.finite_volume_two_phase`` prints errors and cost on
-`validation.cases.two_phase.CASES`.
+Matthews, 2002) together with friction, which never reverses. Written from the papers, for these comparisons only;
+nothing is shared with the package. ``python -m validation.cases.two_phase`` prints errors and costs.
 """
 
 import math
@@ -279,9 +278,3 @@ def solve(x, h_s, h_w, v_s, v_w, times, mixture: Mixture = NO_DRAG, slope: float
     h, q = found[:, :2], found[:, 2:]
     v = np.divide(q, h, out=np.zeros_like(q), where=h > dry)
     return TwoPhaseResult(x, h[:, 0], h[:, 1], v[:, 0], v[:, 1], steps, cpu)
-
-
-if __name__ == "__main__":
-    from validation.cases.two_phase import main
-
-    main()

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
-from validation.grids import dry_block, inclined, place, release, release_cap, release_slab
+from validation.grids import dry_block, inclined, place, release, release_cap, release_slab, set_free
+from validation.measure import body
 
 
 def nearest(grid, flow):
@@ -138,7 +139,7 @@ def test_a_body_that_settles_a_little_keeps_its_shape():
     flow = place(DebrisFlow(grid, **dry_block(0.9, particle_count=500)))
     p = flow._simulation.particles
     p.x += 0.01 * np.random.default_rng(4).normal(size=p.x.size)  # the spacing is 3.6 m
-    flow._simulation.set_free()
+    set_free(flow)
     flow.run_until_rest(60.0)
     flow.settle()
     # what was spread over the tents is a hundredth of the way in spacings, of a depth of 2 m
@@ -201,7 +202,7 @@ def test_slivers_that_a_flow_buries_cost_it_no_steps(flow):
         release(grid, np.where(grid.status_at_node == 0, depth, 0.0))
         run = DebrisFlow(grid, flow=flow, friction="voellmy", numerics={"particle_count": 300, "settle": False})
         run.run_one_step(4.0)
-        p = run._simulation.particles
+        p = body(run)
         heavy = p.volume > 0.1
         found.append((run.diagnostics.steps, np.linalg.norm(p.velocity, axis=0).max(), p.x[heavy].max()))
     (steps, fastest, front), (more, speed, other) = found

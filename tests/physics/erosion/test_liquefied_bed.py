@@ -8,7 +8,7 @@ import pytest
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.physics.erosion import LiquefiedBed
-from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap
+from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, throw
 
 from ..test_contracts import basal_state
 
@@ -52,8 +52,7 @@ def block(step):
     release_cap(grid, (80.0, 70.0), (50.0, 50.0), 1e-3, on_top=True)
     law = {"law": "liquefied_bed", "basal_friction_angle": math.degrees(math.atan(MU)), "highest_rate": 1e3}
     flow = place(DebrisFlow(grid, **dry_block(MU, law, particle_count=60)))
-    flow._simulation.set_free()
-    flow._simulation.particles.velocity[:] = START * np.array([[math.cos(ANGLE)], [0.0], [-math.sin(ANGLE)]])
+    throw(flow, START * np.array([math.cos(ANGLE), 0.0, -math.sin(ANGLE)]))
     _, _, before = centre_of_mass(flow)
     for _ in range(round(DURATION / step)):
         flow.run_one_step(step)

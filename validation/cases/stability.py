@@ -1,11 +1,10 @@
-"""The grids on which methods fail (docs/theory.md#failures)."""
+"""Grids on which methods fail (docs/theory.md#failures)."""
 
 import numpy as np
 from landlab import RasterModelGrid
 
+from landlab_debrisflow.exact import flows
 from validation.grids import inclined, release, release_cap, release_slab
-
-from .watch import G
 
 
 def raster(z, spacing):
@@ -99,21 +98,19 @@ def bowl(spacing=10.0, shift=0.0):
     """
     nodes = 2 * int(1.7 * RADIUS / spacing) + 1
     y, x = (np.mgrid[:nodes, :nodes] - nodes // 2) * spacing
-    r2 = x**2 + y**2
     if shift:
-        h = 1.0 - ((x - shift) ** 2 + y**2) / RADIUS**2
+        h, *_ = flows.thacker_planar(x, y, 0.0, RADIUS, DEPTH, orbit=(shift, 0.0))
     else:
-        width = 1.0 - AMPLITUDE
-        h = np.sqrt(1.0 - AMPLITUDE**2) / width - r2 / RADIUS**2 * (1.0 - AMPLITUDE**2) / width**2
-    h = DEPTH * np.maximum(0.0, h)
-    grid = raster(DEPTH * (r2 / RADIUS**2 - 1.0) + h, spacing)
+        first_radius = RADIUS * ((1.0 - AMPLITUDE) / (1.0 + AMPLITUDE)) ** 0.25
+        h, *_ = flows.thacker_curved(x, y, 0.0, RADIUS, DEPTH, first_radius)
+    grid = raster(flows.basin(x, y, RADIUS, DEPTH) + h, spacing)
     release(grid, h.ravel())
     return grid
 
 
 def period(shift=0.0):
     """Return the period of the bowl [s]."""
-    return 2.0 * np.pi * RADIUS / np.sqrt((2.0 if shift else 8.0) * G * DEPTH)
+    return (flows.thacker_planar_period if shift else flows.thacker_curved_period)(RADIUS, DEPTH)
 
 
 def wide_release(volume=1e6):

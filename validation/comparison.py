@@ -9,12 +9,10 @@ import math
 import numpy as np
 
 from landlab_debrisflow.exact import flows
-from validation.cases import basins as basins
-from validation.cases import dam_breaks
-from validation.cases import planes as planes
-from validation.hooks import fixed_smoothing_length
+from validation.cases import basins, dam_breaks, planes
 from validation.measure import Result, norms
 from validation.rivals import finite_volume
+from validation.rivals.fixed_length import fixed_smoothing_length
 
 G = 9.81
 
@@ -116,17 +114,17 @@ def slope_dam_break(count) -> Result:
 
 def thacker(name, count) -> Result:
     """One of Thacker's basins, 1000 m by 1 m, to the time of ours."""
-    frequency = math.sqrt((2.0 if name == "Thacker planar" else 8.0) * G) / basins.RADIUS
-    half = 1.6 * basins.RADIUS if name == "Thacker planar" else 1.2 * basins.RADIUS
+    planar = name == "Thacker planar"
+    period = (flows.thacker_planar_period if planar else flows.thacker_curved_period)(basins.RADIUS)
+    half = 1.6 * basins.RADIUS if planar else 1.2 * basins.RADIUS
     x, y, spacing = _square(-half, half, half, count)
 
     def solution(x, y, t):
-        if name == "Thacker planar":
+        if planar:
             return flows.thacker_planar(x, y, t, basins.RADIUS, orbit=(basins.SWING, 0.0))
         return flows.thacker_curved(x, y, t, basins.RADIUS, first_radius=0.8 * basins.RADIUS)
 
-    time = 2.25 * 2.0 * math.pi / frequency
-    return _volumes(name, x, y, spacing, time, solution, bed=flows.basin(x, y, basins.RADIUS))
+    return _volumes(name, x, y, spacing, 2.25 * period, solution, bed=flows.basin(x, y, basins.RADIUS))
 
 
 def circular_dam(count, ahead) -> Result:

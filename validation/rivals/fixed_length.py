@@ -1,25 +1,8 @@
-"""The only place where the suite reaches inside the engine (to count time steps), and the rival as a law of flow."""
+"""The paper's class of SPH as a law of flow: smoothing lengths stay as released."""
 
 from contextlib import contextmanager
 
-from landlab_debrisflow.model import step
 from landlab_debrisflow.physics.flow import OnePhase
-
-
-@contextmanager
-def counting_steps():
-    """Count the time steps taken inside the block; yields a list of one number."""
-    counted, original = [0], step.advance
-
-    def advance(*arguments):
-        counted[0] += 1
-        return original(*arguments)
-
-    step.advance = advance
-    try:
-        yield counted
-    finally:
-        step.advance = original
 
 
 class FixedLength:
