@@ -10,12 +10,14 @@ from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, give_number, same_word
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
-from ..physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
+from ..physics.contracts import BaseContact
 
-DRAINED = 1 + max(BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED)  # laws know it as prescribed with 0 Pa
 BASE = {
-    "by_erosion": BASE_BY_EROSION, "prescribed": BASE_PRESCRIBED, "impermeable": BASE_IMPERMEABLE, "drained": DRAINED,
-}  # fmt: skip
+    "by_erosion": BaseContact.BY_EROSION,
+    "prescribed": BaseContact.PRESCRIBED,
+    "impermeable": BaseContact.IMPERMEABLE,
+    "drained": BaseContact.DRAINED,
+}
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 WORDS = {"law": ("ale", "classical", "constant_ratio"), "advance": ("lazy", "every_step")}
 

@@ -8,10 +8,10 @@ import xarray as xr
 
 from ..core.variables import COLUMN_MEMORY
 from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
-from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
+from ..physics.contracts import BaseContact, ColumnForcing, ColumnState
 from ..physics.material import Material
 from ..record.attributes import NO_FILL, described, heading, quantity
-from .arguments import DRAINED, NUMBERS, OTHERS, History, Inputs, read_inputs, refuse
+from .arguments import NUMBERS, OTHERS, History, Inputs, read_inputs, refuse
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
@@ -208,7 +208,7 @@ class _Columns:
         base, bed = inputs.base.at(middle), inputs.bed_pressure(time, self.thickness)
         return ColumnForcing(
             self.volume, self.thickness, inputs.liquefaction_pressure(self.thickness), entrained,
-            np.where(base == DRAINED, 0.0, bed), np.where(base == DRAINED, np.int8(BASE_PRESCRIBED), base),
+            np.where(base == BaseContact.DRAINED, 0.0, bed), np.where(base == BaseContact.DRAINED, np.int8(BaseContact.PRESCRIBED), base),
             inputs.porosity_source.at(middle), inputs.coefficient_of_consolidation, WATER_TO_BUOYANT, inputs.bounded,
         )  # fmt: skip
 

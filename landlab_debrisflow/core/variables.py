@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-COLUMN_MEMORY = 26
+COLUMN_MEMORY = 31
 """Numbers a column law may keep per column from call to call."""
 
 

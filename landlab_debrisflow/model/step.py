@@ -10,9 +10,8 @@ import numpy as np
 from ..core.errors import SimulationError
 from ..core.jit import kernel
 from ..physics.contracts import (
-    BASE_BY_EROSION,
-    BASE_PRESCRIBED,
     BasalState,
+    BaseContact,
     ColumnForcing,
     ColumnState,
     FlowState,
@@ -29,7 +28,7 @@ STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`kinematics.STILL`) is left out of the sums over neighbours: the
 smoothing length has then settled."""
 
-BY_EROSION = np.array([BASE_BY_EROSION], np.int8)
+BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
 """What columns stand on where nothing is drained."""
 
 NO_SOURCE = np.zeros(1)
@@ -239,7 +238,7 @@ def forcing(sim, which: slice, granted, granted_ratio) -> ColumnForcing:
     if sim.bed.drained is not None:
         drained = sim.bed.drained[sim.node[which]]
         bed_pressure[drained] = 0.0
-        bases = np.where(drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
+        bases = np.where(drained, BaseContact.PRESCRIBED, BaseContact.BY_EROSION).astype(np.int8)
     return ColumnForcing(
         p.volume[which], p.thickness[which], load, granted, bed_pressure, bases,
         NO_SOURCE, sim.matter.coefficient_of_consolidation(p, which),

@@ -16,9 +16,7 @@ from landlab_debrisflow import solve_column
 from landlab_debrisflow.core.variables import COLUMN_MEMORY
 from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.contracts import (
-    BASE_BY_EROSION,
-    BASE_IMPERMEABLE,
-    BASE_PRESCRIBED,
+    BaseContact,
     ColumnForcing,
     ColumnState,
 )
@@ -26,7 +24,7 @@ from landlab_debrisflow.physics.contracts import (
 WATER_TO_BUOYANT = 1000.0 / 990.0
 LOAD_PER_METRE = 990.0 * 9.81
 PRESSURE = 1e4  # of columns without loading [Pa]
-BASES = BASE_BY_EROSION, BASE_PRESCRIBED, BASE_IMPERMEABLE
+BASES = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE
 COUNT, STEPS = 500, 200
 LOOKS = {0, 1, 4, 19, 59, 109, STEPS - 1}  # steps after which profiles are looked at
 ROUNDING = 1e-12  # thousands of operations at 2e-16 each, relative to the largest pressure; measured 4e-16
@@ -63,7 +61,7 @@ class Fleet:
         Whether thickness falls by strain too.
     """
 
-    def __init__(self, law, seed, bases=(BASE_BY_EROSION,), bounded=False, thins=True):
+    def __init__(self, law, seed, bases=(BaseContact.BY_EROSION,), bounded=False, thins=True):
         self.law, self.bases, self.bounded, self.thins = law, np.array(bases, np.int8), bounded, thins
         self.rng = rng = np.random.default_rng(seed)
         self.loads = law.loading_source != "none"
@@ -78,7 +76,7 @@ class Fleet:
         self.switching = 10.0 ** rng.uniform(-2.5, 0.0, COUNT)  # probability in a step
         self.erodes = rng.random(COUNT) < 0.5
         self.rate, self.ratio = self._rates(), rng.uniform(-1.0, 1.0, COUNT)
-        self.base, self.varied = np.full(COUNT, BASE_BY_EROSION, np.int8), rng.random(COUNT) < 0.3
+        self.base, self.varied = np.full(COUNT, BaseContact.BY_EROSION, np.int8), rng.random(COUNT) < 0.3
         self.load = self._loads()
         self.start = self._starts() * self.load[:, None] * (self.eta > 0.0)
         self.state = ColumnState(self.start.copy(), np.zeros((COUNT, COLUMN_MEMORY)), np.zeros(COUNT))
@@ -132,8 +130,8 @@ class Fleet:
 
     def prescribed(self):
         """Return which columns the bed has given its pressure in this step."""
-        by_erosion = (self.base == BASE_BY_EROSION) & (self.entrained > 0.0)
-        return by_erosion | (self.base == BASE_PRESCRIBED)
+        by_erosion = (self.base == BaseContact.BY_EROSION) & (self.entrained > 0.0)
+        return by_erosion | (self.base == BaseContact.PRESCRIBED)
 
     def profile(self):
         """Return the profiles brought to the present, without touching the columns [Pa]."""

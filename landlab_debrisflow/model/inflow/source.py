@@ -14,7 +14,7 @@ import numpy as np
 
 from ...core.errors import InputError
 from ...physics.column.initial import initial_profile
-from ...physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing, ColumnState
+from ...physics.contracts import MIXTURE, BaseContact, ColumnForcing, ColumnState
 from ...spatial.summation import SMOOTHING_RATIO
 from ..release.placing import THICKNESS_RANGE
 from .hydrograph import Hydrograph, Integral
@@ -266,7 +266,7 @@ class Inflow:
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         c_v = sim.matter.coefficient_of_consolidation(p, new)
         forcing = ColumnForcing(
-            p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BASE_IMPERMEABLE], np.int8),
+            p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BaseContact.IMPERMEABLE], np.int8),
             np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,
         )  # fmt: skip
         state = ColumnState(p.excess_pore_pressure[new], p.column_memory[new], p.column_clipped[new])

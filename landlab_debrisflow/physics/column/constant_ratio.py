@@ -27,6 +27,7 @@ class ConstantRatio:
     ratio: float = parameter("-", "excess pore pressure over its liquefaction value", 0.65, (0.0, 1.0))
 
     stores_pressure: ClassVar[bool] = False  # sources come to nothing
+    memory_size: ClassVar[int] = 0
 
     @property
     def levels(self) -> int:

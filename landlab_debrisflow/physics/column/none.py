@@ -21,6 +21,7 @@ class NoExcessPressure:
     """
 
     stores_pressure: ClassVar[bool] = False  # sources come to nothing
+    memory_size: ClassVar[int] = 0
 
     @property
     def levels(self) -> int:

@@ -8,7 +8,7 @@ from scipy.special import erfc
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.exact.columns import consolidation, growing_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.contracts import BASE_PRESCRIBED
+from landlab_debrisflow.physics.contracts import BaseContact
 
 from .driver import LOAD_PER_METRE, WATER_TO_BUOYANT, Columns, eta
 
@@ -62,7 +62,7 @@ def test_a_constant_ratio_survives_erosion(scheme, coefficient, ratio, by, strai
 def test_lax_wendroff_moves_a_prescribed_base_evenly():
     """From 1 Pa to 0 in one step of many sub-steps, below 0.2 Pa that a change of porosity made."""
     columns, z = unloaded(LAX_WENDROFF, eta(41), 1.0), (1.0 - eta(41)) / np.sqrt(0.08)
-    columns.standing[0], columns.source[0] = BASE_PRESCRIBED, 10.0
+    columns.standing[0], columns.source[0] = BaseContact.PRESCRIBED, 10.0
     columns.step(0.0, **UNIT)
     columns.step(0.02, ratio=0.0, load=UNIT["load"])
     fallen = (1.0 + 2.0 * z**2) * erfc(z) - 2.0 * z * np.exp(-(z**2)) / np.sqrt(np.pi)
@@ -147,7 +147,7 @@ def test_porosity_and_a_base_that_is_prescribed(scheme):
     columns = unloaded(scheme, np.zeros(11))
     columns.source[0] = 2.0
     assert columns.step(0.25, load=UNIT["load"])[0] == 0.5
-    columns.standing[0] = BASE_PRESCRIBED
+    columns.standing[0] = BaseContact.PRESCRIBED
     assert columns.step(0.25, ratio=0.0, load=UNIT["load"])[0] == 0.0
     assert_array_equal(columns.profile()[0], eta(11) % 1.0 > 0.0)
 
