@@ -1,10 +1,11 @@
 """Parameters and methods that the laws of consolidating columns share; no law itself."""
 
+import functools
 from typing import ClassVar
 
 from ...core.parameters import declared, parameter
 from ..contracts import ColumnForcing, ColumnState
-from .schemes.choices import BED_CONTACT, LOADING
+from .schemes.choices import BED_CONTACT, LOADING, Scheme, scheme_of
 from .schemes.registry import MEMORY_SIZE, advance, check_scheme, synchronise
 
 
@@ -39,6 +40,11 @@ class Consolidating:
     def memory_size(self) -> int:
         """Number of floats of a column in `ColumnState.memory`."""
         return MEMORY_SIZE[self.scheme]
+
+    @functools.cached_property
+    def choices(self) -> Scheme:
+        """The parameters as kernels read them."""
+        return scheme_of(self)
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""

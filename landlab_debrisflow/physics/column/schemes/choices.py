@@ -10,6 +10,7 @@ BED_CONTACT = ("dirichlet", "flux")
 class Scheme(NamedTuple):
     """The choices of a law."""
 
+    levels: int  # of a column, base and surface included
     moves_with_grains: bool  # grains keep their depth (ALE); else they keep their fraction of it (classical)
     loading: int  # a value of LOADING
     loads_by_erosion: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
@@ -25,6 +26,7 @@ def scheme_of(law) -> Scheme:
     """Return the choices of a law as kernels read them."""
     tolerance = LEVELS_ERROR / (law.levels - 1) ** 2 if law.tolerance is None else law.tolerance
     return Scheme(
+        levels=law.levels,
         moves_with_grains=law.moves_with_grains,
         loading=LOADING[law.loading_source],
         loads_by_erosion=law.source_includes_erosion,

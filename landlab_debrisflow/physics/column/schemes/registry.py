@@ -2,7 +2,6 @@
 
 from ....core.errors import ParameterError
 from . import stepwise
-from .choices import scheme_of
 from .lax_wendroff import advance_lax_wendroff
 from .lazy import state
 from .lazy.advance import advance_columns, synchronise_columns
@@ -30,10 +29,10 @@ def check_scheme(law) -> None:
 
 def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
     """Advance columns by ``dt`` seconds with the scheme of a law; see `ColumnLaw.advance`."""
-    ADVANCE[law.scheme](columns, forcing, dt, basal_pressure, scheme_of(law))
+    ADVANCE[law.scheme](columns, forcing, dt, basal_pressure, law.choices)
 
 
 def synchronise(law, columns, forcing) -> None:
     """Turn columns into pressures at levels, as they are now; other schemes than the default keep them so."""
     if law.scheme == "default":
-        synchronise_columns(columns, forcing, scheme_of(law))
+        synchronise_columns(columns, forcing, law.choices)

@@ -11,15 +11,16 @@ that called them all would be compiled with a copy of each, and most of them twi
 import numpy as np
 
 from ..contact import IMPERMEABLE, INFLOW, SEALED
-from .bookkeeping import AT_LEVELS, CHANGED, EXCESS, IN_MODES, DueColumns, accumulate, set_contact
+from .bookkeeping import AT_LEVELS, CHANGED, EXCESS, IN_MODES, accumulate, set_contact
 from .flux_base import grow_by_flux, impermeable_inflow
 from .impermeable_base import advance_modes, clip_modes, to_levels, to_modes
 from .modes import modes_of
 from .prescribed_base import commit, diffuse, grow
-from .state import lazy_columns
+from .state import LazyColumns, records
 
 ROUNDING = 1e-9
 """Pressure out of bounds over the load that a column in modes may have just after an update [-]."""
+NONE_DUE = (0, 0, 0)
 
 
 def advance_columns(columns, forcing, dt, basal_pressure, scheme):
@@ -38,29 +39,39 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     scheme : Scheme
         Choices of the law.
     """
-    columns, count, levels = lazy_columns(columns), basal_pressure.size, columns.profile.shape[1]
-    due = DueColumns(np.empty((3, count), np.int64), np.zeros(3, np.int64))
-    accumulate(columns, np.arange(count), forcing, dt, basal_pressure, scheme, due, EXCESS)
-    if due.counts[CHANGED]:
-        changed = due.take(CHANGED)
+    state, every = records(columns.memory), np.arange(basal_pressure.size)
+    due = np.empty((3, every.size), np.int64)
+    counts = accumulate(state, every, forcing, dt, basal_pressure, scheme, due, EXCESS)
+    if counts == NONE_DUE:
+        return
+    columns = LazyColumns(columns.profile, state, columns.clipped)
+    if count := counts[CHANGED]:
+        changed, due_then = due[CHANGED, :count], np.empty((3, count), np.int64)
         _switch(columns, changed, forcing, basal_pressure, scheme)
-        accumulate(columns, changed, forcing, dt, basal_pressure, scheme, due, EXCESS)
-    if due.counts[AT_LEVELS]:
-        _advance_levels(columns, due.take(AT_LEVELS), forcing, basal_pressure, False, scheme)
-    if due.counts[IN_MODES]:
-        advanced = due.take(IN_MODES)
-        advance_modes(columns, advanced, modes_of(levels))
-        accumulate(columns, advanced, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)  # the base as it is now
-        if due.counts[IN_MODES]:
-            out_of_bounds = due.take(IN_MODES)
-            clip_modes(columns, out_of_bounds, forcing, modes_of(levels))
-            accumulate(columns, out_of_bounds, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
+        counts_then = accumulate(state, changed, forcing, dt, basal_pressure, scheme, due_then, EXCESS)
+        _update(columns, due_then, counts_then, forcing, basal_pressure, scheme)
+    _update(columns, due, counts, forcing, basal_pressure, scheme)
 
 
 def synchronise_columns(columns, forcing, scheme):
     """Turn every column into pressures at levels, as they are now; arguments as in `advance_columns`."""
-    count = columns.profile.shape[0]
-    _synchronise(lazy_columns(columns), np.arange(count), forcing, np.empty(count), scheme)
+    count, columns = columns.profile.shape[0], LazyColumns(columns.profile, records(columns.memory), columns.clipped)
+    _synchronise(columns, np.arange(count), forcing, np.empty(count), scheme)
+
+
+def _update(columns, due, counts, forcing, basal_pressure, scheme):
+    """Advance the columns that `accumulate` has listed as due to the present."""
+    if count := counts[AT_LEVELS]:
+        _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
+    if count := counts[IN_MODES]:
+        selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
+        advance_modes(columns, selected, modes)
+        # the base as it is now, and the columns that are out of bounds
+        counts = accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
+        if count := counts[IN_MODES]:
+            selected = due[IN_MODES, :count].copy()
+            clip_modes(columns, selected, forcing, modes)
+            accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
 
 
 def _switch(columns, selected, forcing, basal_pressure, scheme):
@@ -69,7 +80,7 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
         volume=forcing.volume - forcing.entrained, liquefaction_pressure=columns.state["load"].copy()
     )
     _synchronise(columns, selected, before, basal_pressure, scheme)
-    closing, modes = np.empty(selected.size, np.int64), modes_of(columns.profile.shape[1])
+    closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
     if count := set_contact(columns, selected, forcing, scheme, closing):
         to_modes(columns, closing[:count], modes)
         advance_modes(columns, closing[:count], modes)
@@ -79,7 +90,7 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     """Turn some columns into pressures at levels, as they are now."""
     contact = columns.state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
-        modes = modes_of(columns.profile.shape[1])
+        modes = modes_of(scheme.levels)
         advance_modes(columns, in_modes, modes)
         to_levels(columns, in_modes, modes)
         commit(columns, in_modes, forcing, basal_pressure)
@@ -95,7 +106,7 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     over that jump and the thickness, are remembered.
     """
     contact, volume = columns.state["contact"][selected], forcing.volume[selected]
-    modes = modes_of(columns.profile.shape[1])
+    modes = modes_of(scheme.levels)
     if (some := selected[contact == SEALED]).size:
         impermeable_inflow(columns, some, forcing, scheme)
     growing = scheme.moves_with_grains & (volume > columns.state["volume_at_update"][selected])

@@ -4,9 +4,6 @@ Most columns are left alone in most steps. This is the loop that all of them pas
 """
 
 import math
-from typing import NamedTuple
-
-import numpy as np
 
 from .....core.jit import inner, kernel
 from ..choices import UNLOADED
@@ -21,20 +18,7 @@ GRADING = 0.5  # growth in one update over that since the contact began: the lay
 EXCESS = 0.1  # of the load by which levels above an impermeable base may be out of bounds until the next update
 
 CHANGED, IN_MODES, AT_LEVELS = range(3)
-"""Rows of `DueColumns`: contact is another one; due in modes; due at levels."""
-
-
-class DueColumns(NamedTuple):
-    """Lists of the columns that are due."""
-
-    indices: np.ndarray  # (3, n) of int; one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`
-    counts: np.ndarray  # (3,) of int; length of each list
-
-    def take(self, row: int) -> np.ndarray:
-        """Empty one list and return its indices, shape (count,)."""
-        taken = self.indices[row, : self.counts[row]].copy()
-        self.counts[row] = 0
-        return taken
+"""Lists of columns that `accumulate` writes: contact is another one; due in modes; due at levels."""
 
 
 @inner
@@ -50,30 +34,34 @@ def diffusion_of(coefficient_times_dt, thickness, volume, before):
 
 
 @kernel
-def accumulate(columns, selected, forcing, dt, basal_pressure, scheme, due, excess_allowed):
+def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess_allowed):
     """Add one step of the flow to the account of columns, write their basal pressure and list those that are due.
 
     Parameters
     ----------
-    columns : LazyColumns
+    state : ndarray of `state.LAYOUT`, shape (n,)
         Written in place.
-    selected : ndarray of int
+    selected : ndarray of int, shape (m,)
         Indices of the columns.
     forcing, dt, basal_pressure, scheme
         As in `advance.advance_columns`.
-    due : DueColumns
-        Indices are appended. A column whose contact is another one than before is listed as that, and nothing else is
-        done with it.
+    due : ndarray of int, shape (3, m) or wider
+        Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column whose contact
+        is another one than before is listed as that, and nothing else is done with it.
     excess_allowed : float
         Pressure out of bounds over the load, of a column in modes [-].
+
+    Returns
+    -------
+    changed, in_modes, at_levels : int
+        Lengths of the rows.
     """
     # plain arrays: those of a tuple are counted at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, beds, sources, bases = forcing.entrained, forcing.bed_pressure, forcing.porosity_source, forcing.base
     coefficients, lower, bounded = forcing.coefficient_of_consolidation, forcing.water_to_buoyant, forcing.bounded
-    state, indices, counts, cells = columns.state, due.indices, due.counts, columns.profile.shape[1] - 1
     loading, tolerance, stride = scheme.loading, scheme.tolerance, STRIDE * math.sqrt(scheme.tolerance)
-    changed, in_modes, at_levels = counts[CHANGED], counts[IN_MODES], counts[AT_LEVELS]
+    changed, in_modes, at_levels = 0, 0, 0
     for i in selected:
         column = state[i]
         volume, load, old_load = volumes[i], loads[i], column.load
@@ -81,7 +69,7 @@ def accumulate(columns, selected, forcing, dt, basal_pressure, scheme, due, exce
         if contact != contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux):
             if old_load == 0.0:  # a new column
                 column.load = load * before / volume if volume > 0.0 else load
-            indices[CHANGED, changed] = i
+            due[CHANGED, changed] = i
             changed += 1
             continue
         coefficient, source = coefficients[min(i, coefficients.size - 1)], sources[min(i, sources.size - 1)] * dt
@@ -100,7 +88,7 @@ def accumulate(columns, selected, forcing, dt, basal_pressure, scheme, due, exce
                 pressure = min(max(pressure, -lower * load), load)
             basal_pressure[i] = pressure
             if is_due:
-                indices[IN_MODES, in_modes] = i
+                due[IN_MODES, in_modes] = i
                 in_modes += 1
             continue
         pressure = beds[min(i, beds.size - 1)]
@@ -110,11 +98,11 @@ def accumulate(columns, selected, forcing, dt, basal_pressure, scheme, due, exce
         is_due = _is_due_at_levels(column, volume, load, pressure, stride)
         if is_due and column.contact_is_new != 0.0:  # levels must see the layer that forms over the base
             growth = 1.0 - column.volume_at_update / volume if scheme.moves_with_grains else 0.0
-            is_due = is_resolved(cells, growth, column.diffusion)
+            is_due = is_resolved(scheme.levels - 1, growth, column.diffusion)
         if is_due or contact >= INFLOW:
-            indices[AT_LEVELS, at_levels] = i
+            due[AT_LEVELS, at_levels] = i
             at_levels += 1
-    counts[CHANGED], counts[IN_MODES], counts[AT_LEVELS] = changed, in_modes, at_levels
+    return changed, in_modes, at_levels
 
 
 @inner

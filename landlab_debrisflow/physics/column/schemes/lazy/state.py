@@ -72,6 +72,6 @@ class LazyColumns(NamedTuple):
     clipped: np.ndarray  # (n,) pressure taken off by the bounds times thickness, so far [Pa m]
 
 
-def lazy_columns(columns) -> LazyColumns:
-    """Return views of the arrays of a `ColumnState`, its memory as records."""
-    return LazyColumns(columns.profile, columns.memory[:, :SIZE].view(LAYOUT)[:, 0], columns.clipped)
+def records(memory) -> np.ndarray:
+    """Return a view of `ColumnState.memory`, shape (n, `SIZE`), as records of `LAYOUT`, shape (n,)."""
+    return memory.view(LAYOUT)[:, 0]
