@@ -27,7 +27,7 @@ def eta_of(levels):
 @inner
 def is_prescribed(contact):
     """Return whether the bed prescribes the pressure at the base."""
-    return contact == PRESCRIBED or contact == ERODING
+    return contact in (PRESCRIBED, ERODING)
 
 
 @inner

@@ -85,9 +85,7 @@ def to_modes(columns, selected, modes):
             amplitude = 0.0
             if scale != 0.0:
                 amplitude = cells * 2**band * jump * mode_of_layer(math.sqrt(modes.band_rate) * 2**band, diffusion)
-                amplitude = (
-                    unseen if band == BANDS - 1 else math.copysign(min(abs(amplitude), abs(unseen)), unseen)
-                )
+                amplitude = unseen if band == BANDS - 1 else math.copysign(min(abs(amplitude), abs(unseen)), unseen)
             column.layer_bands[band] = amplitude
             unseen -= amplitude
         for band in range(BANDS):

@@ -54,9 +54,7 @@ def diffuse(columns, selected, forcing, ending, scheme, modes):
         is_new, flux = column.contact_is_new > 0.0, column.contact >= INFLOW
         condition, first, last = (NEUMANN, 0.0, 0.0) if flux else (DIRICHLET, base * scale, new_base / scale)
         kink = (base_level - base) * scale if is_new and not flux else 0.0
-        diffuse_profile(
-            profile, i, condition, diffusion, first, last, kink, load_gain, column.source_gain, modes, work
-        )
+        diffuse_profile(profile, i, condition, diffusion, first, last, kink, load_gain, column.source_gain, modes, work)
         for k in range(cells):
             profile[i, k] *= scale
         column.source_gain = column.deferred_diffusion = column.layer_jump = 0.0
