@@ -92,7 +92,7 @@ def main():
     for degrees in (20.0, 30.0, 45.0):
         words = f"travel of a cap of {PARTICLES} particles on {degrees:g} deg, relative error"
         table.add_row(words, f"{cap_travel(degrees):.1e}", "1e-3")
-    exact = np.array([420.902947, 30.9362319, 3.53498424])  # theory, section 6: x, v, h/h0
+    exact = np.array([420.902947, 30.9362319, 3.53498424])  # docs/theory.md#flow-solutions: x, v, h/h0
     error = grown_block(0.25) / exact - 1.0
     table.add_row("Hungr block at 20 s, relative error of x, v, h/h0", " ".join(f"{e:.1e}" for e in error), "1e-4")
     cold, warm = demo_cpu()

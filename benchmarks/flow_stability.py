@@ -1,6 +1,6 @@
 """Where flow models fail, at full size: python -m benchmarks.flow_stability [words of the cases to run]
 
-Every case of theory section 5 that concerns the flow, on the scenes of tests/stability, without friction unless it
+Every case of docs/theory.md#failures about the flow, on the scenes of tests/stability, without friction unless it
 says so. Printed per case: time steps and CPU time of one thread; the largest speed, and what the fall alone allows that
 particle, (2 g (top - z))^(1/2); how far all stay below the bound with waves, (2 g (top - z))^(1/2) + 2 (g h)^(1/2);
 the highest head of a particle over the top of the body at rest (half a failing cell beyond its nodes included); the

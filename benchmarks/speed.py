@@ -1,5 +1,8 @@
 """Speed: ``python -m benchmarks.speed [--quick] [--peer PYTHON]``; some ten minutes in all.
 
+With ``--against PYTHON``, an interpreter that has another version of the package, nothing but the cost of both is
+measured, in turns (speed_against.py).
+
 Rates in million particle-steps per second, N = 1e3 ... 1e6, beside what the machine can do; where the time of a scene
 goes; the scene, ensembles of it and the start; what a larger raster costs; with --peer, an interpreter that
 has avaframe 2.1, com1DFA at equal numbers and at equal error. Figures of one thread are CPU time, those of two wall
@@ -10,12 +13,14 @@ speed_scene.py, speed_grids.py, speed_peer.py.
 
 import argparse
 import os
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks import speed_against
 from benchmarks import speed_engine as engine
 from benchmarks import speed_grids as grids
 from benchmarks import speed_machine as machine
@@ -178,19 +183,9 @@ class Report:
     def of_the_peer(self, python, radii):
         both, equal = peers.compare(python, radii, self.put)
         heads = (
-            "particles",
-            "its steps",
-            "ours",
-            "its CPU s",
-            "ours",
-            "its M/s",
-            "ours",
-            "ratio",
-            "its L2, raster",
-            "its L2, particles",
-            "our L2, raster",
-            "particles",
-        )
+            "particles", "its steps", "ours", "its CPU s", "ours", "its M/s", "ours", "ratio", "its L2, raster",
+            "its L2, particles", "our L2, raster", "particles",
+        )  # fmt: skip
         made = table("com1DFA and ours, similarity solution, equal numbers", *heads)
         for radius, (its, mine) in zip(radii, both, strict=True):
             ratio = mine.rate / its.rate
@@ -263,7 +258,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="few particles only; writes nothing")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
+    parser.add_argument("--against", metavar="PYTHON", help="an interpreter with another version of the package")
     options = parser.parse_args()
+    if options.against:
+        sys.exit(not speed_against.compare(options.against, 2 if options.quick else speed_against.PROCESSES))
     most = 10_000 if options.quick else 1_000_000
     console = Console(record=True, width=180)
     load = os.getloadavg()[0]

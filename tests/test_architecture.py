@@ -1,4 +1,4 @@
-"""The shape of the package: layers, file length, names (design, sections 1 to 3 and 6)."""
+"""The shape of the package: layers, file length, names (CONTRIBUTING.md)."""
 
 import ast
 import importlib

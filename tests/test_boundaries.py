@@ -1,4 +1,4 @@
-"""Open, closed and NODATA nodes: who leaves, who stays, and what is never read (design, section 6)."""
+"""Open, closed and NODATA nodes: who leaves, who stays, and what is never read (docs/theory.md#boundaries)."""
 
 import logging
 

@@ -1,4 +1,4 @@
-"""The life of an event (design, section 5)."""
+"""The life of an event (docs/theory.md#event)."""
 
 import logging
 

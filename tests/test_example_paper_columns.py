@@ -66,7 +66,7 @@ def test_more_levels_come_closer(example, run, capsys):
         if "Fig. 8" not in name and "overshoot" not in name:  # the error of figure 8 comes from the time steps
             assert fine["default"][name] < 0.8 * error, name
     for name, error in coarse["lax_wendroff"].items():
-        if "overshoot" not in name:  # an overshoot stays, however fine the levels (theory, section 5)
+        if "overshoot" not in name:  # an overshoot stays, however fine the levels (docs/theory.md#failures)
             assert fine["lax_wendroff"][name] < 0.8 * error, name
 
 

@@ -1,4 +1,4 @@
-"""Closed forms of the excess pore pressure in a column (theory, section 6), to test and to teach with.
+"""Closed forms of the excess pore pressure in a column (docs/theory.md#column-solutions), to test and to teach with.
 
 Everything is dimensionless: depths over the thickness, ``xi`` = 0 at the base and 1 at the surface,
 times over the consolidation time (``h^2 / c_v``), pressures over the basal pressure.

@@ -135,7 +135,7 @@ def test_no_loading_leaves_the_source_by_loading_out():
 
 
 def test_the_literal_source_makes_pressure_out_of_nothing():
-    """p = rho' g y ln(h/max(h_0, y)) (theory, section 3); without it a dry bed leaves a cold column cold."""
+    """p = rho' g y ln(h/max(h_0, y)) (docs/theory.md#loading); without it a dry bed leaves a cold column cold."""
     given = {
         "coefficient_of_consolidation": 0.0,
         "basal_pressure": 0.0,

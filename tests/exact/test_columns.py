@@ -1,4 +1,4 @@
-"""The closed forms against the printed tables of theory, section 6, and against each other."""
+"""The closed forms against the printed tables of docs/theory.md#column-solutions and against each other."""
 
 import doctest
 

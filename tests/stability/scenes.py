@@ -1,4 +1,4 @@
-"""The grids on which methods fail (theory, section 5)."""
+"""The grids on which methods fail (docs/theory.md#failures)."""
 
 import numpy as np
 from landlab import RasterModelGrid
@@ -92,7 +92,7 @@ RADIUS, DEPTH, AMPLITUDE = 100.0, 1.0, 0.3  # Thacker's bowl: a, h0 [m], A
 
 
 def bowl(spacing=10.0, shift=0.0):
-    """Thacker's bowl (theory, section 6) at the instant it is at rest; exact for the terrain, a quadratic.
+    """Thacker's bowl (docs/theory.md#flow-solutions) at the instant it is at rest; exact for the terrain, a quadratic.
 
     With `shift` [m] the cap of the bowl at rest stands aside and swings to and fro as it is; without, its surface is
     curved and it spreads and gathers.

@@ -1,4 +1,4 @@
-"""Bodies on which methods fail: one cell, a million cubic metres, thin tails, stretched fronts (theory, section 5)."""
+"""Bodies on which methods fail (docs/theory.md#failures): one cell, a million m3, thin tails, stretched fronts."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Still water stays, friction stops and does not reverse, what rests stays (theory, section 5)."""
+"""Still water stays, friction stops and does not reverse, what rests stays (docs/theory.md#failures)."""
 
 import math
 

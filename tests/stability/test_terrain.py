@@ -1,4 +1,4 @@
-"""Ground on which methods fail: gullies, cliffs, pits, noise, walls, slopes of 0 and 80 degrees (theory, section 5)."""
+"""Ground on which methods fail (docs/theory.md#failures): gullies, cliffs, pits, noise, walls, 0 and 80 degrees."""
 
 import math
 

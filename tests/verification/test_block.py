@@ -1,4 +1,4 @@
-"""A block on a plane: rest, constant acceleration, and growth by erosion (theory, section 6).
+"""A block on a plane: rest, constant acceleration, and growth by erosion (docs/theory.md#flow-solutions).
 
 The block is a parabolic cap so thin that it hardly spreads. It lies *on* the plane: a scar below it would
 have to be climbed out of.
@@ -109,7 +109,7 @@ def test_a_block_that_erodes_follows_the_closed_form():
 
 
 def test_a_block_on_its_own_pore_pressure():
-    """Saturated, closed base: friction grows as the pressure drains at the surface (theory, section 6)."""
+    """Saturated, closed base: friction grows as the pressure drains at the surface (docs/theory.md#flow-solutions)."""
     found = blocks.consolidating_block(400)
     # measured .0026, .0018 and -.0056: pressure falls with the square root of time at first, and steps grow from small
     # ones; what it is in the end is known to what a column may be wrong by, .3/10^2 of the load. Without drainage the

@@ -1,4 +1,4 @@
-"""Parabolic caps that spread on a plane of 30 degrees (theory, section 6), measured by their second moments."""
+"""Parabolic caps that spread on a plane of 30 degrees (docs/theory.md#flow-solutions), by their second moments."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Theory, section 6, line by line, about columns, through `solve_column`: to the digits printed, and with what order.
+"""docs/theory.md#column-solutions, line by line, through `solve_column`: to the digits printed, and with what order.
 
 Undrained loading, a drained base, the literal source of one resolution and the digits of the closed forms themselves
 are in `tests/columns/test_solve.py` and `tests/physics/column`.

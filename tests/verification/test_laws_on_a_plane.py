@@ -1,4 +1,4 @@
-"""Each friction law in the flow, on a plane: terminal speed, arrest, no reversal, pore pressure (theory, 2 and 6).
+"""Each friction law in the flow, on a plane: terminal speed, arrest, no reversal, pressure (docs/theory.md#friction).
 
 The body is a single particle: without neighbours its thickness stays and nothing pushes it, so the closed forms for
 its own thickness hold to rounding.

@@ -1,4 +1,4 @@
-"""Rest: what friction holds stays for ever, what it brakes stops at the right time and stays (theory, section 6)."""
+"""Rest: what friction holds stays for ever, what it brakes stops at the right time and stays (docs/theory.md#rest)."""
 
 import math
 

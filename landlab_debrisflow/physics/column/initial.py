@@ -4,7 +4,7 @@ import numpy as np
 
 
 def initial_profile(liquefaction_pressure, levels: int, ratio, profile: str, basal_layer_fraction):
-    """Return the profiles of columns at release (theory, section 3, "Start").
+    """Return the profiles of columns at release (docs/theory.md#start).
 
     Parameters
     ----------

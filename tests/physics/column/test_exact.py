@@ -15,7 +15,7 @@ LAWS = (ALE, Classical)
 @pytest.mark.parametrize("source", ["overburden", "proportional"])
 @pytest.mark.parametrize("coefficient", [0.0, 1e-4, 1.0, 1e3])
 def test_a_constant_ratio_survives_any_erosion(source, coefficient):
-    """p = r_b rho' g y: the bed brings what the column already has (theory, section 6)."""
+    """p = r_b rho' g y: the bed brings what the column already has (docs/theory.md#column-solutions)."""
     columns = Columns(
         ALE(loading_source=source),
         0.65 * LOAD_PER_METRE * eta(11)[None],
@@ -86,7 +86,7 @@ def test_the_classical_column_spreads_what_it_erodes():
 
 
 def test_the_literal_source_is_not_made():
-    """A cold column over a dry bed erodes: no pressure out of nothing (p = rho' g y ln(...), theory 3)."""
+    """A cold column over a dry bed erodes: no pressure out of nothing (rho' g y ln(...), docs/theory.md#loading)."""
     columns = Columns(ALE(), np.zeros((1, 11)), [1.0])
     for _ in range(100):
         columns.step(0.05, entrained=0.02, ratio=0.0)

@@ -1,4 +1,4 @@
-"""The laws against closed forms and against the balance (theory, section 6)."""
+"""The laws against closed forms and against the balance (docs/theory.md#column-solutions)."""
 
 import numpy as np
 import pytest
@@ -198,7 +198,7 @@ def base_after_growth(number, passed):
 
 @pytest.mark.parametrize("number", [0.01, 1.0, 10.0, 32.0, 100.0, 320.0, 1e4])
 def test_what_friction_feels_after_erosion_stops(number):
-    """The figure of merit of numerics section 1, at every flow step: 4e-3 at 11 levels, 1.5e-3 at 21."""
+    """What is aimed at (docs/decisions.md, Column), at every flow step: 4e-3 at 11 levels, 1.5e-3 at 21."""
     passed = np.arange(1, 1601) / 1600.0 / number
     exact = base_after_growth(number, passed)
     for levels, allowed in ((11, 4e-3), (21, 1.5e-3)):

@@ -17,7 +17,7 @@ from .bases import DENSITY, G, ask, base, resistance
     [("linear", 0.0, 2.0), ("linear", 1.0 / 3.0, 4.0 / 3.0), ("parabolic", 0.0, 3.0), ("linear", 1.0, 0.0)],
 )
 def test_the_viscous_part_of_coulomb(profile, slip, factor):
-    """Theory, section 2: 2 mu v/h without slip, (4/3) mu v/h at v_b = v/3, parabolic 3 mu v/h."""
+    """docs/theory.md#friction: 2 mu v/h without slip, (4/3) mu v/h at v_b = v/3, parabolic 3 mu v/h."""
     law = Coulomb(viscosity=300.0, velocity_profile=profile)
     drag = ask(law, base([0.0, 5.0], thickness=1.5, slip_ratio=slip))[1]
     np.testing.assert_allclose(drag, factor * 300.0 / 1.5, rtol=1e-14)

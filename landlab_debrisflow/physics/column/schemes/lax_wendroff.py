@@ -1,7 +1,7 @@
 """The paper's scheme: Lax-Wendroff for the advection, then explicit diffusion, in sub-steps (eqs. 40 to 44).
 
 Kept to compare with. It is of second order where the profile is smooth, but overshoots at sharp fronts once the
-cell Péclet number is well above one, the more so the smaller the Courant number (theory, section 5). A base that
+cell Péclet number is well above one, the more so the smaller the Courant number (docs/theory.md#failures). A base that
 starts to be prescribed has its new pressure at once.
 """
 

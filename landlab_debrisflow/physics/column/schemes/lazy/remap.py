@@ -1,7 +1,7 @@
 """Remap of a column that erodes: grains keep their depth while new soil comes in at the base.
 
 With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before
-over the volume after: exactly, over any interval (theory, section 3; eq. 35 of Pastor et al., 2022,
+over the volume after: exactly, over any interval (docs/theory.md#column; eq. 35 of Pastor et al., 2022,
 integrated). What is interpolated is the effective stress where grains bear their overburden, so that a
 liquefied grain stays so. No new extreme appears. Interpolation does not keep the content of the column
 to the last digit; to put back what it lost makes an error of the first order in the width of a level.
