@@ -47,6 +47,7 @@ def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     steps = np.clip(np.ceil((DOUBLED - 1.0) / rate), LEAST_STEPS, MOST_STEPS)
     thickness = np.ones(count)
     columns = Columns(law, np.zeros((count, LEVELS)), thickness, liquefaction_pressure=np.ones(count), bounded=False)
+    columns.state.memory[:] = 0.0  # a new column may erode in its first step
     for step in range(int(3 * steps.max())):
         going, phase = step < 3 * steps, step // steps  # erodes, stands, erodes
         entrained = np.where(going & (phase != 1), rate, 0.0)

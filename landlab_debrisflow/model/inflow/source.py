@@ -13,8 +13,9 @@ until they have passed a strip as long as their support: what flows freely has a
 import numpy as np
 
 from ...core.errors import InputError
+from ...physics.column.driver import forcing_at_rest
 from ...physics.column.initial import initial_profile
-from ...physics.contracts import MIXTURE, BaseContact, ColumnForcing, ColumnState
+from ...physics.contracts import MIXTURE, BaseContact, ColumnState
 from ...spatial.summation import SMOOTHING_RATIO
 from ..release.placing import THICKNESS_RANGE
 from .hydrograph import Hydrograph, Integral
@@ -265,9 +266,9 @@ class Inflow:
         p, material, nothing = sim.particles, sim.physics.material, np.zeros(load.size)
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
         c_v = sim.matter.coefficient_of_consolidation(p, new)
-        forcing = ColumnForcing(
-            p.volume[new], p.thickness[new], load, nothing, nothing, np.array([BaseContact.IMPERMEABLE], np.int8),
-            np.zeros(1), c_v, material.bearing_density / material.buoyant_density, True,
+        forcing = forcing_at_rest(
+            p.volume[new], p.thickness[new], load, base=BaseContact.IMPERMEABLE, coefficient_of_consolidation=c_v,
+            water_to_buoyant=material.bearing_density / material.buoyant_density,
         )  # fmt: skip
         state = ColumnState(p.excess_pore_pressure[new], p.column_memory[new], p.column_clipped[new])
         sim.physics.column.advance(state, forcing, 0.0, p.basal_excess_pore_pressure[new])
