@@ -20,15 +20,13 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
-from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
+from landlab_debrisflow.physics.column.driver import Columns, depth_mean
 from validation.cases.column_reference import CASES, FILE, PER_UNIT
 
 LEVELS, SCHEMES = (11, 21, 41), ("default", "every step", "upwind", "lax_wendroff")
 REFERENCE = np.load(FILE)
 PECLET = REFERENCE["peclet"]
 DEAREST = 20_000  # explicit sub-steps in one step of the flow, beyond which a case is not run
-BOTH = np.zeros(1, np.int8)
 
 
 def law_of(case, scheme: str, levels: int):
@@ -73,32 +71,31 @@ class Run:
         self.thickness, self.volume, self.bed = history(case)
         eta, count = np.linspace(1.0, 0.0, levels), self.peclet.size
         start = {"cold": 0.0 * eta, "warm": np.where(eta > 0.0, 1.0, 0.0), "linear": case.start_base * eta}[case.start]
-        self.state = ColumnState(np.tile(start, (count, 1)), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
-        self.base, self.at = np.zeros(count), 0
-        self.advance(0)
-
-    def forcing(self, k):
-        """Return what a law is told of step ``k``."""
-        entrained = self.volume[k] - self.volume[k - 1] if k else 0.0
-        if entrained < 1e-13:  # rounding
-            entrained = 0.0
-        ones = np.ones_like(self.base)
-        load = self.thickness[k] if self.case.base_pressure(0.5, 2.0) != 1.0 else 1.0
-        return ColumnForcing(
-            self.volume[k] * ones, self.thickness[k] * ones, load * ones, entrained * ones, self.bed[k : k + 1], BOTH,
-            np.zeros(1), 1.0 / self.peclet, 0.0, False,
+        first = self.step(0)
+        self.columns = Columns(
+            self.law, np.tile(start, (count, 1)), first["thickness"], bounded=False, bed_pressure=self.bed[0],
+            liquefaction_pressure=first["liquefaction_pressure"], coefficient_of_consolidation=1.0 / self.peclet,
         )  # fmt: skip
+
+    def step(self, k):
+        """Return the members of `ColumnForcing` of step ``k``, each per column but the pressure of the bed."""
+        entrained = self.volume[k] - self.volume[k - 1] if k else 0.0
+        each = {
+            "volume": self.volume[k],
+            "thickness": self.thickness[k],
+            "liquefaction_pressure": self.thickness[k] if self.case.base_pressure(0.5, 2.0) != 1.0 else 1.0,
+            "entrained": entrained if entrained >= 1e-13 else 0.0,  # rounding
+        }
+        members = {name: np.full(self.peclet.size, value) for name, value in each.items()}
+        return members | {"bed_pressure": self.bed[k : k + 1]}
 
     def advance(self, k):
         """Take step ``k``."""
-        self.law.advance(self.state, self.forcing(k), 1.0 / PER_UNIT if k else 0.0, self.base)
-        self.at = k
+        self.columns.step(1.0 / PER_UNIT, **self.step(k))
 
     def mean(self):
         """Return the depth mean of the profiles, which stay as they are."""
-        copy = ColumnState(*(array.copy() for array in self.state))
-        self.law.synchronise(copy, self.forcing(self.at))
-        return (copy.profile[:, 1:-1].sum(axis=1) + 0.5 * copy.profile[:, 0]) / (copy.profile.shape[1] - 1)
+        return depth_mean(self.columns.profile())
 
 
 def affordable(scheme, levels):
@@ -120,7 +117,7 @@ def errors(name, scheme, levels):
         if (at := stored.get(k)) is None:
             continue
         exact = REFERENCE[f"{name}/p_base"][at, used]
-        base[used] = np.fmax(base[used], np.abs(run.base - exact) / run.bed[k])
+        base[used] = np.fmax(base[used], np.abs(run.columns.basal_pressure - exact) / run.bed[k])
         if k % 20 == 0:
             exact = REFERENCE[f"{name}/depth_mean"][at, used]
             mean[used] = np.fmax(mean[used], np.abs(run.mean() - exact) / run.bed[k])
@@ -134,11 +131,12 @@ def cost(name, scheme, levels, peclet, repeats=5):
     times = []
     for _ in range(repeats if substeps < 10.0 or scheme != "lax_wendroff" else 1):
         run = Run(CASES[name], scheme, levels, np.array([peclet]), count)
-        told = [run.forcing(k) for k in range(run.volume.size)]
+        columns = run.columns
+        forcings = [columns.forcing._replace(**run.step(k)) for k in range(1, run.volume.size)]
         begin = time.process_time()
-        for forcing in told[1:]:
-            run.law.advance(run.state, forcing, 1.0 / PER_UNIT, run.base)
-        times.append((time.process_time() - begin) / count / (len(told) - 1) * 1e9)
+        for forcing in forcings:
+            run.law.advance(columns.state, forcing, 1.0 / PER_UNIT, columns.basal_pressure)
+        times.append((time.process_time() - begin) / count / len(forcings) * 1e9)
     return statistics.median(times)
 
 
@@ -176,7 +174,10 @@ def main() -> None:
                 put(f"  {levels:3d} {scheme:14s}" + "".join(f"{value:10.1f}" for value in found))
     put("")
     for levels in LEVELS:
-        put(f"{levels} levels: {8 * (levels + MEMORY_SIZE + 2)} bytes per column, its basal pressure included")
+        put(
+            f"{levels} levels: {8 * (levels + ALE(levels=levels).memory_size + 2)} bytes per column, "
+            "its basal pressure included"
+        )
     many = Run(CASES["A_cold"], "default", 11, np.array([10.0]), 1_000_000)
     begin = time.process_time()
     for k in range(1, 21):

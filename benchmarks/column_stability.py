@@ -24,8 +24,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from landlab_debrisflow.physics.column import ALE
-from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
-from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
+from landlab_debrisflow.physics.column.driver import Columns
 
 SCHEMES = {"default": "default", "lax_wendroff": "Lax–Wendroff (the paper's)", "upwind": "hybrid upwind, implicit"}
 LEVELS = 11
@@ -41,25 +40,23 @@ def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     law, cells = ALE(levels=LEVELS, scheme=scheme, loading_source="none"), LEVELS - 1
     fourier, peclet = (array.ravel() for array in np.meshgrid(FOURIER, PECLET, indexing="ij"))
     count = fourier.size
-    state = ColumnState(np.zeros((count, LEVELS)), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
     over, under, failed = np.zeros(count), np.zeros(count), np.full(count, False)
     # lengths over the first thickness, time in steps: c_v = Fo dx^2 and e_R = Pe c_v/dx
     coefficient = fourier / cells**2
     rate = peclet * fourier / cells
     steps = np.clip(np.ceil((DOUBLED - 1.0) / rate), LEAST_STEPS, MOST_STEPS)
-    thickness, one, base = np.ones(count), np.ones(count), np.zeros(count)
+    thickness = np.ones(count)
+    columns = Columns(law, np.zeros((count, LEVELS)), thickness, liquefaction_pressure=np.ones(count), bounded=False)
+    columns.state.memory[:] = 0.0  # a new column may erode in its first step
     for step in range(int(3 * steps.max())):
         going, phase = step < 3 * steps, step // steps  # erodes, stands, erodes
         entrained = np.where(going & (phase != 1), rate, 0.0)
         thickness = thickness + entrained
-        forcing = ColumnForcing(
-            thickness, thickness, one, entrained, np.where(phase < 2, 1.0, 0.0), np.zeros(1, np.int8), np.zeros(1),
-            np.where(going, coefficient, 0.0), 0.0, False,
+        base = columns.step(
+            1.0, entrained, volume=thickness, thickness=thickness, liquefaction_pressure=1.0,
+            bed_pressure=np.where(phase < 2, 1.0, 0.0), coefficient_of_consolidation=np.where(going, coefficient, 0.0),
         )  # fmt: skip
-        law.advance(state, forcing, 1.0, base)
-        copy = ColumnState(*(array.copy() for array in state))
-        law.synchronise(copy, forcing._replace(entrained=np.zeros(count)))
-        seen = np.column_stack([copy.profile, base])
+        seen = np.column_stack([columns.profile(), base])
         failed |= going & ~np.isfinite(seen).all(axis=1)
         with np.errstate(invalid="ignore"):
             over = np.where(going, np.fmax(over, seen.max(axis=1) - 1.0), over)

@@ -12,13 +12,15 @@ from ..core.hints import did_you_mean, give_number
 from ..core.parameters import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
-from ..physics.contracts import BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED
+from ..physics.contracts import BaseContact
 from .declarations import CHOICES, NUMBERS, OTHERS
 
-DRAINED = 1 + max(BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED)  # laws know it as prescribed with 0 Pa
 BASE = {
-    "by_erosion": BASE_BY_EROSION, "prescribed": BASE_PRESCRIBED, "impermeable": BASE_IMPERMEABLE, "drained": DRAINED,
-}  # fmt: skip
+    "by_erosion": BaseContact.BY_EROSION,
+    "prescribed": BaseContact.PRESCRIBED,
+    "impermeable": BaseContact.IMPERMEABLE,
+    "drained": BaseContact.DRAINED,
+}
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 
 

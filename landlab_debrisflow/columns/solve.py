@@ -1,34 +1,19 @@
 """Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
 
 import math
-from numbers import Real
 
 import numpy as np
 import xarray as xr
 
 from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
-from ..physics.contracts import BASE_PRESCRIBED, ColumnForcing, ColumnState
-from ..physics.material import Material
-from ..record.attributes import NO_FILL, described, heading, quantity
-from .arguments import DRAINED, History, Inputs, read_inputs, refuse
-from .declarations import NUMBERS, OTHERS
+from ..physics.column.driver import Columns
+from ..physics.contracts import BaseContact
+from .arguments import History, Inputs, read_inputs, refuse
+from .dataset import dataset
 
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
 BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
-WATER_TO_BUOYANT = Material().water_density / Material().buoyant_density
-
-VARIABLES = {
-    "excess_pore_pressure": ("Pa", "excess pore pressure"),
-    "thickness": ("m", "slope-normal thickness"),
-    "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base, as friction feels it"),
-    "basal_peclet_number": ("-", "erosion rate times thickness over coefficient of consolidation"),
-    "front_height": ("-", "height over thickness of the front between old soil and new"),
-    "front_age": ("s", "time since the column first eroded"),
-    "consolidation_time": ("s", "thickness squared over coefficient of consolidation"),
-    "erosion_time": ("s", "thickness over erosion rate"),
-    "clipped_pressure": ("Pa m", "pressure taken off by the bounds times thickness, so far"),
-}
 
 
 def solve_column(
@@ -131,23 +116,25 @@ def solve_column(
     """
     given = dict(locals())
     inputs = read_inputs(given)
-    columns, output = _Columns(inputs), []
+    history, output = _History(inputs), []
     for time in inputs.times:
-        columns.advance_to(float(time))
-        output.append(columns.look())
-    return _dataset(inputs, given, output)
+        history.advance_to(float(time))
+        output.append(history.output())
+    return dataset(inputs, given, output)
 
 
-class _Columns:
+class _History:
     """Columns under way; the volume is over 1 m2 at time 0, so that it grows by erosion only."""
 
     def __init__(self, inputs: Inputs):
-        self.inputs, self.time, n = inputs, 0.0, inputs.thickness.size
-        self.thickness, self.volume = inputs.thickness.copy(), inputs.thickness.copy()
-        self.state = ColumnState(inputs.profile.copy(), np.zeros((n, inputs.law.memory_size)), np.zeros(n))
-        self.base = np.zeros(n)
+        self.inputs, self.time = inputs, 0.0
+        load = inputs.liquefaction_pressure(inputs.thickness)
+        self.columns = Columns(
+            inputs.law, inputs.profile, inputs.thickness, liquefaction_pressure=load, bounded=inputs.bounded,
+            coefficient_of_consolidation=inputs.coefficient_of_consolidation,
+            **self._base(0.0, 0.0, inputs.thickness),
+        )  # fmt: skip
         self.first_eroded = np.where(inputs.entrainment_rate.at(0.0) > 0.0, 0.0, np.nan)
-        inputs.law.advance(self.state, self.forcing(0.0, np.zeros(n)), 0.0, self.base)
         self.varies = any(isinstance(field, History) and field.varies for field in inputs)
 
     def advance_to(self, end: float) -> None:
@@ -172,7 +159,8 @@ class _Columns:
             dt = min(dt, CHANGE * inputs.times[-1])
         for _ in range(100):  # the rates are those of the middle, which comes nearer with a shorter step
             middle = self.time + 0.5 * dt
-            growth, strain = inputs.entrainment_rate.at(middle) / self.thickness, inputs.divergence_rate.at(middle)
+            growth = inputs.entrainment_rate.at(middle) / self.columns.forcing.thickness
+            strain = inputs.divergence_rate.at(middle)
             fastest = max(growth.max(), np.abs(strain).max()) / CHANGE
             if dt * fastest <= 1.0 + 1e-9:
                 break
@@ -181,14 +169,14 @@ class _Columns:
 
     def _step(self, end: float) -> None:
         """Advance to `end` [s]: thickness and volume exactly for rates that are constant in the step."""
-        inputs, dt, middle = self.inputs, end - self.time, 0.5 * (self.time + end)
+        inputs, dt, middle, before = self.inputs, end - self.time, 0.5 * (self.time + end), self.columns.forcing
         rate, strain = inputs.entrainment_rate.at(middle), inputs.divergence_rate.at(middle) * dt
         with np.errstate(over="ignore"):  # refused below
             gain = np.divide(np.expm1(strain), strain, out=np.ones_like(strain), where=strain != 0.0)
-            growth = rate * dt / self.thickness * gain  # of the volume
-            thickness = self.thickness * np.exp(-strain) * (1.0 + growth)
-            entrained = self.volume * growth
-            volume = self.volume + entrained
+            growth = rate * dt / before.thickness * gain  # of the volume
+            thickness = before.thickness * np.exp(-strain) * (1.0 + growth)
+            entrained = before.volume * growth
+            volume = before.volume + entrained
         low, high = BOUNDS
         bad = np.flatnonzero(~((thickness > low) & (thickness < high) & (volume < high)))
         if bad.size:
@@ -197,57 +185,38 @@ class _Columns:
                 f"t = {end:g} s; both must stay in ({low:g}, {high:g}): lower divergence_rate or entrainment_rate, or "
                 "end times before that"
             )
-        self.thickness, self.volume = thickness, volume
         self.first_eroded = np.where(np.isnan(self.first_eroded) & (rate > 0.0), self.time, self.first_eroded)
         self.time = end
-        inputs.law.advance(self.state, self.forcing(end, entrained, middle), dt, self.base)
-
-    def forcing(self, time: float, entrained, middle: float | None = None) -> ColumnForcing:
-        """Return what a law is told of a step that ends at `time`."""
-        inputs, middle = self.inputs, time if middle is None else middle
-        base, bed = inputs.base.at(middle), inputs.bed_pressure(time, self.thickness)
-        return ColumnForcing(
-            self.volume, self.thickness, inputs.liquefaction_pressure(self.thickness), entrained,
-            np.where(base == DRAINED, 0.0, bed), np.where(base == DRAINED, np.int8(BASE_PRESCRIBED), base),
-            inputs.porosity_source.at(middle), inputs.coefficient_of_consolidation, WATER_TO_BUOYANT, inputs.bounded,
+        self.columns.step(
+            dt, entrained, thickness=thickness, liquefaction_pressure=inputs.liquefaction_pressure(thickness),
+            **self._base(end, middle, thickness),
         )  # fmt: skip
 
-    def look(self) -> dict[str, np.ndarray]:
-        """Return what is put out, on copies: a look does not advance a column that is left alone."""
-        inputs, rate = self.inputs, self.inputs.entrainment_rate.at(self.time)
-        state = ColumnState(*(array.copy() for array in self.state))
-        inputs.law.synchronise(state, self.forcing(self.time, np.zeros_like(self.base)))
-        coefficient = inputs.coefficient_of_consolidation
+    def _base(self, time: float, middle: float, thickness) -> dict[str, np.ndarray]:
+        """Return the members of `ColumnForcing` that come from the bed, in a step that ends at `time` [s]."""
+        inputs = self.inputs
+        base, bed = inputs.base.at(middle), inputs.bed_pressure(time, thickness)
+        drained = base == BaseContact.DRAINED
         return {
-            "excess_pore_pressure": state.profile,
-            "thickness": self.thickness,
-            # nothing has been in contact with the bed yet at time 0
-            "basal_excess_pore_pressure": self.base.copy() if self.time > 0.0 else state.profile[:, 0],
-            "basal_peclet_number": basal_peclet_number(rate, self.thickness, coefficient),
-            "front_height": 1.0 - inputs.thickness / self.volume,
-            "front_age": self.time - self.first_eroded,
-            "consolidation_time": consolidation_time(self.thickness, coefficient),
-            "erosion_time": erosion_time(self.thickness, rate),
-            "clipped_pressure": state.clipped,
+            "base": np.where(drained, BaseContact.PRESCRIBED, base),
+            "bed_pressure": np.where(drained, 0.0, bed),
+            "porosity_source": inputs.porosity_source.at(middle),
         }
 
-
-def _dataset(inputs: Inputs, given, output) -> xr.Dataset:
-    """Return the output as a Dataset."""
-    data = {}
-    for name, (unit, words) in VARIABLES.items():
-        dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
-        data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))
-    start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
-    data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
-    height = "height above the base over thickness, 0 at the base, 1 at the surface"
-    coordinates = {
-        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
-        "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
-        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
-    }
-    attributes, units = heading(), {n: argument.metadata["unit"] for n, argument in (NUMBERS | OTHERS).items()}
-    for name, value in given.items():
-        if isinstance(value, str | Real):
-            attributes |= quantity(name, value, units.get(name, "-"))
-    return xr.Dataset(data, coordinates, attributes)
+    def output(self) -> dict[str, np.ndarray]:
+        """Return the arrays of `dataset.VARIABLES` now; output does not advance a column that is left alone."""
+        inputs, columns, rate = self.inputs, self.columns, self.inputs.entrainment_rate.at(self.time)
+        coefficient, thickness = inputs.coefficient_of_consolidation, columns.forcing.thickness
+        state = columns.synchronised()
+        return {
+            "excess_pore_pressure": state.profile,
+            "thickness": thickness,
+            # nothing has been in contact with the bed yet at time 0
+            "basal_excess_pore_pressure": columns.basal_pressure.copy() if self.time > 0.0 else state.profile[:, 0],
+            "basal_peclet_number": basal_peclet_number(rate, thickness, coefficient),
+            "front_height": 1.0 - inputs.thickness / columns.forcing.volume,
+            "front_age": self.time - self.first_eroded,
+            "consolidation_time": consolidation_time(thickness, coefficient),
+            "erosion_time": erosion_time(thickness, rate),
+            "clipped_pressure": state.clipped,
+        }

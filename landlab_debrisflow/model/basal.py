@@ -7,17 +7,16 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..physics.contracts import (
-    BASE_BY_EROSION,
-    BASE_PRESCRIBED,
     BasalState,
     BasalStress,
+    BaseContact,
     ColumnForcing,
     ColumnLaw,
     ColumnState,
     Phases,
 )
 
-BY_EROSION = np.array([BASE_BY_EROSION], np.int8)
+BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
 """What columns stand on where nothing is drained."""
 
 NO_SOURCE = np.zeros(1)
@@ -172,7 +171,7 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
     if columns.drained is not None:
         drained = columns.drained[p.nearest_node[which]]
         bed_pressure[drained] = 0.0
-        bases = np.where(drained, BASE_PRESCRIBED, BASE_BY_EROSION).astype(np.int8)
+        bases = np.where(drained, BaseContact.PRESCRIBED, BaseContact.BY_EROSION).astype(np.int8)
     return ColumnForcing(
         volume=p.volume[which],
         thickness=p.thickness[which],

@@ -5,6 +5,7 @@ arrays it is given, writes only those named ``out`` (or named in the docstring),
 others in Python: no law knows another.
 """
 
+from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from numpy import ndarray as Array
@@ -33,37 +34,60 @@ class BasalState(NamedTuple):
     variables: Any  # the law's own variables as attributes, (n,): written in place, they are there in the next step
 
 
+class BaseContact(IntEnum):
+    """Condition at the base of a column; a step is told one of the first three.
+
+    ================ ==================== ============================ ===========================
+    contact          base of the column   pressure of incoming soil    stands for
+    ================ ==================== ============================ ===========================
+    BY_EROSION       as soil comes in     that of the bed              ERODING (INFLOW if the law's
+                                                                       ``bed_contact`` is "flux") while
+                                                                       soil comes in, IMPERMEABLE else
+    IMPERMEABLE      dp/dy = 0            that of the base: SEALED     itself
+    PRESCRIBED       p of the bed         that of the bed              itself
+    ERODING          p of the bed         that of the bed              itself
+    INFLOW           nothing diffuses in  that of the bed              itself
+    SEALED           nothing diffuses in  that of the column's base    itself
+    DRAINED          p = 0                0                            PRESCRIBED with 0 Pa
+    ================ ==================== ============================ ===========================
+    """
+
+    BY_EROSION = 0
+    IMPERMEABLE = 1
+    PRESCRIBED = 2
+    ERODING = 3
+    INFLOW = 4
+    SEALED = 5
+    DRAINED = 6
+
+
 class ColumnState(NamedTuple):
     """The pore-pressure columns of n particles, written by the column law.
 
-    ``profile`` and ``memory`` are what the law makes of them, so that it may leave a column alone, or
+    ``profile`` and ``memory`` are in a form of the law's own, so that it may leave a column alone, or
     keep it in another form, while nothing is missed; a law's ``synchronise`` turns them into pressures.
     A new column has its pressure at equally spaced levels in ``profile``, index 0 at the base and the
     last at the surface, and zeros in ``memory``; its first ``advance``, of 0 seconds, tells it its load.
     """
 
     profile: Array  # (n, levels) [Pa]
-    memory: Array  # (n, the law's memory_size)
+    memory: Array  # (n, memory_size of the law), the law's own
     clipped: Array  # (n,), pressure taken off by the bounds, times thickness, so far [Pa m]
 
 
-BASE_BY_EROSION, BASE_IMPERMEABLE, BASE_PRESCRIBED = 0, 1, 2
-"""What a column stands on: prescribed while it erodes and else impermeable; always the one; always the other."""
-
-
 class ColumnForcing(NamedTuple):
-    """What the flow did to n columns in one step; arrays have length n, those marked (1) also 1."""
+    """Change of n columns in one step of the flow; arrays have length n, those marked (1) also 1."""
 
     volume: Array  # after the step [m3]
     thickness: Array  # after the step, slope-normal [m]
     liquefaction_pressure: Array  # after the step [Pa]
     entrained: Array  # volume granted by the bed in the step [m3]; > 0 means eroding
     bed_pressure: Array  # (1) of the soil that came in, or of the bed below [Pa]
-    base: Array  # (1) BASE_BY_EROSION or what else it is (int8)
+    base: Array  # (1) BaseContact: BY_EROSION, IMPERMEABLE or PRESCRIBED (int8)
     porosity_source: Array  # (1) pressure made by a change of porosity, everywhere in the column [Pa s-1]
     coefficient_of_consolidation: Array  # (1) [m2 s-1]
     water_to_buoyant: float  # density of water over buoyant density: lower bound of the pressure ratio [-]
-    bounded: bool  # whether pressure is held between suction and liquefaction
+    bounded: bool  # whether pressure is kept between suction and liquefaction
 
 
 class FrictionLaw(Protocol):
@@ -87,11 +111,14 @@ class ColumnLaw(Protocol):
     """Excess pore pressure under a particle."""
 
     stores_pressure: ClassVar[bool]  # whether a source of pressure raises the pressure in the column
-    memory_size: ClassVar[int]  # numbers that the law keeps per column from call to call
 
     @property
     def levels(self) -> int:
         """Number of levels of a column, at least 2."""
+
+    @property
+    def memory_size(self) -> int:
+        """Number of floats of a column in `ColumnState.memory`."""
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure: Array) -> None:
         """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""

@@ -14,19 +14,13 @@ from numpy.testing import assert_allclose
 
 from landlab_debrisflow import solve_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
-from landlab_debrisflow.physics.contracts import (
-    BASE_BY_EROSION,
-    BASE_IMPERMEABLE,
-    BASE_PRESCRIBED,
-    ColumnForcing,
-    ColumnState,
-)
+from landlab_debrisflow.physics.column.driver import Columns
+from landlab_debrisflow.physics.contracts import BaseContact
 
 WATER_TO_BUOYANT = 1000.0 / 990.0
 LOAD_PER_METRE = 990.0 * 9.81
 PRESSURE = 1e4  # of columns without loading [Pa]
-BASES = BASE_BY_EROSION, BASE_PRESCRIBED, BASE_IMPERMEABLE
+BASES = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE
 COUNT, STEPS = 500, 200
 LOOKS = {0, 1, 4, 19, 59, 109, STEPS - 1}  # steps after which profiles are looked at
 ROUNDING = 1e-12  # thousands of operations at 2e-16 each, relative to the largest pressure; measured 4e-16
@@ -63,7 +57,7 @@ class Fleet:
         Whether thickness falls by strain too.
     """
 
-    def __init__(self, law, seed, bases=(BASE_BY_EROSION,), bounded=False, thins=True):
+    def __init__(self, law, seed, bases=(BaseContact.BY_EROSION,), bounded=False, thins=True):
         self.law, self.bases, self.bounded, self.thins = law, np.array(bases, np.int8), bounded, thins
         self.rng = rng = np.random.default_rng(seed)
         self.loads = law.loading_source != "none"
@@ -78,12 +72,15 @@ class Fleet:
         self.switching = 10.0 ** rng.uniform(-2.5, 0.0, COUNT)  # probability in a step
         self.erodes = rng.random(COUNT) < 0.5
         self.rate, self.ratio = self._rates(), rng.uniform(-1.0, 1.0, COUNT)
-        self.base, self.varied = np.full(COUNT, BASE_BY_EROSION, np.int8), rng.random(COUNT) < 0.3
+        self.base, self.varied = np.full(COUNT, BaseContact.BY_EROSION, np.int8), rng.random(COUNT) < 0.3
         self.load = self._loads()
         self.start = self._starts() * self.load[:, None] * (self.eta > 0.0)
-        self.state = ColumnState(self.start.copy(), np.zeros((COUNT, MEMORY_SIZE)), np.zeros(COUNT))
-        self.friction, self.entrained, self.bed = np.zeros(COUNT), np.zeros(COUNT), self.ratio * self.load
-        law.advance(self.state, self.forcing(), 0.0, self.friction)
+        self.entrained, self.bed = np.zeros(COUNT), self.ratio * self.load
+        self.columns = Columns(
+            law, self.start, self.thickness, liquefaction_pressure=self.load, bed_pressure=self.bed, base=self.base,
+            coefficient_of_consolidation=self.coefficient * self.dt, water_to_buoyant=WATER_TO_BUOYANT,
+            bounded=bounded,
+        )  # fmt: skip
 
     def _rates(self):
         return 10.0 ** self.rng.uniform(-6.0, np.log10(0.3), COUNT)
@@ -99,12 +96,15 @@ class Fleet:
         layer = (self.eta > self.rng.random((COUNT, 1))) * top
         return np.select([kind == 0, kind == 1, kind == 2], [rough, 0.0 * rough, self.eta + 0.0 * rough], layer)
 
-    def forcing(self):
-        passed = self.coefficient * self.dt
-        return ColumnForcing(
-            self.volume.copy(), self.thickness.copy(), self.load.copy(), self.entrained, self.bed, self.base.copy(),
-            np.zeros(1), passed, WATER_TO_BUOYANT, self.bounded,
-        )  # fmt: skip
+    @property
+    def state(self):
+        """State of the columns."""
+        return self.columns.state
+
+    @property
+    def friction(self):
+        """Basal pressure that friction feels [Pa]."""
+        return self.columns.basal_pressure
 
     def step(self):
         """Take one step of the flow."""
@@ -128,18 +128,19 @@ class Fleet:
         self.thickness = self.thickness * (1.0 + growth) * strain
         self.load = self._loads()
         self.bed = self.ratio * self.load
-        self.law.advance(self.state, self.forcing(), 1.0, self.friction)
+        self.columns.step(
+            1.0, self.entrained, volume=self.volume, thickness=self.thickness, liquefaction_pressure=self.load,
+            bed_pressure=self.bed, base=self.base, coefficient_of_consolidation=self.coefficient * self.dt,
+        )  # fmt: skip
 
     def prescribed(self):
         """Return which columns the bed has given its pressure in this step."""
-        by_erosion = (self.base == BASE_BY_EROSION) & (self.entrained > 0.0)
-        return by_erosion | (self.base == BASE_PRESCRIBED)
+        by_erosion = (self.base == BaseContact.BY_EROSION) & (self.entrained > 0.0)
+        return by_erosion | (self.base == BaseContact.PRESCRIBED)
 
     def profile(self):
         """Return the profiles brought to the present, without touching the columns [Pa]."""
-        copy = ColumnState(*(array.copy() for array in self.state))
-        self.law.synchronise(copy, self.forcing()._replace(entrained=np.zeros(COUNT)))
-        return copy.profile
+        return self.columns.profile()
 
 
 def law_of(law, levels, tolerance, contact, source):
@@ -259,20 +260,20 @@ def test_a_small_excess_does_not_grow(levels, contact):
     """
     law, eta = law_of(ALE, levels, 0.0, contact, "overburden"), np.linspace(1.0, 0.0, levels)
     profile = (1.0 + 1e-9) * LOAD_PER_METRE * eta * (np.arange(levels) < levels - 2)
-    state = ColumnState(profile[None].copy(), np.zeros((1, MEMORY_SIZE)), np.zeros(1))
-    thickness, worst, base = np.ones(1), 0.0, np.zeros(1)
+    columns = Columns(
+        law, profile[None], np.ones(1), liquefaction_pressure=LOAD_PER_METRE, bed_pressure=LOAD_PER_METRE,
+        coefficient_of_consolidation=1e-5, bounded=False,
+    )  # fmt: skip
+    thickness, worst = np.ones(1), 0.0
     for step in range(STEPS):
         entrained = (0.01 if step else 0.0) * thickness
         thickness = thickness + entrained
         load = LOAD_PER_METRE * thickness
-        forcing = ColumnForcing(
-            thickness, thickness, load, entrained, load, np.zeros(1, np.int8), np.zeros(1), 1e-5 * thickness**2,
-            WATER_TO_BUOYANT, False,
+        columns.step(
+            float(step > 0), entrained, volume=thickness, thickness=thickness, liquefaction_pressure=load,
+            bed_pressure=load, coefficient_of_consolidation=1e-5 * thickness**2,
         )  # fmt: skip
-        law.advance(state, forcing, float(step > 0), base)
-        copy = ColumnState(*(array.copy() for array in state))
-        law.synchronise(copy, forcing)
-        worst = max(worst, ((copy.profile - load[:, None] * eta) / load[:, None]).max())
+        worst = max(worst, ((columns.profile() - load[:, None] * eta) / load[:, None]).max())
     assert worst <= 1e-9 * (1.0 + 1e-3)  # what it had
 
 
@@ -337,22 +338,22 @@ def test_what_thinning_takes_off_is_counted(steps):
     rng = np.random.default_rng(steps)
     ratio, shrunk = rng.uniform(-1.0, 1.0, COUNT), rng.uniform(0.05, 1.0, COUNT)
     eta = np.linspace(1.0, 0.0, 11)
-    thickness, load = np.ones(COUNT), np.full(COUNT, LOAD_PER_METRE)
-    state = ColumnState(np.outer(ratio * load, eta), np.zeros((COUNT, MEMORY_SIZE)), np.zeros(COUNT))
-    law, none, one, base = ALE(), np.zeros(COUNT), np.ones(COUNT), np.zeros(COUNT)
-    pressure, taken = ratio * load, none.copy()
+    load = np.full(COUNT, LOAD_PER_METRE)
+    columns = Columns(
+        ALE(), np.outer(ratio * load, eta), np.ones(COUNT), liquefaction_pressure=load,
+        water_to_buoyant=WATER_TO_BUOYANT,
+    )  # fmt: skip
+    pressure, taken = ratio * load, np.zeros(COUNT)
     for step in range(steps + 1):
         thickness = shrunk ** (step / steps)
         before, load = load, LOAD_PER_METRE * thickness
-        forcing = ColumnForcing(
-            one, thickness, load, none, none, np.zeros(1, np.int8), np.zeros(1), np.zeros(1), WATER_TO_BUOYANT, True
-        )
-        law.advance(state, forcing, 1.0, base)
+        base = columns.step(1.0, thickness=thickness, liquefaction_pressure=load)
         free = pressure + load - before
         pressure = np.maximum(free, -WATER_TO_BUOYANT * load)
         taken += 0.5 * (pressure - free) * thickness  # eta has the mean 0.5
         assert_allclose(base, pressure, atol=1e-9 * LOAD_PER_METRE)  # within 1e-9 of a bound the law need not look
-        law.synchronise(state, forcing)  # the base is held at once, what lies above it when it is looked at
+        columns.synchronise()  # the base is clipped at once, the levels above it then
+    state = columns.state
     must = ratio - 1.0 + shrunk < -WATER_TO_BUOYANT * shrunk * (1.0 + 1e-6)
     may = ratio - 1.0 + shrunk < -WATER_TO_BUOYANT * shrunk * (1.0 - 1e-6)
     assert 50 < must.sum() < COUNT - 50
@@ -375,7 +376,7 @@ def test_nothing_is_clipped_that_stays_within_bounds(seed, levels, tolerance, co
             fleet.step()
             content = np.maximum(content, fleet.load * fleet.thickness)
             if step in LOOKS:
-                fleet.law.synchronise(fleet.state, fleet.forcing()._replace(entrained=np.zeros(COUNT)))
+                fleet.columns.synchronise()
         # as many roundings of the largest content as there are advances
         assert np.all(fleet.state.clipped <= STEPS * ROUNDING * content)
 
@@ -392,7 +393,7 @@ def test_what_leaves_its_bounds_is_clipped(law, levels, contact):
     for _ in range(60):
         for fleet in (held, free):
             fleet.step()
-            fleet.law.synchronise(fleet.state, fleet.forcing()._replace(entrained=np.zeros(COUNT)))
+            fleet.columns.synchronise()
         ratio, kept = (fleet.state.profile[:, :-1] / fleet.load[:, None] / fleet.eta[:-1] for fleet in (free, held))
         assert np.all((kept >= -WATER_TO_BUOYANT * (1.0 + ROUNDING)) & (kept <= 1.0 + ROUNDING))
         outside |= np.any(ratio < -WATER_TO_BUOYANT * (1.0 + 1e-6), axis=1)
@@ -416,18 +417,17 @@ def test_noise_of_the_thickness_makes_no_pressure(times_step, steps, tolerance):
     -2.3e-3, -3.0e-3, -3.3e-3 for T_c = 10 ... 1e6 and 200 steps. With a floor at 0 it would be +.025 and more.
     """
     count, rng = 400, np.random.default_rng(0)
-    law, one, none = ALE(tolerance=tolerance), np.ones(count), np.zeros(count)
-    state, base = ColumnState(np.zeros((count, 11)), np.zeros((count, MEMORY_SIZE)), np.zeros(count)), none.copy()
-    ratios = []
+    one, ratios = np.ones(count), []
+    columns = Columns(
+        ALE(tolerance=tolerance), np.zeros((count, 11)), one, liquefaction_pressure=LOAD_PER_METRE * one,
+        coefficient_of_consolidation=1.0 / times_step, water_to_buoyant=WATER_TO_BUOYANT,
+    )  # fmt: skip
     for step in range(steps + 1):
         thickness = one + 0.1 * rng.uniform(-1.0, 1.0, count) * (step > 0)
         load = LOAD_PER_METRE * thickness
-        forcing = ColumnForcing(
-            one, thickness, load, none, none, np.zeros(1, np.int8), np.zeros(1), np.full(1, 1.0 / times_step),
-            WATER_TO_BUOYANT, True,
-        )  # fmt: skip
-        law.advance(state, forcing, float(step > 0), base)
+        base = columns.step(float(step > 0), thickness=thickness, liquefaction_pressure=load)
         ratios.append(base / load)
+    state = columns.state
     means = np.mean(ratios[1:], axis=0)
     sampling = 4.0 * means.std() / np.sqrt(count)
     undrained = 1.0 - np.log(1.1 / 0.9) / 0.2

@@ -13,8 +13,9 @@ until they have passed a strip as long as their support: what flows freely has a
 import numpy as np
 
 from ...core.errors import InputError
+from ...physics.column.driver import forcing_at_rest
 from ...physics.column.initial import initial_profile
-from ...physics.contracts import BASE_IMPERMEABLE, MIXTURE, ColumnForcing
+from ...physics.contracts import MIXTURE, BaseContact
 from ...spatial.summation import SMOOTHING_RATIO
 from ..basal import ColumnPhysics, column_state
 from ..release.placing import THICKNESS_RANGE
@@ -279,19 +280,14 @@ class Inflow:
 
 def _start_columns(p, new: slice, load, columns: ColumnPhysics) -> None:
     """Tell the column law of new columns, with their load [Pa]."""
-    nothing = np.zeros(load.size)
     p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
-    forcing = ColumnForcing(
-        volume=p.volume[new],
-        thickness=p.thickness[new],
-        liquefaction_pressure=load,
-        entrained=nothing,
-        bed_pressure=nothing,
-        base=np.array([BASE_IMPERMEABLE], np.int8),
-        porosity_source=np.zeros(1),
+    forcing = forcing_at_rest(
+        p.volume[new],
+        p.thickness[new],
+        load,
+        base=BaseContact.IMPERMEABLE,
         coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, new),
         water_to_buoyant=columns.water_to_buoyant,
-        bounded=True,
     )
     columns.law.advance(column_state(p, new), forcing, 0.0, p.basal_excess_pore_pressure[new])
 

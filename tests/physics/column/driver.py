@@ -2,73 +2,68 @@
 
 import numpy as np
 
-from landlab_debrisflow.physics.column.schemes.lazy.state import MEMORY_SIZE
-from landlab_debrisflow.physics.contracts import ColumnForcing, ColumnState
+from landlab_debrisflow.physics.column import driver
+from landlab_debrisflow.physics.column.driver import depth_mean
 
 WATER_TO_BUOYANT = 1000.0 / 990.0
 LOAD_PER_METRE = 990.0 * 9.81
 
+__all__ = ["LOAD_PER_METRE", "WATER_TO_BUOYANT", "Columns", "depth_mean", "eta"]
 
-class Columns:
-    """One or more columns of a law, with the state a particle would carry.
+
+class Columns(driver.Columns):
+    """Columns on one square metre, over a bed of constant ratio.
 
     Parameters
     ----------
-    law : ColumnLaw
-    profile : array_like, shape (n, levels)
-        At the start [Pa].
-    thickness : array_like, shape (n,)
-        At the start [m]; the volume is the same number, as if on one square metre.
+    law, profile, thickness
+        As of `driver.Columns`.
     load : array_like, shape (n,), optional
         Liquefaction pressure [Pa]; `LOAD_PER_METRE` times the thickness if absent.
     coefficient_of_consolidation : float, optional
         [m2 s-1].
     bounded : bool, optional
-        Whether the law holds the pressure between suction and liquefaction.
+        Whether the law keeps the pressure between suction and liquefaction.
     """
 
     def __init__(self, law, profile, thickness, load=None, coefficient_of_consolidation=0.0, bounded=True):
-        self.law, self.coefficient = law, coefficient_of_consolidation
-        self.volume = np.array(thickness, dtype=float)
-        self.thickness = self.volume.copy()
-        self.load = LOAD_PER_METRE * self.volume if load is None else np.array(load, dtype=float)
-        count = self.volume.size
-        self.state = ColumnState(np.array(profile, dtype=float), np.zeros((count, MEMORY_SIZE)), np.zeros(count))
-        self.base, self.bed = np.zeros(count), np.zeros(count)
-        self.standing, self.source, self.bounded = np.zeros(1, np.int8), np.zeros(1), bounded
-        self.law.advance(self.state, self.forcing(), 0.0, self.base)
+        load = LOAD_PER_METRE * np.array(thickness, dtype=float) if load is None else load
+        super().__init__(
+            law, profile, thickness, liquefaction_pressure=load, water_to_buoyant=WATER_TO_BUOYANT, bounded=bounded,
+            coefficient_of_consolidation=coefficient_of_consolidation,
+        )  # fmt: skip
 
     def step(self, dt, entrained=0.0, strain=0.0, ratio=0.65, load=None):
         """Let the base give ``entrained`` [m3] and the flow thicken by a factor 1 + ``strain``."""
-        before = self.volume.copy()
-        self.volume = before + entrained
-        self.thickness = self.thickness * (self.volume / before) * (1.0 + strain)
-        self.load = LOAD_PER_METRE * self.thickness if load is None else np.broadcast_to(load, before.shape).copy()
-        self.bed = ratio * self.load
-        entrained = np.broadcast_to(entrained, before.shape).astype(float)
-        self.law.advance(self.state, self.forcing(entrained), dt, self.base)
-        return self.base.copy()
+        before = self.forcing.volume
+        thickness = self.forcing.thickness * ((before + entrained) / before) * (1.0 + strain)
+        load = np.broadcast_to(LOAD_PER_METRE * thickness if load is None else load, before.shape)
+        return super().step(dt, entrained, thickness=thickness, liquefaction_pressure=load, bed_pressure=ratio * load)
 
-    def forcing(self, entrained=None):
-        """Return what the law is told, as of now."""
-        entrained = np.zeros_like(self.volume) if entrained is None else entrained
-        arrays = self.volume, self.thickness, self.load, entrained, self.bed, self.standing, self.source
-        return ColumnForcing(*arrays, np.array([self.coefficient]), WATER_TO_BUOYANT, self.bounded)
+    @property
+    def base(self):
+        """Excess pore pressure that friction feels [Pa]."""
+        return self.basal_pressure
 
-    def profile(self):
-        """Return the profiles brought to the present, without touching the columns [Pa]."""
-        copy = ColumnState(*(array.copy() for array in self.state))
-        self.law.synchronise(copy, self.forcing())
-        return copy.profile
+    @property
+    def volume(self):
+        """Volume [m3]."""
+        return self.forcing.volume
 
-    def content(self):
-        """Return the pressure integrated over the thickness [Pa m]."""
-        return depth_mean(self.profile()) * self.thickness
+    @property
+    def thickness(self):
+        """Thickness [m]."""
+        return self.forcing.thickness
 
+    @property
+    def load(self):
+        """Liquefaction pressure [Pa]."""
+        return self.forcing.liquefaction_pressure
 
-def depth_mean(profile):
-    """Return the mean of profiles, trapezoidal as the laws count it [Pa]."""
-    return (profile[:, 1:-1].sum(axis=1) + 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
+    @property
+    def bed(self):
+        """Pressure of the bed [Pa]."""
+        return self.forcing.bed_pressure
 
 
 def eta(levels):

@@ -71,7 +71,7 @@ def test_what_is_clipped_is_counted():
     columns.step(0.1, strain=-0.9)
     profile = columns.profile()
     assert_allclose(profile[0], -WATER_TO_BUOYANT * columns.load * eta(11), rtol=1e-12)
-    columns.law.synchronise(columns.state, columns.forcing())
+    columns.synchronise()
     free = -0.9 * LOAD_PER_METRE * eta(11)
     assert_allclose(columns.state.clipped[0], 0.1 * 0.5 * (profile[0, 0] - free[0]), rtol=1e-12)
 

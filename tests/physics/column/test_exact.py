@@ -127,7 +127,7 @@ def test_inputs_are_untouched_and_columns_do_not_mix(law):
         together.step(0.1, entrained=np.array([0.0, 0.02, 0.1]) * (step < 15))
         alone.step(0.1, entrained=0.02 * (step < 15))
     assert_array_equal(together.profile()[1], alone.profile()[0])
-    forcing = together.forcing(np.full(3, 0.1))
+    forcing = together.forcing._replace(entrained=np.full(3, 0.1))
     arrays = forcing[:5]  # the rest are numbers
     for array in arrays:
         array.flags.writeable = False
@@ -140,9 +140,8 @@ def test_inputs_are_untouched_and_columns_do_not_mix(law):
 def test_the_bed_pressure_may_be_one_number():
     columns, other = (Columns(ALE(), np.zeros((2, 11)), np.ones(2)) for _ in range(2))
     columns.step(0.1, entrained=0.1, ratio=0.4)
-    other.volume, other.thickness, other.load = columns.volume, columns.thickness, columns.load
-    other.bed = 0.4 * columns.load[:1]
-    other.law.advance(other.state, other.forcing(np.full(2, 0.1)), 0.1, other.base)
+    forcing = columns.forcing._replace(bed_pressure=0.4 * columns.load[:1])
+    other.law.advance(other.state, forcing, 0.1, other.base)
     assert_array_equal(other.base, columns.base)
 
 

@@ -8,7 +8,7 @@ from scipy.special import erfc
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.exact.columns import consolidation, growing_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.contracts import BASE_PRESCRIBED
+from landlab_debrisflow.physics.contracts import BaseContact
 
 from .driver import LOAD_PER_METRE, WATER_TO_BUOYANT, Columns, eta
 
@@ -62,7 +62,7 @@ def test_a_constant_ratio_survives_erosion(scheme, coefficient, ratio, by, strai
 def test_lax_wendroff_moves_a_prescribed_base_evenly():
     """From 1 Pa to 0 in one step of many sub-steps, below 0.2 Pa that a change of porosity made."""
     columns, z = unloaded(LAX_WENDROFF, eta(41), 1.0), (1.0 - eta(41)) / np.sqrt(0.08)
-    columns.standing[0], columns.source[0] = BASE_PRESCRIBED, 10.0
+    columns.forcing.base[0], columns.forcing.porosity_source[0] = BaseContact.PRESCRIBED, 10.0
     columns.step(0.0, **UNIT)
     columns.step(0.02, ratio=0.0, load=UNIT["load"])
     fallen = (1.0 + 2.0 * z**2) * erfc(z) - 2.0 * z * np.exp(-(z**2)) / np.sqrt(np.pi)
@@ -110,10 +110,10 @@ def test_lax_wendroff_gives_up_beyond_its_substeps(passed, grown, fails):
 
 
 @both
-@pytest.mark.parametrize("name", ["volume", "thickness", "load", "coefficient"])
+@pytest.mark.parametrize("name", ["volume", "thickness", "liquefaction_pressure", "coefficient_of_consolidation"])
 def test_what_is_not_a_number_is_seen(scheme, name):
     columns = loaded(ALE(scheme=scheme), 0.3 * eta(11), 0.01)
-    setattr(columns, name, getattr(columns, name) * np.nan)
+    columns.forcing = columns.forcing._replace(**{name: getattr(columns.forcing, name) * np.nan})
     assert np.isnan(columns.step(0.1, load=columns.load)).all()
 
 
@@ -145,9 +145,9 @@ def test_only_the_literal_source_makes_pressure_out_of_nothing(scheme, literal):
 def test_porosity_and_a_base_that_is_prescribed(scheme):
     """A change of porosity makes pressure everywhere but at a base that is prescribed, as a drained one is."""
     columns = unloaded(scheme, np.zeros(11))
-    columns.source[0] = 2.0
+    columns.forcing.porosity_source[0] = 2.0
     assert columns.step(0.25, load=UNIT["load"])[0] == 0.5
-    columns.standing[0] = BASE_PRESCRIBED
+    columns.forcing.base[0] = BaseContact.PRESCRIBED
     assert columns.step(0.25, ratio=0.0, load=UNIT["load"])[0] == 0.0
     assert_array_equal(columns.profile()[0], eta(11) % 1.0 > 0.0)
 
@@ -161,7 +161,7 @@ def test_what_is_clipped_is_counted(scheme):
     low = -WATER_TO_BUOYANT * columns.load * eta(11)
     removed = 0.1 * 0.5 * (low[0] + 0.9 * LOAD_PER_METRE)  # half a cell at the base: eta has the mean 0.5
     assert_allclose(columns.state.clipped[0], removed, rtol=ROUNDING)
-    columns.source[0] = 40.0 * columns.load[0]
+    columns.forcing.porosity_source[0] = 40.0 * columns.load[0]
     columns.step(0.1)
     assert_allclose(columns.profile()[0], columns.load * eta(11), rtol=ROUNDING)
     removed += 0.1 * (4.0 * 0.95 * columns.load[0] + 0.5 * (low[0] - columns.load[0]))

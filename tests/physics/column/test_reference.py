@@ -177,7 +177,7 @@ def test_what_friction_feels_through_a_whole_event(source):
         for step in range(800):
             columns.step(0.05, 2e-3 * (step % 200 < 120), 4e-3 * np.sin(0.05 * step))
             if levels == 161:  # advanced at every step, and as fine as that
-                columns.law.synchronise(columns.state, columns.forcing())
+                columns.synchronise()
             history.append(columns.base[0] / columns.load[0])
         histories[levels] = np.array(history)
     error = {levels: np.abs(histories[levels] - histories[161]).max() for levels in (11, 41)}

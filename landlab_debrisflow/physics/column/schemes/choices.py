@@ -1,4 +1,4 @@
-"""What tells one column from another: the choices of a law, as kernels read them."""
+"""The choices of a law, as kernels read them."""
 
 from typing import NamedTuple
 
@@ -10,9 +10,10 @@ BED_CONTACT = ("dirichlet", "flux")
 class Scheme(NamedTuple):
     """The choices of a law."""
 
-    stretching: bool  # grains keep their depth (ALE); else they keep their fraction of it (classical)
+    levels: int  # of a column, base and surface included
+    moves_with_grains: bool  # grains keep their depth (ALE); else they keep their fraction of it (classical)
     loading: int  # a value of LOADING
-    literal: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
+    loads_by_erosion: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
     flux: bool  # new soil brings its own pressure and no more; else the bed prescribes that of the base
     tolerance: float  # error of the pressure over the load that skipping aims at [-]; 0: no skipping
 
@@ -21,9 +22,14 @@ LEVELS_ERROR = 0.3
 """Error of the pressure that levels make, over the load, times the square of their number (benchmarks/column.py)."""
 
 
-def scheme_of(law, stretching: bool) -> Scheme:
+def scheme_of(law) -> Scheme:
     """Return the choices of a law as kernels read them."""
+    tolerance = LEVELS_ERROR / (law.levels - 1) ** 2 if law.tolerance is None else law.tolerance
     return Scheme(
-        stretching, LOADING[law.loading_source], law.source_includes_erosion, law.bed_contact == "flux",
-        LEVELS_ERROR / (law.levels - 1) ** 2 if law.tolerance is None else law.tolerance,
-    )  # fmt: skip
+        levels=law.levels,
+        moves_with_grains=law.moves_with_grains,
+        loading=LOADING[law.loading_source],
+        loads_by_erosion=law.source_includes_erosion,
+        flux=law.bed_contact == "flux",
+        tolerance=tolerance,
+    )

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from ....core.jit import inner, kernel
-from .stepwise import CONTACT, GROWTH, PASSED, PRESCRIBED, begin_step, end_step
+from .stepwise import CONTACT, DIFFUSION, GROWTH, begin_step, end_step, is_prescribed
 
 MOST_SUBSTEPS = 100_000
 
@@ -33,35 +33,35 @@ def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
     basal_pressure : ndarray, shape (n,)
         Written: the excess pore pressure that friction feels [Pa].
     scheme : Scheme
-        Which law it is.
+        Choices of the law.
     """
     steps = begin_step(columns, forcing, dt, scheme)
     profile, beds = columns.profile, forcing.bed_pressure
     cells = profile.shape[1] - 1
     for i in range(profile.shape[0]):
-        growth = steps[i, GROWTH] if scheme.stretching else 0.0
-        passed = steps[i, PASSED]
-        advective, diffusive = cells * growth, 2.0 * cells * cells * passed
+        growth = steps[i, GROWTH] if scheme.moves_with_grains else 0.0
+        diffusion = steps[i, DIFFUSION]
+        advective, diffusive = cells * growth, 2.0 * cells * cells * diffusion
         if advective <= MOST_SUBSTEPS and diffusive <= MOST_SUBSTEPS:
-            held, bed = steps[i, CONTACT] == PRESCRIBED, beds[min(i, beds.size - 1)]
-            _take_substeps(profile, i, math.ceil(max(advective, diffusive)), growth, passed, held, bed)
+            prescribed, bed = is_prescribed(steps[i, CONTACT]), beds[min(i, beds.size - 1)]
+            _take_substeps(profile, i, math.ceil(max(advective, diffusive)), growth, diffusion, prescribed, bed)
         else:  # or not a number
             profile[i, :] = np.nan
     end_step(columns, forcing, basal_pressure)
 
 
 @inner
-def _take_substeps(profile, i, count, growth, passed, held, bed):
-    """Advance one column in ``count`` sub-steps; the pressure of a base that is held goes to ``bed`` evenly."""
+def _take_substeps(profile, i, count, growth, diffusion, prescribed, bed):
+    """Advance one column in ``count`` sub-steps; the pressure of a prescribed base goes to ``bed`` [Pa] evenly."""
     cells, first = profile.shape[1] - 1, profile[i, 0]
     for m in range(count):
         if growth > 0.0:
             _advect(profile, i, growth / (count + m * growth))
-        if held:
+        if prescribed:
             profile[i, 0] = first + (bed - first) * ((m + 1.0) / count)
-        if passed > 0.0:
-            _diffuse(profile, i, passed * cells * cells / count, held)
-    if held:
+        if diffusion > 0.0:
+            _diffuse(profile, i, diffusion * cells * cells / count, prescribed)
+    if prescribed:
         profile[i, 0] = bed
 
 
@@ -82,10 +82,10 @@ def _advect(profile, i, grown):
 
 
 @inner
-def _diffuse(profile, i, number, held):
-    """Take one explicit step of diffusion with the cell Fourier number ``number``; mirrored at a base not held."""
+def _diffuse(profile, i, number, prescribed):
+    """Take one explicit step of diffusion with the cell Fourier number ``number``; mirrored at an impermeable base."""
     below = profile[i, 0]
-    if not held:
+    if not prescribed:
         profile[i, 0] += 2.0 * number * (profile[i, 1] - below)
     for k in range(1, profile.shape[1] - 1):
         here = profile[i, k]

@@ -1,16 +1,25 @@
-"""The ways to advance columns, by name, and what the two laws that have a choice of them share."""
+"""Schemes by name, and the methods of the laws that have a choice of them."""
 
 from ....core.errors import ParameterError
-from .choices import scheme_of
+from . import stepwise
 from .lax_wendroff import advance_lax_wendroff
-from .lazy.advance import advance_columns, bring_columns
+from .lazy import state
+from .lazy.advance import advance_columns, synchronise_columns
 from .upwind import advance_upwind
 
 ADVANCE = {"default": advance_columns, "lax_wendroff": advance_lax_wendroff, "upwind": advance_upwind}
+MEMORY_SIZE = {"default": state.SIZE, "lax_wendroff": stepwise.SIZE, "upwind": stepwise.SIZE}
+"""Number of floats of a column in `ColumnState.memory`, by scheme."""
 
 
 def check_scheme(law) -> None:
-    """Refuse what does not go together."""
+    """Refuse choices of a law that do not go together.
+
+    Raises
+    ------
+    ParameterError
+        If the paper's scheme is to take only what flows in from the bed.
+    """
     if law.scheme == "lax_wendroff" and law.bed_contact == "flux":
         raise ParameterError(
             f"{type(law).__name__}: bed_contact must be 'dirichlet' with scheme 'lax_wendroff', got 'flux': "
@@ -18,12 +27,12 @@ def check_scheme(law) -> None:
         )
 
 
-def advance(law, stretching: bool, columns, forcing, dt: float, basal_pressure) -> None:
-    """Advance columns as `law` says; see `ColumnLaw.advance`."""
-    ADVANCE[law.scheme](columns, forcing, dt, basal_pressure, scheme_of(law, stretching))
+def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
+    """Advance columns by ``dt`` seconds with the scheme of a law; see `ColumnLaw.advance`."""
+    ADVANCE[law.scheme](columns, forcing, dt, basal_pressure, law.choices)
 
 
-def synchronise(law, stretching: bool, columns, forcing) -> None:
-    """Turn columns into pressures at levels, as they are now; the other schemes always keep them so."""
+def synchronise(law, columns, forcing) -> None:
+    """Turn columns into pressures at levels, as they are now; other schemes than the default keep them so."""
     if law.scheme == "default":
-        bring_columns(columns, forcing, scheme_of(law, stretching))
+        synchronise_columns(columns, forcing, law.choices)

@@ -11,7 +11,8 @@ and leaves through the surface is what the content changes by, to rounding.
 import numpy as np
 
 from ....core.jit import inner, kernel
-from .stepwise import CONTACT, GROWTH, INFLOW, PASSED, PRESCRIBED, begin_step, end_step
+from .contact import INFLOW
+from .stepwise import CONTACT, DIFFUSION, GROWTH, begin_step, end_step, is_prescribed
 
 
 @kernel
@@ -29,7 +30,7 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
     basal_pressure : ndarray, shape (n,)
         Written: the excess pore pressure that friction feels [Pa].
     scheme : Scheme
-        Which law it is.
+        Choices of the law.
     """
     steps = begin_step(columns, forcing, dt, scheme)
     profile, beds = columns.profile, forcing.bed_pressure
@@ -37,16 +38,17 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
     work = np.empty(cells)
     for i in range(profile.shape[0]):
         contact, growth, bed = steps[i, CONTACT], steps[i, GROWTH], beds[min(i, beds.size - 1)]
-        if contact == PRESCRIBED:
+        prescribed = is_prescribed(contact)
+        if prescribed:
             profile[i, 0] = bed
         inflow = growth * cells if contact == INFLOW else 0.0
-        advection = growth if scheme.stretching else 0.0
-        _solve(profile, i, advection, steps[i, PASSED] * cells * cells, contact == PRESCRIBED, inflow, bed, work)
+        advection = growth if scheme.moves_with_grains else 0.0
+        _solve(profile, i, advection, steps[i, DIFFUSION] * cells * cells, prescribed, inflow, bed, work)
     end_step(columns, forcing, basal_pressure)
 
 
 @inner
-def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
+def _solve(profile, i, advection, diffusion, prescribed, inflow, bed, work):
     """Solve for one column at the end of the step, by the algorithm of Thomas from the base to the surface.
 
     ``advection`` is the Courant number of the face that lies one cell below the surface, to which those of the
@@ -56,7 +58,7 @@ def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
     cells = profile.shape[1] - 1
     up, down = _face(advection * (cells - 0.5), diffusion)
     work[0] = 0.0
-    if not held:  # the base level has half a cell
+    if not prescribed:  # the base level has half a cell
         whole = 1.0 / (1.0 + 2.0 * (down + inflow))
         profile[i, 0] = (profile[i, 0] + 2.0 * inflow * bed) * whole
         work[0] = 2.0 * down * whole
@@ -72,6 +74,6 @@ def _solve(profile, i, advection, diffusion, held, inflow, bed, work):
 
 @inner
 def _face(courant, diffusion):
-    """Return how much of the level below a face acts on the one above, and the other way."""
+    """Return the weights of a face: of the level below it on the one above, and of the one above on it [-]."""
     down = max(diffusion - 0.5 * courant, 0.0)
     return down + courant, down

@@ -1,7 +1,7 @@
 """The default scheme: it advances the excess pore pressure of all columns in one call.
 
-A column whose base is impermeable is kept as the waves it decays in (`impermeable_base`), exact at every step. One
-that erodes has its base prescribed, so nobody needs its profile: it is kept as pressures at levels and
+A column whose base is impermeable is kept as the modes it decays in (`impermeable_base`), exact at every step. One
+that erodes has its base prescribed, so that its profile is not needed: it is kept as pressures at levels and
 advanced when it has grown by some per cent, when its base changes, or for output (`prescribed_base`).
 
 Each stage is a kernel of its own that goes through a list of columns and is called from here. One kernel
@@ -10,19 +10,21 @@ that called them all would be compiled with a copy of each, and most of them twi
 
 import numpy as np
 
-from .bookkeeping import BEYOND, CHANGED, DUE_LEVELS, DUE_WAVES, account, stand
-from .flux_base import grow_by_flux, seal
-from .impermeable_base import close, hold, look, open_up
-from .modes import waves_of
-from .prescribed_base import diffuse, grow, settle
-from .state import CLOSED, CONTACT, CURRENT_LOAD, FLUX, LEVELS, SEALED, VOLUME
+from ..contact import IMPERMEABLE, INFLOW, SEALED
+from .bookkeeping import AT_LEVELS, CHANGED, EXCESS, IN_MODES, accumulate, set_contact
+from .flux_base import grow_by_flux, impermeable_inflow
+from .impermeable_base import advance_modes, clip_modes, to_levels, to_modes
+from .modes import modes_of
+from .prescribed_base import commit, diffuse, grow
+from .state import LazyColumns, records
 
 ROUNDING = 1e-9
-"""Part of the load by which a closed column may be beyond its bounds once it was looked at."""
+"""Pressure out of bounds over the load that a column in modes may have just after an update [-]."""
+NONE_DUE = (0, 0, 0)
 
 
 def advance_columns(columns, forcing, dt, basal_pressure, scheme):
-    """Account for one step of the flow, advance the columns for which it is due, write the base.
+    """Account for one step of the flow, advance the columns that are due, write the basal pressure.
 
     Parameters
     ----------
@@ -35,85 +37,83 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     basal_pressure : ndarray, shape (n,)
         Written: the excess pore pressure that friction feels [Pa].
     scheme : Scheme
-        Which law it is.
+        Choices of the law.
     """
-    memory, cells, due = columns.memory, columns.profile.shape[1] - 1, np.empty((3, basal_pressure.size), np.int64)
-
-    def count(which, dt, waves=0, levels=0, slack=BEYOND):
-        return account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels, slack)
-
-    changed, waves, levels = count(np.arange(basal_pressure.size), dt)
-    if changed:
-        which = due[CHANGED, :changed]
-        _switch(columns, which, forcing, basal_pressure, scheme)
-        _, waves, levels = count(which, dt, waves, levels)
-    if levels:
-        _advance_levels(columns, due[DUE_LEVELS, :levels], forcing, basal_pressure, False, scheme)
-    if waves:
-        which = due[DUE_WAVES, :waves].copy()
-        look(columns.profile, memory, which, waves_of(cells + 1))
-        _, beyond, _ = count(which, 0.0, slack=ROUNDING)  # the base as it is seen now, and who is beyond its bounds
-        if beyond:
-            which = due[DUE_WAVES, :beyond].copy()
-            hold(
-                columns.profile, memory, which, waves_of(cells + 1), forcing.liquefaction_pressure, forcing.thickness,
-                forcing.water_to_buoyant, columns.clipped,
-            )  # fmt: skip
-            count(which, 0.0)
+    state, every = records(columns.memory), np.arange(basal_pressure.size)
+    due = np.empty((3, every.size), np.int64)
+    counts = accumulate(state, every, forcing, dt, basal_pressure, scheme, due, EXCESS)
+    if counts == NONE_DUE:
+        return
+    columns = LazyColumns(columns.profile, state, columns.clipped)
+    if count := counts[CHANGED]:
+        changed, due_then = due[CHANGED, :count], np.empty((3, count), np.int64)
+        _switch(columns, changed, forcing, basal_pressure, scheme)
+        counts_then = accumulate(state, changed, forcing, dt, basal_pressure, scheme, due_then, EXCESS)
+        _update(columns, due_then, counts_then, forcing, basal_pressure, scheme)
+    _update(columns, due, counts, forcing, basal_pressure, scheme)
 
 
-def bring_columns(columns, forcing, scheme):
+def synchronise_columns(columns, forcing, scheme):
     """Turn every column into pressures at levels, as they are now; arguments as in `advance_columns`."""
-    count = columns.profile.shape[0]
-    _to_levels(columns, np.arange(count), forcing, np.empty(count), scheme)
+    count, columns = columns.profile.shape[0], LazyColumns(columns.profile, records(columns.memory), columns.clipped)
+    _synchronise(columns, np.arange(count), forcing, np.empty(count), scheme)
 
 
-def _switch(columns, which, forcing, basal_pressure, scheme):
-    """Change what some columns stand on."""
-    memory, closing = columns.memory, np.empty(which.size, np.int64)
+def _update(columns, due, counts, forcing, basal_pressure, scheme):
+    """Advance the columns that `accumulate` has listed as due to the present."""
+    if count := counts[AT_LEVELS]:
+        _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
+    if count := counts[IN_MODES]:
+        selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
+        advance_modes(columns, selected, modes)
+        # the base as it is now, and the columns that are out of bounds
+        counts = accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
+        if count := counts[IN_MODES]:
+            selected = due[IN_MODES, :count].copy()
+            clip_modes(columns, selected, forcing, modes)
+            accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
+
+
+def _switch(columns, selected, forcing, basal_pressure, scheme):
+    """Put some columns on another base."""
     before = forcing._replace(
-        volume=forcing.volume - forcing.entrained, liquefaction_pressure=memory[:, CURRENT_LOAD].copy()
+        volume=forcing.volume - forcing.entrained, liquefaction_pressure=columns.state["load"].copy()
     )
-    _to_levels(columns, which, before, basal_pressure, scheme)
-    if count := stand(memory, which, forcing, scheme, closing):
-        _to_waves(columns, closing[:count])
+    _synchronise(columns, selected, before, basal_pressure, scheme)
+    closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
+    if count := set_contact(columns, selected, forcing, scheme, closing):
+        to_modes(columns, closing[:count], modes)
+        advance_modes(columns, closing[:count], modes)
 
 
-def _to_levels(columns, which, forcing, basal_pressure, scheme):
+def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     """Turn some columns into pressures at levels, as they are now."""
-    profile, contact = columns.profile, columns.memory[which, CONTACT]
-    if (closed := which[contact == CLOSED]).size:
-        waves = waves_of(profile.shape[1])
-        look(profile, columns.memory, closed, waves)
-        open_up(profile, columns.memory, closed, waves)
-        settle(columns, closed, forcing, basal_pressure)
-    if (others := which[contact > CLOSED]).size:
+    contact = columns.state["contact"][selected]
+    if (in_modes := selected[contact == IMPERMEABLE]).size:
+        modes = modes_of(scheme.levels)
+        advance_modes(columns, in_modes, modes)
+        to_levels(columns, in_modes, modes)
+        commit(columns, in_modes, forcing, basal_pressure)
+    if (others := selected[contact > IMPERMEABLE]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
 
 
-def _to_waves(columns, which):
-    """Turn some columns, kept at levels, into waves."""
-    waves = waves_of(columns.profile.shape[1])
-    close(columns.profile, columns.memory, which, waves)
-    look(columns.profile, columns.memory, which, waves)
+def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
+    """Advance some columns at levels from their last update to the present, and clip them.
 
-
-def _advance_levels(columns, which, forcing, basal_pressure, ending, scheme):
-    """Bring some columns kept at levels from where they were last advanced to the present, and hold their bounds.
-
-    Unless their contact is ``ending``, diffusion that is to come after the stretching is left to the next time. If it
+    Unless their contact is ``ending``, diffusion that is to come after the remap is deferred to the next update. If it
     ends, the jump at a base that has just changed, which levels do not see yet, and the content of the layer over it,
     over that jump and the thickness, are remembered.
     """
-    profile, memory, volume, load = columns.profile, columns.memory, forcing.volume, forcing.liquefaction_pressure
-    contact, waves = memory[which, CONTACT], waves_of(profile.shape[1])
-    if (sealed := which[contact == SEALED]).size:
-        seal(profile, memory, sealed, volume, load, scheme)
-    growing = scheme.stretching & (contact != LEVELS) & (volume[which] > memory[which, VOLUME])
-    if (some := which[growing & (contact < FLUX)]).size:
-        grow(profile, memory, some, volume, load, ending, scheme, waves)
-    if (some := which[growing & (contact >= FLUX)]).size:
-        grow_by_flux(profile, memory, some, volume, load, scheme, waves)
-    if (some := which[~growing & (contact != LEVELS)]).size:
-        diffuse(profile, memory, some, volume, load, ending, scheme, waves)
-    settle(columns, which, forcing, basal_pressure)
+    contact, volume = columns.state["contact"][selected], forcing.volume[selected]
+    modes = modes_of(scheme.levels)
+    if (some := selected[contact == SEALED]).size:
+        impermeable_inflow(columns, some, forcing, scheme)
+    growing = scheme.moves_with_grains & (volume > columns.state["volume_at_update"][selected])
+    if (some := selected[growing & (contact < INFLOW)]).size:
+        grow(columns, some, forcing, ending, scheme, modes)
+    if (some := selected[growing & (contact >= INFLOW)]).size:
+        grow_by_flux(columns, some, forcing, scheme, modes)
+    if (some := selected[~growing]).size:
+        diffuse(columns, some, forcing, ending, scheme, modes)
+    commit(columns, selected, forcing, basal_pressure)

@@ -1,4 +1,4 @@
-"""What every column is owed, step by step, and which are due.
+"""Account of diffusion, load and source of every column, step by step, and the lists of columns that are due.
 
 Most columns are left alone in most steps. This is the loop that all of them pass through, so it is kept short.
 """
@@ -6,157 +6,155 @@ Most columns are left alone in most steps. This is the loop that all of them pas
 import math
 
 from .....core.jit import inner, kernel
-from ....contracts import BASE_IMPERMEABLE, BASE_PRESCRIBED
 from ..choices import UNLOADED
-from .boundary_layer import is_seen
-from .impermeable_base import DIFFUSION_CAP, closed_pressure
-from .state import (  # fmt: skip
-    BASE,
-    BED_PRESSURE,
-    CLOSED,
-    CONTACT,
-    CURRENT_LOAD,
-    DIFFUSION,
-    ERODING,
-    FLUX,
-    HELD,
-    JUST,
-    LOAD,
-    OWED,
-    SEALED,
-    SOURCE,
-    TOUCHED,
-    VOLUME,
-)
+from ..contact import IMPERMEABLE, INFLOW, contact_of
+from .boundary_layer import is_resolved
+from .impermeable_base import DIFFUSION_CAP, accumulate_in_modes
 
-STRIDE = 1.5  # growth of a column in one advance over the square root of the tolerance (benchmarks/column.py)
-LOOK_SHARE = 0.25  # of the tolerance, for what a closed column may be wrong between two looks
-BED_SHARE = 0.25  # of that growth: pressure of the bed or by a source since the last advance, over the load
-GRADED = 0.5  # growth in one advance over that since the base changed: the layer over it is young at first
-BEYOND = 0.1  # of the load by which levels above a closed base may be beyond their bounds until they are looked at
+STRIDE = 1.5  # growth of a column in one update over the square root of the tolerance (benchmarks/column.py)
+MODES_FRACTION = 0.25  # of the tolerance: error of a column in modes between two updates
+BED_FRACTION = 0.25  # of that growth: pressure of the bed or by a source since the update, over the load
+GRADING = 0.5  # growth in one update over that since the contact began: the layer over the base is young at first
+EXCESS = 0.1  # of the load by which levels above an impermeable base may be out of bounds until the next update
 
-CHANGED, DUE_WAVES, DUE_LEVELS = range(3)
-"""Rows of the lists of columns that `account` writes: stands on something else; to be looked at; to be advanced."""
+CHANGED, IN_MODES, AT_LEVELS = range(3)
+"""Lists of columns that `accumulate` writes: contact is another one; due in modes; due at levels."""
 
 
 @inner
-def contact_of(base, entrained, flux):
-    """Return what a column stands on, a value of CONTACT."""
-    if base == BASE_PRESCRIBED:
-        return HELD
-    if entrained <= 0.0:
-        return CLOSED
-    if base == BASE_IMPERMEABLE:
-        return SEALED
-    return FLUX if flux else ERODING
-
-
-@inner
-def passed_in(coefficient_times_dt, thickness, volume, before):
-    """Return c_v t / h^2 of a step.
+def diffusion_of(coefficient_times_dt, thickness, volume, before):
+    """Return c_v t / h^2 of a step [-].
 
     Squared is the thickness before times that after, were there erosion only: exact for a constant rate.
     """
-    square, passed = thickness * thickness * max(before, 0.0), coefficient_times_dt * volume
-    if passed < DIFFUSION_CAP * square:
-        return passed / square
-    return DIFFUSION_CAP if passed > 0.0 else 0.0
+    square, diffused = thickness * thickness * max(before, 0.0), coefficient_times_dt * volume
+    if diffused < DIFFUSION_CAP * square:
+        return diffused / square
+    return DIFFUSION_CAP if diffused > 0.0 else 0.0
 
 
 @kernel
-def account(memory, which, forcing, dt, basal_pressure, scheme, cells, due, waves, levels, slack):
-    """Put one step of the flow on what some columns are owed, and write the pressure at their base.
+def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess_allowed):
+    """Add one step of the flow to the account of columns, write their basal pressure and list those that are due.
 
     Parameters
     ----------
-    memory : ndarray
-        Of all columns.
-    which : ndarray of int
-        These columns.
+    state : ndarray of `state.LAYOUT`, shape (n,)
+        Written in place.
+    selected : ndarray of int, shape (m,)
+        Indices of the columns.
     forcing, dt, basal_pressure, scheme
         As in `advance.advance_columns`.
-    cells : int
-        Number of levels less one.
-    due : ndarray of int, shape (3, n)
-        The rows `CHANGED`, `DUE_WAVES` and `DUE_LEVELS` are written. A column that stands on something else than
-        before is put on the first of them, and nothing else is done with it.
-    waves, levels : int
-        How many are on the latter two rows already.
-    slack : float
-        Part of the load by which a closed column may be beyond its bounds.
+    due : ndarray of int, shape (3, m) or wider
+        Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column whose contact
+        is another one than before is listed as that, and nothing else is done with it.
+    excess_allowed : float
+        Pressure out of bounds over the load, of a column in modes [-].
 
     Returns
     -------
-    changed, waves, levels : int
-        How many are on the rows now.
+    changed, in_modes, at_levels : int
+        Lengths of the rows.
     """
     # plain arrays: those of a tuple are counted at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, beds, sources, bases = forcing.entrained, forcing.bed_pressure, forcing.porosity_source, forcing.base
     coefficients, lower, bounded = forcing.coefficient_of_consolidation, forcing.water_to_buoyant, forcing.bounded
-    loading, tolerance, stride, changed = scheme.loading, scheme.tolerance, STRIDE * math.sqrt(scheme.tolerance), 0
-    for i in which:
-        volume, load, old_load = volumes[i], loads[i], memory[i, CURRENT_LOAD]
-        before, contact = volume - entrained[i], memory[i, CONTACT]
+    loading, tolerance, stride = scheme.loading, scheme.tolerance, STRIDE * math.sqrt(scheme.tolerance)
+    changed, in_modes, at_levels = 0, 0, 0
+    for i in selected:
+        column = state[i]
+        volume, load, old_load = volumes[i], loads[i], column.load
+        before, contact = volume - entrained[i], column.contact
         if contact != contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux):
-            if old_load == 0.0:  # nothing is remembered of it
-                memory[i, CURRENT_LOAD] = load * before / volume if volume > 0.0 else load
+            if old_load == 0.0:  # a new column
+                column.load = load * before / volume if volume > 0.0 else load
             due[CHANGED, changed] = i
             changed += 1
             continue
-        coefficient, gain = coefficients[min(i, coefficients.size - 1)], sources[min(i, sources.size - 1)] * dt
-        passed = passed_in(coefficient * dt, thicknesses[i], volume, before)
-        memory[i, CURRENT_LOAD] = load
-        if contact == CLOSED:
-            pressure, error, least, most, lost = closed_pressure(memory, i, passed, load, old_load, gain, loading)
-            is_due = error > LOOK_SHARE * tolerance * load
+        coefficient, source = coefficients[min(i, coefficients.size - 1)], sources[min(i, sources.size - 1)] * dt
+        diffusion = diffusion_of(coefficient * dt, thicknesses[i], volume, before)
+        column.load = load
+        if contact == IMPERMEABLE:
+            pressure, error, low_slope, high_slope, lost = accumulate_in_modes(
+                column, diffusion, load, old_load, source, loading
+            )
+            is_due = error > MODES_FRACTION * tolerance * load
             if bounded:
-                # it may have left its bounds somewhere. What that is worth reaches the base like a load does; the base
-                # itself is held at once
-                excess = max(most - load, -lower * load - least, 0.0)
-                is_due |= error + lost * excess > LOOK_SHARE * tolerance * load or excess > slack * load
+                # it may have left its bounds somewhere. The worth of that reaches the base like a load does; the base
+                # itself is clipped at once
+                excess = max(high_slope - load, -lower * load - low_slope, 0.0)
+                is_due |= error + lost * excess > MODES_FRACTION * tolerance * load or excess > excess_allowed * load
                 pressure = min(max(pressure, -lower * load), load)
             basal_pressure[i] = pressure
             if is_due:
-                due[DUE_WAVES, waves] = i
-                waves += 1
+                due[IN_MODES, in_modes] = i
+                in_modes += 1
             continue
-        pressure, start, then = beds[min(i, beds.size - 1)], memory[i, VOLUME], memory[i, LOAD]
-        basal_pressure[i] = memory[i, BED_PRESSURE] = pressure
-        memory[i, DIFFUSION] = min(memory[i, DIFFUSION] + passed, DIFFUSION_CAP)
-        memory[i, SOURCE] += gain
-        whole, least = then * volume, BED_SHARE * stride * load
-        is_due = volume - start > min(stride * start, GRADED * (start - memory[i, TOUCHED]))
-        is_due |= abs(load * start - whole) > stride * whole
-        is_due |= abs(pressure * then - memory[i, BASE] * load) > least * then
-        is_due |= abs(memory[i, SOURCE]) > least
-        is_due |= stride == 0.0
-        if is_due and memory[i, JUST] != 0.0:  # levels must see the layer that forms over the base
-            grown = 1.0 - start / volume if scheme.stretching else 0.0
-            is_due = is_seen(cells, grown, memory[i, DIFFUSION])
-        if is_due or contact >= FLUX:
-            due[DUE_LEVELS, levels] = i
-            levels += 1
-    return changed, waves, levels
+        pressure = beds[min(i, beds.size - 1)]
+        basal_pressure[i] = column.bed_pressure = pressure
+        column.diffusion = min(column.diffusion + diffusion, DIFFUSION_CAP)
+        column.source_gain += source
+        is_due = _is_due_at_levels(column, volume, load, pressure, stride)
+        if is_due and column.contact_is_new != 0.0:  # levels must see the layer that forms over the base
+            growth = 1.0 - column.volume_at_update / volume if scheme.moves_with_grains else 0.0
+            is_due = is_resolved(scheme.levels - 1, growth, column.diffusion)
+        if is_due or contact >= INFLOW:
+            due[AT_LEVELS, at_levels] = i
+            at_levels += 1
+    return changed, in_modes, at_levels
+
+
+@inner
+def _is_due_at_levels(column, volume, load, pressure, stride):
+    """Return whether volume, load, bed or source have changed by more than `stride` allows since the update."""
+    start, old_load = column.volume_at_update, column.load_at_update
+    unstrained, change_allowed = old_load * volume, BED_FRACTION * stride * load
+    is_due = volume - start > min(stride * start, GRADING * (start - column.volume_at_contact))
+    is_due |= abs(load * start - unstrained) > stride * unstrained
+    is_due |= abs(pressure * old_load - column.base_pressure * load) > change_allowed * old_load
+    is_due |= abs(column.source_gain) > change_allowed
+    is_due |= stride == 0.0
+    return is_due
 
 
 @kernel
-def stand(memory, which, forcing, scheme, closing):
-    """Put columns at levels on what they stand on now, but for those to close: list them and return their number."""
+def set_contact(columns, selected, forcing, scheme, closing):
+    """Put columns at levels on the base of this step, but for those over an impermeable one.
+
+    Parameters
+    ----------
+    columns : LazyColumns
+        Written in place.
+    selected : ndarray of int
+        Indices of the columns.
+    forcing : ColumnForcing
+        The step.
+    scheme : Scheme
+        Choices of the law.
+    closing : ndarray of int
+        Written: indices of the columns over an impermeable base.
+
+    Returns
+    -------
+    int
+        Number of columns over an impermeable base.
+    """
     loads, volumes, entrained = forcing.liquefaction_pressure, forcing.volume, forcing.entrained
-    beds, bases, count = forcing.bed_pressure, forcing.base, 0
-    for i in which:
+    beds, bases, state, count = forcing.bed_pressure, forcing.base, columns.state, 0
+    for i in selected:
         contact = contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux)
-        if contact == CLOSED:
+        if contact == IMPERMEABLE:
             closing[count] = i
             count += 1
             continue
-        bed, load, old_load, volume = beds[min(i, beds.size - 1)], loads[i], memory[i, CURRENT_LOAD], volumes[i]
+        column = state[i]
+        bed, load, old_load, volume = beds[min(i, beds.size - 1)], loads[i], column.load, volumes[i]
         volume -= entrained[i]
         if scheme.loading != UNLOADED and load > 0.0:  # a bed of constant ratio had it before the step too
             bed *= old_load / load
-        memory[i, CONTACT], memory[i, JUST] = contact, 1.0
-        memory[i, VOLUME], memory[i, LOAD], memory[i, DIFFUSION] = volume, old_load, 0.0
-        memory[i, BED_PRESSURE] = memory[i, BASE] = bed
-        memory[i, SOURCE], memory[i, OWED], memory[i, TOUCHED] = 0.0, 0.0, volume
+        column.contact, column.contact_is_new = contact, 1.0
+        column.volume_at_update, column.load_at_update, column.diffusion = volume, old_load, 0.0
+        column.bed_pressure = column.base_pressure = bed
+        column.source_gain, column.deferred_diffusion, column.volume_at_contact = 0.0, 0.0, volume
     return count

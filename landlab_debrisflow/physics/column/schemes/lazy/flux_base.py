@@ -1,57 +1,76 @@
 """Columns that grow at a base whose pressure is not prescribed: soil that comes in brings its own and no more.
 
-Nothing diffuses in from the bed, so that the content of the column is held to the last digit.
+Nothing diffuses in from the bed, so that the content of the column is kept to the last digit.
 """
 
 import numpy as np
 
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL
-from .modes import IMPERMEABLE, evolve
-from .prescribed_base import LEAST_STRETCH, load_literally, parts_of, strain_of
-from .remap import stretch_profile
-from .state import BASE, BED_PRESSURE, JUMP, LOAD, OWED, SOURCE, VOLUME
+from .modes import NEUMANN, diffuse_profile
+from .prescribed_base import LEAST_STRETCH, add_loading_by_erosion, load_strain, split_diffusion
+from .remap import remap_profile
 
 
 @kernel
-def seal(profile, memory, which, volumes, loads, scheme):
-    """Let the soil that comes into some columns have the pressure of their base, and be loaded with it."""
-    for i in which:
-        volume, load = volumes[i], loads[i]
-        memory[i, BASE] = memory[i, BED_PRESSURE] = profile[i, 0]
-        unstrained = memory[i, LOAD] * volume / memory[i, VOLUME] if memory[i, VOLUME] > 0.0 else load
+def impermeable_inflow(columns, selected, forcing, scheme):
+    """Give the soil that comes into columns the pressure of their base, and load it; arguments as in `grow_by_flux`."""
+    profile, state = columns.profile, columns.state
+    volumes, loads = forcing.volume, forcing.liquefaction_pressure
+    for i in selected:
+        column, volume, load = state[i], volumes[i], loads[i]
+        start = column.volume_at_update
+        column.base_pressure = column.bed_pressure = profile[i, 0]
+        unstrained = column.load_at_update * volume / start if start > 0.0 else load
         if scheme.loading == OVERBURDEN:
-            memory[i, BED_PRESSURE] += load - unstrained
+            column.bed_pressure += load - unstrained
         elif scheme.loading == PROPORTIONAL and unstrained > 0.0:
-            memory[i, BED_PRESSURE] *= load / unstrained
+            column.bed_pressure *= load / unstrained
 
 
 @kernel
-def grow_by_flux(profile, memory, which, volumes, loads, scheme, waves):
-    """Let some columns diffuse and grow by soil that brings its own pressure alone; see `prescribed_base.grow`."""
+def grow_by_flux(columns, selected, forcing, scheme, modes):
+    """Diffuse columns that grow by soil that brings its own pressure alone; see `prescribed_base.grow`.
+
+    Parameters
+    ----------
+    columns : LazyColumns
+        Written in place.
+    selected : ndarray of int
+        Indices of the columns.
+    forcing : ColumnForcing
+        Volume and load of the present.
+    scheme : Scheme
+        Choices of the law.
+    modes : Modes
+        Of columns of so many levels.
+    """
+    profile, state = columns.profile, columns.state
+    volumes, loads = forcing.volume, forcing.liquefaction_pressure
     cells = profile.shape[1] - 1
     work = np.empty((2, cells + 1))
-    for i in which:
-        volume, load, start, old_load = volumes[i], loads[i], memory[i, VOLUME], memory[i, LOAD]
-        base, new_base = memory[i, BASE], memory[i, BED_PRESSURE]
+    for i in selected:
+        column = state[i]
+        volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update
+        base, new_base = column.base_pressure, column.bed_pressure
         stretch = max(start / volume, LEAST_STRETCH)
-        first, last, source, last_source = parts_of(memory, i, stretch, IMPERMEABLE)
+        first, last, source, last_source = split_diffusion(column, stretch, NEUMANN)
         weight, scale, entry, new_entry = 0.0, 1.0, -base, -new_base
         if scheme.loading == OVERBURDEN:
             weight, entry, new_entry = 1.0, old_load - base, load - new_base
         elif scheme.loading == PROPORTIONAL:
-            scale = strain_of(load, old_load, volume, start)
+            scale = load_strain(load, old_load, volume, start)
             entry = entry * scale
-        evolve(profile, i, IMPERMEABLE, first, 0.0, 0.0, 0.0, 0.0, source, waves, work[0])
-        held = weight * old_load / stretch - scale * profile[i, 0]  # as deep as the base is now
+        diffuse_profile(profile, i, NEUMANN, first, 0.0, 0.0, 0.0, 0.0, source, modes, work[0])
+        at_base = weight * old_load / stretch - scale * profile[i, 0]  # as deep as the base is now
         content = scale * _effective(profile, i, weight * old_load)
         content = stretch * content + (1.0 - stretch) * 0.5 * (entry + new_entry)
-        stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work)
-        _restore(profile, i, weight * load, content, min(held, new_entry), max(held, new_entry))
-        if scheme.literal:
-            load_literally(profile, i, stretch, load)
-        evolve(profile, i, IMPERMEABLE, last, 0.0, 0.0, 0.0, 0.0, last_source, waves, work[0])
-        memory[i, SOURCE] = memory[i, OWED] = memory[i, JUMP] = 0.0
+        remap_profile(profile, i, stretch, old_load, load, (weight, scale, entry, new_entry), work)
+        _restore(profile, i, weight * load, content, min(at_base, new_entry), max(at_base, new_entry))
+        if scheme.loads_by_erosion:
+            add_loading_by_erosion(profile, i, stretch, load)
+        diffuse_profile(profile, i, NEUMANN, last, 0.0, 0.0, 0.0, 0.0, last_source, modes, work[0])
+        column.source_gain = column.deferred_diffusion = column.layer_jump = 0.0
 
 
 @inner
@@ -68,7 +87,7 @@ def _effective(profile, i, load):
 def _restore(profile, i, load, content, low, high):
     """Give one column what its content lacks: nothing diffuses in from the bed, so that it must not drift.
 
-    The base level takes it between ``low`` and ``high``, and what is left goes to the levels above, none of which goes
+    The base level takes it between ``low`` and ``high`` [Pa], and the rest goes to the levels above, none of which goes
     beyond the one below it, over eta.
     """
     cells = profile.shape[1] - 1

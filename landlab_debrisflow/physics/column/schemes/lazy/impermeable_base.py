@@ -1,8 +1,8 @@
-"""A column over an impermeable base: kept as the waves it decays in, exact after any time.
+"""Columns over an impermeable base: kept as the modes they decay in, exact after any time.
 
-Friction needs its pressure at every step, but between two looks at the waves a parabola serves, whose
-error the waves bound. Loads since the last look lift the base by what it bears; what it loses of them to
-the column above goes with the square root of time.
+Friction needs the basal pressure at every step, but between two updates of the modes a parabola serves, whose
+error the modes bound. Loads since the update lift the base by the pressure it bears; the loss of them to the
+column above goes with the square root of time.
 """
 
 import math
@@ -11,31 +11,10 @@ import numpy as np
 
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL
-from .boundary_layer import layer, layer_content, wave_of_layer
-from .modes import BRIEF, IMPERMEABLE, OCTAVES, limits
-from .state import (  # fmt: skip
-    BED_PRESSURE,
-    BEND,
-    CLOSED,
-    CONTACT,
-    CONTENT,
-    GAIN,
-    HIGH,
-    JUMP,
-    LAYER,
-    LEAST,
-    LEVELS,
-    LIFT,
-    LOW,
-    MOST,
-    PASSED,
-    PRESSURE,
-    RATE,
-    REMAINDER,
-    SCALE,
-    SWING,
-    TAIL,
-)
+from ..contact import BY_EROSION, IMPERMEABLE
+from .boundary_layer import boundary_layer, layer_content, mode_of_layer
+from .modes import BRIEF, NEUMANN, bounds_of
+from .state import BANDS
 
 DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
 LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
@@ -50,131 +29,159 @@ def base_slope(profile, i, cells):
 
 
 @kernel
-def close(profile, memory, which, waves):
-    """Turn the levels of some columns into the waves they decay in over an impermeable base; `look` at them next.
+def to_modes(columns, selected, modes):
+    """Turn columns at levels into modes over an impermeable base; `advance_modes` comes next.
 
     Over the base there may be a layer that levels hardly see, of some jump and content (`prescribed_base`). It is taken
-    as what has diffused from a base held at that jump, and goes into the waves by itself: those of the levels get what
-    levels have of its content, the shorter ones what they lack at the base.
+    as the diffusion from a base held at that jump, and goes into the modes by itself: those of the levels get the part
+    of its content that levels have, the shorter ones the part that they lack at the base.
+
+    Parameters
+    ----------
+    columns : LazyColumns
+        Written in place.
+    selected : ndarray of int
+        Indices of the columns.
+    modes : Modes
+        Of columns of so many levels.
     """
+    profile, state = columns.profile, columns.state
     cells = profile.shape[1] - 1
-    levels, parts = np.empty(cells), np.empty(cells)
-    for i in which:
-        jump, content = memory[i, JUMP], memory[i, CONTENT]
-        bed = memory[i, BED_PRESSURE] if jump != 0.0 else profile[i, 0]
-        passed, removed, kept = 0.25 * math.pi * content * content, 0.0, 0.0
-        low, high, least, most = limits(profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), waves.eta)
+    levels, of_layer = np.empty(cells), np.empty(cells)
+    for i in selected:
+        column = state[i]
+        jump, content = column.layer_jump, column.layer_content
+        bed = column.bed_pressure if jump != 0.0 else profile[i, 0]
+        diffusion, removed, kept = 0.25 * math.pi * content * content, 0.0, 0.0
+        low, high, low_slope, high_slope = bounds_of(
+            profile, i, min(bed, profile[i, 0]), max(bed, profile[i, 0]), modes.eta
+        )
         if jump != 0.0:
-            missing = cells * layer_content(0.0, passed)
+            missing = cells * layer_content(0.0, diffusion)
             for k in range(1, cells):
-                share = layer(k / cells, 0.0, passed)
-                missing -= share
-                profile[i, k] -= jump * share
-                removed += jump * share
-            share = min(max(2.0 * missing, 0.0), 1.0)  # as in `boundary_layer.base_share`
-            profile[i, 0] -= jump * share
-            removed += 0.5 * jump * share
+                pressure = boundary_layer(k / cells, 0.0, diffusion)
+                missing -= pressure
+                profile[i, k] -= jump * pressure
+                removed += jump * pressure
+            filling = min(max(2.0 * missing, 0.0), 1.0)  # as in `boundary_layer.basal_filling`
+            profile[i, 0] -= jump * filling
+            removed += 0.5 * jump * filling
             for j in range(cells):
-                parts[j] = jump * wave_of_layer(math.sqrt(waves.squares[j]), passed)
-                kept += parts[j] * 0.5 * cells * waves.uniform[IMPERMEABLE, 0, j]
-        share = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
+                of_layer[j] = jump * mode_of_layer(math.sqrt(modes.squares[j]), diffusion)
+                kept += of_layer[j] * 0.5 * cells * modes.uniform[NEUMANN, 0, j]
+        scale = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
         slope = base_slope(profile, i, cells)
         unseen = bed - profile[i, 0]
         for k in range(cells):
-            levels[k] = profile[i, k] - slope * waves.eta[k]
+            levels[k] = profile[i, k] - slope * modes.eta[k]
         for j in range(cells):
-            amplitude = slope * waves.ramp[IMPERMEABLE, 0, j]
+            amplitude = slope * modes.ramp[NEUMANN, 0, j]
             for k in range(cells):
-                amplitude += waves.project[IMPERMEABLE, k, j] * levels[k]
-            if share != 0.0:
-                amplitude, unseen = amplitude + share * parts[j], unseen - share * parts[j]
+                amplitude += modes.project[NEUMANN, k, j] * levels[k]
+            if scale != 0.0:
+                amplitude, unseen = amplitude + scale * of_layer[j], unseen - scale * of_layer[j]
             profile[i, j] = amplitude
-        for octave in range(OCTAVES):  # by the wave in its middle; the last has what is left
-            part = 0.0
-            if share != 0.0:
-                part = cells * 2**octave * jump * wave_of_layer(math.sqrt(waves.octave_rate) * 2**octave, passed)
-                part = unseen if octave == OCTAVES - 1 else math.copysign(min(abs(part), abs(unseen)), unseen)
-            memory[i, LAYER + octave] = part
-            unseen -= part
-        for octave in range(OCTAVES):
-            memory[i, TAIL + octave] = slope * waves.octaves[octave]
-        memory[i, CONTACT] = CLOSED
-        memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST] = low, high, least, most
-        memory[i, PASSED] = memory[i, LIFT] = memory[i, GAIN] = memory[i, SWING] = 0.0
-        memory[i, SCALE] = 1.0
+        for band in range(BANDS):  # by the mode in its middle; the last has the rest
+            amplitude = 0.0
+            if scale != 0.0:
+                amplitude = cells * 2**band * jump * mode_of_layer(math.sqrt(modes.band_rate) * 2**band, diffusion)
+                amplitude = unseen if band == BANDS - 1 else math.copysign(min(abs(amplitude), abs(unseen)), unseen)
+            column.layer_bands[band] = amplitude
+            unseen -= amplitude
+        for band in range(BANDS):
+            column.unresolved_bands[band] = slope * modes.bands[band]
+        column.contact, column.layer_jump = IMPERMEABLE, 0.0
+        column.lowest_pressure, column.highest_pressure = low, high
+        column.lowest_slope, column.highest_slope = low_slope, high_slope
+        _forget_loads(column)
+
+
+@inner
+def _forget_loads(column):
+    """Begin a new account of diffusion, load and source of one column."""
+    column.diffusion = column.load_gain = column.source_gain = column.load_variation = 0.0
+    column.load_scale = 1.0
 
 
 @kernel
-def open_up(profile, memory, which, waves):
-    """Turn the waves of some columns, just looked at, into pressures at levels."""
+def to_levels(columns, selected, modes):
+    """Turn columns in modes, just updated, into pressures at levels; arguments as in `to_modes`."""
+    profile, state = columns.profile, columns.state
     cells = profile.shape[1] - 1
     levels = np.empty(cells)
-    for i in which:
-        _synthesise(profile, memory, i, waves, levels)
-        low, high, least, most, lost = memory[i, LOW], memory[i, HIGH], memory[i, LEAST], memory[i, MOST], 0.0
+    for i in selected:
+        column = state[i]
+        _synthesise(profile, column, i, modes, levels)
+        low, high, lost = column.lowest_pressure, column.highest_pressure, 0.0
+        low_slope, high_slope = column.lowest_slope, column.highest_slope
         for k in range(cells):
-            eta = waves.eta[k]
-            profile[i, k] = min(max(levels[k], low, least * eta), high, most * eta)
+            eta = modes.eta[k]
+            profile[i, k] = min(max(levels[k], low, low_slope * eta), high, high_slope * eta)
             lost += (levels[k] - profile[i, k]) * (0.5 if k == 0 else 1.0)
-        # what the bounds took off goes into the base level, as far as they let it: the content does not jump
-        profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, least), high, most)
+        # the base level takes back what the bounds took off, as far as they let it: the content does not jump
+        profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, low_slope), high, high_slope)
         profile[i, cells] = 0.0
-        memory[i, CONTACT], memory[i, JUMP] = LEVELS, 0.0
+        column.contact, column.layer_jump = BY_EROSION, 0.0
 
 
 @kernel
-def look(profile, memory, which, waves):
-    """Let the waves of some columns decay by what has passed since the last look, under the loads since then."""
-    ramp, uniform = waves.ramp[IMPERMEABLE], waves.uniform[IMPERMEABLE]
+def advance_modes(columns, selected, modes):
+    """Update columns in modes: let them decay under the loads since the last update; arguments as in `to_modes`."""
+    profile, state = columns.profile, columns.state
+    ramp, uniform = modes.ramp[NEUMANN], modes.uniform[NEUMANN]
     cells = profile.shape[1] - 1
     factors = np.empty(cells)
-    for i in which:
-        passed, lift, scale, gain = memory[i, PASSED], memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
-        decay = math.exp(-0.25 * math.pi * math.pi * passed)
+    for i in selected:
+        column = state[i]
+        diffusion, load_gain, source_gain = column.diffusion, column.load_gain, column.source_gain
+        scale = column.load_scale
+        decay = math.exp(-0.25 * math.pi * math.pi * diffusion)
         square = decay * decay
         factor = square * square
         factor = factor * factor
         ratio = factor
-        for j in range(cells):  # exp(-wave^2 passed), with one exponential for all
+        for j in range(cells):  # exp(-number^2 diffusion), with one exponential for all
             factors[j] = decay
             decay *= ratio
             ratio *= factor
-        if lift != 0.0 or gain != 0.0:
-            # what a wave gains: exactly, but linear in time where that formula cancels
-            brief = passed < BRIEF
-            rate, now = (0.0, 0.5) if brief else (1.0 / passed, 0.0)
+        if load_gain != 0.0 or source_gain != 0.0:
+            # gain of a mode: exactly, but linear in time where that formula cancels
+            brief = diffusion < BRIEF
+            rate, now = (0.0, 0.5) if brief else (1.0 / diffusion, 0.0)
             for j in range(cells):
-                settled = rate * (lift * ramp[1, j] + gain * uniform[1, j])
-                gained = now * (lift * ramp[0, j] + gain * uniform[0, j])
-                profile[i, j] = (profile[i, j] * scale - settled + gained) * factors[j] + settled + gained
+                steady = rate * (load_gain * ramp[1, j] + source_gain * uniform[1, j])
+                gained = now * (load_gain * ramp[0, j] + source_gain * uniform[0, j])
+                profile[i, j] = (profile[i, j] * scale - steady + gained) * factors[j] + steady + gained
         else:
             for j in range(cells):
                 profile[i, j] *= scale * factors[j]
-        square = waves.octave_rate
-        decay = math.exp(-square * passed)
-        for octave in range(OCTAVES):
-            x = square * passed
+        square = modes.band_rate
+        decay = math.exp(-square * diffusion)
+        unresolved_bands, layer_bands = column.unresolved_bands, column.layer_bands
+        for band in range(BANDS):
+            x = square * diffusion
             evenly = (1.0 - decay) / x if x > BRIEF else 1.0 - 0.5 * x
-            memory[i, LAYER + octave] *= scale * decay
-            memory[i, TAIL + octave] = memory[i, TAIL + octave] * scale * decay + lift * waves.octaves[octave] * evenly
+            layer_bands[band] *= scale * decay
+            unresolved_bands[band] = unresolved_bands[band] * scale * decay + load_gain * modes.bands[band] * evenly
             decay *= decay
             decay *= decay
             square *= 4.0
-        _bend(profile, memory, i, waves)
-        low, high, least, most = gained_limits(memory, i)
-        memory[i, LOW], memory[i, HIGH] = low, high
-        memory[i, LEAST], memory[i, MOST] = least + cells * min(gain, 0.0), most + cells * max(gain, 0.0)
-        memory[i, PASSED] = memory[i, LIFT] = memory[i, GAIN] = memory[i, SWING] = 0.0
-        memory[i, SCALE] = 1.0
+        _expand_base(profile, column, i, modes)
+        low, high, low_slope, high_slope = bounds_with_gains(column)
+        column.lowest_pressure, column.highest_pressure = low, high
+        column.lowest_slope = low_slope + cells * min(source_gain, 0.0)
+        column.highest_slope = high_slope + cells * max(source_gain, 0.0)
+        _forget_loads(column)
 
 
 @inner
-def _bend(profile, memory, i, waves):
-    """Remember of one column its pressure at the base, the parabola in c_v t / h^2 it goes by, and its remainder."""
+def _expand_base(profile, column, i, modes):
+    """Write the pressure at the base of one column, its parabola in c_v t / h^2 and the remainder of that [Pa]."""
     pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
-    square = waves.octave_rate
-    for octave in range(OCTAVES):
-        amplitude = memory[i, TAIL + octave] + memory[i, LAYER + octave]
+    square = modes.band_rate
+    unresolved_bands, layer_bands = column.unresolved_bands, column.layer_bands
+    for band in range(BANDS):
+        amplitude = unresolved_bands[band] + layer_bands[band]
         first = square * amplitude
         second = square * first
         pressure += amplitude
@@ -183,88 +190,112 @@ def _bend(profile, memory, i, waves):
         remainder += square * abs(second)
         square *= 4.0
     for j in range(profile.shape[1] - 1):
-        square, amplitude = waves.squares[j], profile[i, j]
+        square, amplitude = modes.squares[j], profile[i, j]
         first = square * amplitude
         second = square * first
         pressure += amplitude
         rate += first
         bend += second
         remainder += square * abs(second)
-    memory[i, PRESSURE] = pressure
-    memory[i, RATE], memory[i, BEND], memory[i, REMAINDER] = -rate, bend / 2.0, remainder / 6.0
+    column.base_pressure = pressure
+    column.base_rate, column.base_curvature, column.remainder = -rate, bend / 2.0, remainder / 6.0
 
 
 @kernel
-def hold(profile, memory, which, waves, loads, thicknesses, lower, clipped):
-    """Hold some columns, just looked at, between suction and liquefaction at their levels; count what that takes off.
+def clip_modes(columns, selected, forcing, modes):
+    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count what that takes off.
 
-    Waves too short for the levels stay as they are.
+    Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
+    profile, state, clipped = columns.profile, columns.state, columns.clipped
+    loads, thicknesses, lower = forcing.liquefaction_pressure, forcing.thickness, forcing.water_to_buoyant
     cells = profile.shape[1] - 1
     levels = np.empty(cells)
-    for i in which:
-        _synthesise(profile, memory, i, waves, levels)
+    for i in selected:
+        column = state[i]
+        _synthesise(profile, column, i, modes, levels)
         load, removed = loads[i], 0.0
         for k in range(cells):
-            most = load * waves.eta[k]
+            most = load * modes.eta[k]
             taken = levels[k] - min(max(levels[k], -lower * most), most)
             removed += abs(taken) * (0.5 if k == 0 else 1.0)
             if taken != 0.0:
                 for j in range(cells):
-                    profile[i, j] -= waves.project[IMPERMEABLE, k, j] * taken
+                    profile[i, j] -= modes.project[NEUMANN, k, j] * taken
         clipped[i] += removed * thicknesses[i] / cells
-        memory[i, LOW], memory[i, HIGH] = max(memory[i, LOW], -lower * load), min(memory[i, HIGH], load)
-        memory[i, LEAST], memory[i, MOST] = max(memory[i, LEAST], -lower * load), min(memory[i, MOST], load)
-        _bend(profile, memory, i, waves)
+        column.lowest_pressure = max(column.lowest_pressure, -lower * load)
+        column.highest_pressure = min(column.highest_pressure, load)
+        column.lowest_slope = max(column.lowest_slope, -lower * load)
+        column.highest_slope = min(column.highest_slope, load)
+        _expand_base(profile, column, i, modes)
 
 
 @inner
-def _synthesise(profile, memory, i, waves, levels):
-    """Write the pressures of one column at the levels; of a thin layer they see no more than its content."""
-    tail = 0.0
-    for octave in range(OCTAVES):
-        tail += memory[i, TAIL + octave]
-    tail /= waves.pattern[IMPERMEABLE, 0]
+def _synthesise(profile, column, i, modes, levels):
+    """Write the pressures of one column at the levels [Pa]; of a thin layer they see no more than its content."""
+    unresolved_bands, tail = column.unresolved_bands, 0.0
+    for band in range(BANDS):
+        tail += unresolved_bands[band]
+    tail /= modes.pattern[NEUMANN, 0]
     for k in range(levels.size):
-        levels[k] = tail * waves.pattern[IMPERMEABLE, k]
+        levels[k] = tail * modes.pattern[NEUMANN, k]
     for j in range(levels.size):
         for k in range(levels.size):
-            levels[k] += profile[i, j] * waves.shapes[IMPERMEABLE, j, k]
+            levels[k] += profile[i, j] * modes.shapes[NEUMANN, j, k]
 
 
 @inner
-def gained_limits(memory, i):
-    """Return the limits of one column with what has been put on it since the last look; see `modes.limits`."""
-    lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN]
-    fall, rise = min(lift, 0.0) + min(gain, 0.0), max(lift, 0.0) + max(gain, 0.0)
+def bounds_with_gains(column):
+    """Return the bounds of one column with all gains since the last update [Pa]; see `modes.bounds_of`."""
+    load_gain, scale, source_gain = column.load_gain, column.load_scale, column.source_gain
+    fall = min(load_gain, 0.0) + min(source_gain, 0.0)
+    rise = max(load_gain, 0.0) + max(source_gain, 0.0)
     return (
-        memory[i, LOW] * scale + fall, memory[i, HIGH] * scale + rise,
-        min(memory[i, LEAST] * scale + lift + min(gain, 0.0), 0.0),
-        max(memory[i, MOST] * scale + lift + max(gain, 0.0), 0.0),
+        column.lowest_pressure * scale + fall, column.highest_pressure * scale + rise,
+        min(column.lowest_slope * scale + load_gain + min(source_gain, 0.0), 0.0),
+        max(column.highest_slope * scale + load_gain + max(source_gain, 0.0), 0.0),
     )  # fmt: skip
 
 
 @inner
-def closed_pressure(memory, i, passed, load, old_load, gain, loading):
-    """Put one step on a column and look at its base.
+def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
+    """Add one step to the account of a column in modes and estimate the pressure at its base.
 
-    Returns the pressure there, by how much that may be wrong, its limits over eta, and what part of an even load
-    since the last look has gone from the base. The load has changed from ``old_load`` to ``load`` and every grain
-    gained ``gain`` evenly.
+    Parameters
+    ----------
+    column : record of `state.LAYOUT`
+        Written.
+    diffusion : float
+        c_v t / h^2 of the step [-].
+    load, old_load : float
+        Liquefaction pressure after and before the step [Pa].
+    source : float
+        Gain of every grain by a change of porosity [Pa].
+    loading : int
+        A value of `choices.LOADING`.
+
+    Returns
+    -------
+    pressure, error : float
+        At the base, and the bound of its error [Pa].
+    low_slope, high_slope : float
+        Bounds of the column over eta [Pa].
+    lost : float
+        Fraction of an even load since the update that has gone from the base [-].
     """
-    passed = min(memory[i, PASSED] + passed, DIFFUSION_CAP)
-    lift, scale, gain = memory[i, LIFT], memory[i, SCALE], memory[i, GAIN] + gain
-    swing = memory[i, SWING] + abs(gain - memory[i, GAIN])
+    diffusion = min(column.diffusion + diffusion, DIFFUSION_CAP)
+    load_gain, scale, source_gain = column.load_gain, column.load_scale, column.source_gain + source
+    variation = column.load_variation + abs(source_gain - column.source_gain)
     if loading == OVERBURDEN:
-        lift += load - old_load
-        swing += abs(load - old_load)
+        load_gain += load - old_load
+        variation += abs(load - old_load)
     elif loading == PROPORTIONAL and old_load > 0.0:
         scale *= load / old_load
-    memory[i, PASSED], memory[i, LIFT], memory[i, SCALE] = passed, lift, scale
-    memory[i, GAIN], memory[i, SWING] = gain, swing
-    lost = LOSS * math.sqrt(passed)
-    pressure = scale * (memory[i, PRESSURE] + passed * (memory[i, RATE] + passed * memory[i, BEND]))
-    pressure += lift * max(1.0 - lost, 0.0) + gain
-    error = memory[i, REMAINDER] * scale * passed * passed * passed + lost * swing
-    low, high, least, most = gained_limits(memory, i)
-    return min(max(pressure, low, least), high, most), error, least, most, lost
+    column.diffusion, column.load_gain, column.load_scale = diffusion, load_gain, scale
+    column.source_gain, column.load_variation = source_gain, variation
+    lost = LOSS * math.sqrt(diffusion)
+    pressure = scale * (column.base_pressure + diffusion * (column.base_rate + diffusion * column.base_curvature))
+    pressure += load_gain * max(1.0 - lost, 0.0) + source_gain
+    error = column.remainder * scale * diffusion * diffusion * diffusion + lost * variation
+    low, high, low_slope, high_slope = bounds_with_gains(column)
+    return min(max(pressure, low, low_slope), high, high_slope), error, low_slope, high_slope, lost

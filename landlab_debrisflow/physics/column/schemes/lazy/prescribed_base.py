@@ -1,7 +1,7 @@
-"""A column whose base the bed prescribes: kept as pressures at levels, brought forward some steps at once.
+"""Columns whose base the bed prescribes: kept as pressures at levels, updated once for some steps.
 
-It diffuses, is stretched (`remap`), and diffuses again. How much of the diffusion comes last follows
-from what it has left of the stretching by the end, half where little diffuses; it is joined to the first
+A column diffuses, is stretched (`remap`), and diffuses again. How much of the diffusion comes last follows
+from how much of the stretching is left by the end, half where little diffuses; it is joined to the first
 of the next time. Over a base that has just changed, a layer forms that levels do not resolve (`boundary_layer`).
 
 The base level stands for half a cell. A base that starts to erode fills it first; a profile does not
@@ -14,190 +14,203 @@ import numpy as np
 
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL, UNLOADED
-from .boundary_layer import base_share, is_seen, layer, layer_content
-from .modes import IMPERMEABLE, PRESCRIBED, evolve, limits
-from .remap import stretch_profile
-from .state import (  # fmt: skip
-    BASE,
-    BED_PRESSURE,
-    CONTACT,
-    CONTENT,
-    DIFFUSION,
-    FLUX,
-    JUMP,
-    JUST,
-    LOAD,
-    OWED,
-    SOURCE,
-    VOLUME,
-)
+from ..contact import INFLOW
+from .boundary_layer import basal_filling, boundary_layer, is_resolved, layer_content
+from .modes import DIRICHLET, NEUMANN, bounds_of, diffuse_profile
+from .remap import remap_profile
 
-LEAST_STRETCH = 1e-9  # volume before over volume after: of what was there before, nothing is left
+LEAST_STRETCH = 1e-9  # volume before over volume after: nothing is left of the old column
 LAYER_END = 0.05  # c_v t / h^2 up to which the layer over a base that has just changed does not feel the surface
 
 
 @inner
-def strain_of(load, old_load, volume, start):
-    """Return the change of the load but by erosion; a column that has none left is emptied by its bounds."""
+def load_strain(load, old_load, volume, start):
+    """Return the load over the old one but for erosion [-]; a column that has none left is emptied by its bounds."""
     return load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
 
 
 @kernel
-def diffuse(profile, memory, which, volumes, loads, ending, scheme, waves):
-    """Let some columns diffuse under what loads them while grains keep their place."""
+def diffuse(columns, selected, forcing, ending, scheme, modes):
+    """Diffuse and load columns whose grains keep their place; arguments as in `grow`."""
+    profile, state = columns.profile, columns.state
+    volumes, loads = forcing.volume, forcing.liquefaction_pressure
     cells = profile.shape[1] - 1
     work = np.empty(cells)
-    for i in which:
-        volume, load, start, old_load = volumes[i], loads[i], memory[i, VOLUME], memory[i, LOAD]
-        base, new_base, touched = memory[i, BASE], memory[i, BED_PRESSURE], profile[i, 0]
-        passed, lift, scale = memory[i, OWED] + memory[i, DIFFUSION], 0.0, 1.0
-        strained = strain_of(load, old_load, volume, start)
+    for i in selected:
+        column = state[i]
+        volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update
+        base, new_base, base_level = column.base_pressure, column.bed_pressure, profile[i, 0]
+        diffusion, load_gain, scale = column.deferred_diffusion + column.diffusion, 0.0, 1.0
+        strain = load_strain(load, old_load, volume, start)
         if scheme.loading == OVERBURDEN:
             growth = volume / start if start > 0.0 else 1.0
-            lift = load - old_load if scheme.literal else 0.5 * old_load * (1.0 + growth) * (strained - 1.0)
+            load_gain = 0.5 * old_load * (1.0 + growth) * (strain - 1.0)
+            if scheme.loads_by_erosion:
+                load_gain = load - old_load
         elif scheme.loading == PROPORTIONAL:
-            scale = math.sqrt(strained)
+            scale = math.sqrt(strain)
         for k in range(cells):
             profile[i, k] *= scale
-        just, flux = memory[i, JUST] > 0.0, memory[i, CONTACT] >= FLUX
-        kind, held, new_held = (IMPERMEABLE, 0.0, 0.0) if flux else (PRESCRIBED, base * scale, new_base / scale)
-        kink = (touched - base) * scale if just and not flux else 0.0
-        evolve(profile, i, kind, passed, held, new_held, kink, lift, memory[i, SOURCE], waves, work)
+        is_new, flux = column.contact_is_new > 0.0, column.contact >= INFLOW
+        condition, first, last = (NEUMANN, 0.0, 0.0) if flux else (DIRICHLET, base * scale, new_base / scale)
+        kink = (base_level - base) * scale if is_new and not flux else 0.0
+        diffuse_profile(profile, i, condition, diffusion, first, last, kink, load_gain, column.source_gain, modes, work)
         for k in range(cells):
             profile[i, k] *= scale
-        memory[i, SOURCE] = memory[i, OWED] = memory[i, JUMP] = 0.0
+        column.source_gain = column.deferred_diffusion = column.layer_jump = 0.0
         if flux:
             continue
         profile[i, 0] = new_base
-        if just and ending and not is_seen(cells, 0.0, passed):
-            carried = touched * scale * scale + lift
-            jump, first_jump = new_base - carried, (base - touched) * scale * scale
+        if is_new and ending and not is_resolved(cells, 0.0, diffusion):
+            inside = base_level * scale * scale + load_gain
+            jump, first_jump = new_base - inside, (base - base_level) * scale * scale
             if jump != 0.0:
-                # what came evenly since then is as two jumps of half of it (Gauss), and sent two thirds as much in
+                # a jump that came evenly since then is as two of half of it (Gauss), and sent two thirds as much in
                 evenly = min(max(1.0 - first_jump / jump, 0.0), 1.0)
-                _end(profile, memory, i, carried, jump, evenly, 0.0, passed)
+                _fill_base_level(profile, column, i, (inside, jump, evenly), 0.0, diffusion)
 
 
 @kernel
-def grow(profile, memory, which, volumes, loads, ending, scheme, waves):
-    """Let some columns diffuse and grow by soil that comes in at a prescribed base.
+def grow(columns, selected, forcing, ending, scheme, modes):
+    """Diffuse columns that grow by soil that comes in at a prescribed base.
 
-    What is carried along with the grains is ``weight * load * eta - p``, the effective stress or less the
+    Carried along with the grains is ``weight * load * eta - p``, the effective stress or less the
     pressure; ``entry`` is that of the soil that comes in.
+
+    Parameters
+    ----------
+    columns : LazyColumns
+        Written in place.
+    selected : ndarray of int
+        Indices of the columns.
+    forcing : ColumnForcing
+        Volume and load of the present.
+    ending : bool
+        Whether this is the last update over this contact.
+    scheme : Scheme
+        Choices of the law.
+    modes : Modes
+        Of columns of so many levels.
     """
+    profile, state = columns.profile, columns.state
+    volumes, loads = forcing.volume, forcing.liquefaction_pressure
     cells = profile.shape[1] - 1
     work = np.empty((2, cells + 1))
-    for i in which:
-        volume, load, start, old_load = volumes[i], loads[i], memory[i, VOLUME], memory[i, LOAD]
-        base, new_base, touched = memory[i, BASE], memory[i, BED_PRESSURE], profile[i, 0]
+    for i in selected:
+        column = state[i]
+        volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update
+        base, new_base, base_level = column.base_pressure, column.bed_pressure, profile[i, 0]
         stretch = max(start / volume, LEAST_STRETCH)
-        first, last, source, last_source = parts_of(memory, i, stretch, PRESCRIBED)
+        first, last, source, last_source = split_diffusion(column, stretch, DIRICHLET)
         weight, scale, entry, new_entry = 0.0, 1.0, -base, -new_base
         if scheme.loading == OVERBURDEN:
             weight, entry, new_entry = 1.0, old_load - base, load - new_base
         elif scheme.loading == PROPORTIONAL:
-            scale = strain_of(load, old_load, volume, start)
+            scale = load_strain(load, old_load, volume, start)
             entry = entry * scale
         # over a base that has just changed: the column as if it had not, and the layer that forms over it
-        diffusion = memory[i, DIFFUSION]
-        fresh = memory[i, JUST] > 0.0 and diffusion < LAYER_END
-        low, high, least, most = limits(profile, i, base, base, waves.eta)
-        held, jump, new_jump = base, 0.0, 0.0
-        if fresh:  # what would have come in has the ratio of the base, so that a constant ratio stays one
-            held, carried = touched, scale * (weight * old_load - touched)
+        diffusion = column.diffusion
+        fresh = column.contact_is_new > 0.0 and diffusion < LAYER_END
+        low, high, low_slope, high_slope = bounds_of(profile, i, base, base, modes.eta)
+        given, jump, new_jump = base, 0.0, 0.0
+        if fresh:  # soil with the ratio of the base would have come in, so that a constant ratio stays one
+            given, carried = base_level, scale * (weight * old_load - base_level)
             growth = 1.0 if scheme.loading == UNLOADED else 1.0 / stretch
             jump, new_jump = carried - entry, carried * growth - new_entry
             entry, new_entry = carried, carried * growth
-        evolve(profile, i, PRESCRIBED, first, held, held, touched - held, 0.0, source, waves, work[0])
-        stretch_profile(profile, i, stretch, old_load, load, weight, scale, entry, new_entry, work)
-        if scheme.literal:
-            load_literally(profile, i, stretch, load)
+        diffuse_profile(profile, i, DIRICHLET, first, given, given, base_level - given, 0.0, source, modes, work[0])
+        remap_profile(profile, i, stretch, old_load, load, (weight, scale, entry, new_entry), work)
+        if scheme.loads_by_erosion:
+            add_loading_by_erosion(profile, i, stretch, load)
         inside = weight * load - new_entry
-        memory[i, SOURCE], memory[i, OWED], memory[i, JUMP] = last_source, last, 0.0
+        column.source_gain, column.deferred_diffusion, column.layer_jump = last_source, last, 0.0
         if ending or fresh:
-            evolve(profile, i, PRESCRIBED, last, inside, inside, 0.0, 0.0, last_source, waves, work[0])
-            memory[i, SOURCE] = memory[i, OWED] = 0.0
+            diffuse_profile(profile, i, DIRICHLET, last, inside, inside, 0.0, 0.0, last_source, modes, work[0])
+            column.source_gain = column.deferred_diffusion = 0.0
         profile[i, 0] = new_base
         if not fresh:
             continue
-        # what encloses the column moves as its grains and their load do, and must enclose the base
-        loaded, grown, passed = weight * (load - old_load / stretch), 1.0 - stretch, diffusion * stretch
+        # the bounds of the column move as its grains and their load do, and must enclose the base
+        loaded, growth, diffusion = weight * (load - old_load / stretch), 1.0 - stretch, diffusion * stretch
         larger, pull = max(scale, 1.0), scale / stretch
-        limit = (
+        bounds = (
             min(low * larger, new_base) + min(loaded, 0.0), max(high * larger, new_base) + max(loaded, 0.0),
-            min(least * pull + loaded, new_base), max(most * pull + loaded, new_base),
+            min(low_slope * pull + loaded, new_base), max(high_slope * pull + loaded, new_base),
         )  # fmt: skip
-        _add_layer(profile, i, jump, new_jump, grown, passed, limit, waves.eta)
-        if ending and not is_seen(cells, grown, passed):
-            _end(profile, memory, i, inside, new_base - inside, 0.0, grown, passed)
+        _add_layer(profile, i, (jump, new_jump), growth, diffusion, bounds, modes.eta)
+        if ending and not is_resolved(cells, growth, diffusion):
+            _fill_base_level(profile, column, i, (inside, new_base - inside, 0.0), growth, diffusion)
 
 
 @inner
-def parts_of(memory, i, stretch, kind):
-    """Return what is to diffuse before and after the stretching, and what comes with it from a source of pressure."""
-    diffusion = memory[i, DIFFUSION]
-    after = passed_after(diffusion, kind)
-    # the thickness was another one before the stretching than after it
-    first, last = memory[i, OWED] + (diffusion - after) / stretch, after * stretch
-    last_source = memory[i, SOURCE] * last / (diffusion * stretch) if diffusion > 0.0 else 0.0
-    return first, last, memory[i, SOURCE] - last_source, last_source
+def split_diffusion(column, stretch, condition):
+    """Return the diffusion before and after the remap [-], and the gain by a source of pressure with each [Pa]."""
+    diffusion = column.diffusion
+    after = diffusion_after(diffusion, condition)
+    # the thickness was another one before the remap than after it
+    first, last = column.deferred_diffusion + (diffusion - after) / stretch, after * stretch
+    last_source = column.source_gain * last / (diffusion * stretch) if diffusion > 0.0 else 0.0
+    return first, last, column.source_gain - last_source, last_source
 
 
 @kernel
-def settle(columns, which, forcing, basal_pressure):
-    """Remember of some columns how they are now, and hold their levels between suction and liquefaction.
+def commit(columns, selected, forcing, basal_pressure):
+    """Record the present as the last update of columns at levels, and clip them to suction and liquefaction.
 
-    What that takes off is counted. Where the bed does not prescribe the pressure at the base it is written.
+    What that takes off is counted. The basal pressure is written where the bed does not prescribe it [Pa].
     """
-    profile, memory, lower = columns.profile, columns.memory, forcing.water_to_buoyant
+    profile, state, clipped, lower = columns.profile, columns.state, columns.clipped, forcing.water_to_buoyant
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     cells = profile.shape[1] - 1
-    for i in which:
-        load = loads[i]
-        memory[i, JUST], memory[i, VOLUME], memory[i, LOAD] = 0.0, volumes[i], load
-        memory[i, BASE], memory[i, DIFFUSION] = memory[i, BED_PRESSURE], 0.0
+    for i in selected:
+        column, load = state[i], loads[i]
+        column.contact_is_new, column.volume_at_update, column.load_at_update = 0.0, volumes[i], load
+        column.base_pressure, column.diffusion = column.bed_pressure, 0.0
         if forcing.bounded:
             removed = 0.0
             for k in range(cells):
                 overburden, pressure = load * (cells - k) / cells, profile[i, k]
-                held = min(max(pressure, -lower * overburden), overburden)
-                removed += abs(pressure - held) * (0.5 if k == 0 else 1.0)
-                profile[i, k] = held
-            columns.clipped[i] += removed * thicknesses[i] / cells
-        if memory[i, CONTACT] >= FLUX:
+                within = min(max(pressure, -lower * overburden), overburden)
+                removed += abs(pressure - within) * (0.5 if k == 0 else 1.0)
+                profile[i, k] = within
+            clipped[i] += removed * thicknesses[i] / cells
+        if column.contact >= INFLOW:
             basal_pressure[i] = profile[i, 0]
 
 
 @inner
-def _end(profile, memory, i, carried, jump, evenly, grown, passed):
-    """Fill the half cell of the base level as far as was reached over a base that has just changed by ``jump``.
+def _fill_base_level(profile, column, i, change, growth, diffusion):
+    """Fill the half cell of the base level as far as the layer over a base that has just changed reaches.
 
-    A part of the jump, ``evenly``, came evenly since then, the rest at once.
+    ``change`` is the pressure inside, the jump of the base above it [Pa], and the fraction of the jump that came evenly
+    since then, the rest at once.
     """
-    cells, share = profile.shape[1] - 1, 0.0
-    for part, time in ((1.0 - evenly, 1.0), (0.5 * evenly, 0.2113), (0.5 * evenly, 0.7887)):
-        if part > 0.0:
-            share += part * base_share(cells, grown, time * passed)
-    profile[i, 0] = carried + share * jump
-    memory[i, JUMP], memory[i, CONTENT] = jump, (1.0 - evenly / 3.0) * layer_content(grown, passed)
+    inside, jump, evenly = change
+    cells, filling = profile.shape[1] - 1, 0.0
+    for weight, time in ((1.0 - evenly, 1.0), (0.5 * evenly, 0.2113), (0.5 * evenly, 0.7887)):
+        if weight > 0.0:
+            filling += weight * basal_filling(cells, growth, time * diffusion)
+    profile[i, 0] = inside + filling * jump
+    column.layer_jump = jump
+    column.layer_content = (1.0 - evenly / 3.0) * layer_content(growth, diffusion)
 
 
 @inner
-def passed_after(passed, kind):
-    """Return how much of the diffusion of an advance is to come after its stretching.
+def diffusion_after(diffusion, condition):
+    """Return the part of the diffusion of an update that is to come after its remap [-].
 
-    The slowest wave then keeps as much of what is stretched as if the two went on together.
+    The slowest mode then keeps as much of what is stretched as if the two went on together.
     """
-    rate = math.pi * math.pi * (1.0 if kind == PRESCRIBED else 0.25)
-    x = rate * passed
+    rate = math.pi * math.pi * (1.0 if condition == DIRICHLET else 0.25)
+    x = rate * diffusion
     if x < 1e-3:
-        return passed * (0.5 - x / 24.0)
+        return diffusion * (0.5 - x / 24.0)
     return math.log(x / -math.expm1(-x)) / rate
 
 
 @inner
-def load_literally(profile, i, stretch, load):
-    """Add what the whole dh/dt loads the grains with while new soil comes in below them."""
+def add_loading_by_erosion(profile, i, stretch, load):
+    """Add the load that the whole dh/dt puts on the grains while new soil comes in below them [Pa]."""
     cells = profile.shape[1] - 1
     for k in range(cells):
         eta = (cells - k) / cells
@@ -205,16 +218,17 @@ def load_literally(profile, i, stretch, load):
 
 
 @inner
-def _add_layer(profile, i, jump, new_jump, grown, passed, limit, eta):
-    """Add what a base that has just changed by ``jump``, and in the end by ``new_jump``, has sent into a column.
+def _add_layer(profile, i, jumps, growth, diffusion, bounds, eta):
+    """Add the layer over a base that has just changed by the first of ``jumps``, and in the end by the other [Pa].
 
-    ``limit`` holds the least and largest pressure, and over eta, that it may have.
+    ``bounds`` are the least and largest pressure, and pressure over eta, that the column may have [Pa].
     """
     cells = profile.shape[1] - 1
-    low, high, least, most = limit
+    jump, new_jump = jumps
+    low, high, low_slope, high_slope = bounds
     for k in range(1, cells):
         distance = 1.0 - eta[k]
-        share = layer(distance, grown, passed) - layer(2.0 - distance, grown, passed)
-        early = min(distance / grown, 1.0) if grown > 0.0 else 0.0
-        pressure = profile[i, k] + share * (new_jump + early * (jump - new_jump))
-        profile[i, k] = min(max(pressure, low, least * eta[k]), high, most * eta[k])
+        layer = boundary_layer(distance, growth, diffusion) - boundary_layer(2.0 - distance, growth, diffusion)
+        early = min(distance / growth, 1.0) if growth > 0.0 else 0.0
+        pressure = profile[i, k] + layer * (new_jump + early * (jump - new_jump))
+        profile[i, k] = min(max(pressure, low, low_slope * eta[k]), high, high_slope * eta[k])

@@ -1,4 +1,4 @@
-"""What erosion does to a column: grains keep their depth while new soil comes in at the base.
+"""Remap of a column that erodes: grains keep their depth while new soil comes in at the base.
 
 With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before
 over the volume after: exactly, over any interval (docs/theory.md#column; eq. 35 of Pastor et al., 2022,
@@ -12,9 +12,9 @@ from .....core.jit import inner
 
 @inner
 def interpolate(values, ratios, cells, position):
-    """Return the cubic through four of ``values``, held between the two that enclose ``position``.
+    """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
 
-    Its ratio to the position is held as well, between that of the two (beside the surface, of the two next to it).
+    Its ratio to the position is clipped as well, to those of the two (beside the surface, of the two next to it).
     """
     low = min(int(position), cells - 1)
     if cells < 3:
@@ -32,25 +32,25 @@ def interpolate(values, ratios, cells, position):
 
 
 @inner
-def stretch_profile(profile, i, stretch, load, new_load, weight, scale, entry, new_entry, work):
-    """Stretch one column.
+def remap_profile(profile, i, stretch, load, new_load, carried, work):
+    """Stretch one column, and fill it from below.
 
     Parameters
     ----------
     profile : ndarray, shape (n, levels)
         Row ``i`` is written [Pa].
     stretch : float
-        Volume before over volume after, < 1.
+        Volume before over volume after, < 1 [-].
     load, new_load : float
         Overburden at the base before and after [Pa].
-    weight, scale : float
-        ``weight * load * eta - p`` is carried along with the grains, times ``scale``.
-    entry, new_entry : float
-        The same of the soil that comes in first and last, at the base [Pa].
+    carried : tuple of float
+        ``(weight, scale, entry, new_entry)``: ``scale * (weight * load * eta - p)`` is carried along with the grains;
+        ``entry`` and ``new_entry`` are that of the soil that comes in first and last, at the base [Pa].
     work : ndarray, shape (2, levels)
         Scratch.
     """
     cells = profile.shape[1] - 1
+    weight, scale, entry, new_entry = carried
     old, ratios = work[0], work[1]
     width, pull = 1.0 / cells, 1.0 / stretch
     for k in range(cells + 1):  # counted from the surface
@@ -60,7 +60,7 @@ def stretch_profile(profile, i, stretch, load, new_load, weight, scale, entry, n
     for m in range(cells + 1):
         eta = m * width
         if eta <= stretch:
-            carried = interpolate(old, ratios, cells, m * pull)
+            value = interpolate(old, ratios, cells, m * pull)
         else:  # soil that came in when the base was where this level is now
-            carried = entry + (eta - stretch) / (1.0 - stretch) * (new_entry - entry)
-        profile[i, cells - m] = weight * new_load * eta - carried
+            value = entry + (eta - stretch) / (1.0 - stretch) * (new_entry - entry)
+        profile[i, cells - m] = weight * new_load * eta - value

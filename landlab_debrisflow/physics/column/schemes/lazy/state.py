@@ -1,29 +1,77 @@
-"""What the default scheme remembers of a column: places in `ColumnState.memory`, and the values of CONTACT."""
+"""State of a column between the calls of the default scheme: one record per column, its layout declared here.
 
-MEMORY_SIZE = 26
-"""Numbers that the schemes may keep per column from call to call."""
+An update is the moment in which a column was last advanced. ``eta`` is the depth below the surface over the
+thickness, ``c_v t/h^2`` a time over that of consolidation.
 
-# VOLUME and LOAD are of when the column was last advanced, CURRENT_LOAD of the last step; JUST is 1 until what
-# lies in the half cell of the base level came with this contact.
-CONTACT, JUST, VOLUME, LOAD, CURRENT_LOAD = range(5)
+====================  =====  ==================================================================================
+member                unit   meaning
+====================  =====  ==================================================================================
+contact               -      `BaseContact` of the last step; BY_EROSION: at levels, not put on a base yet
+load                  Pa     liquefaction pressure after the last step
+diffusion             -      c_v t/h^2 since the update
+source_gain           Pa     pressure made by a change of porosity since the update
+base_pressure         Pa     pressure at the base at the update
 
-# while the base prescribes or gives: c_v t / h^2 since the last advance, pressure of the bed now, that at the base
-# then, pressure by a porosity source, diffusion left over, volume when this contact began
-DIFFUSION, BED_PRESSURE, BASE, SOURCE, OWED, TOUCHED = range(5, 11)
-# while not closed: what the levels do not see of a base that changed shortly before its contact ended, as a jump at
-# that base and the content of the layer over it, over the jump and the thickness
-JUMP, CONTENT = 11, 12
+in modes, over an impermeable base
+base_rate             Pa     derivative of the pressure at the base by c_v t/h^2, at the update
+base_curvature        Pa     half its second derivative
+remainder             Pa     bound of the error of that parabola, over (c_v t/h^2)^3
+load_gain             Pa     pressure over eta that loading has added since the update
+load_scale            -      factor by which loading has scaled the pressure since the update
+load_variation        Pa     sum of the changes of load and source since the update, all taken positive
+lowest_pressure       Pa     bounds of the column at the update: constants that enclose the pressure,
+highest_pressure      Pa
+lowest_slope          Pa     and lines through the surface, p/eta, that enclose it
+highest_slope         Pa
 
-# while closed, of the last look: least and largest pressure, and pressure over eta; pressure at the base, its parabola
-# in c_v t / h^2, and by how much that may be wrong, over the cube of it
-LOW, HIGH, LEAST, MOST, PRESSURE, RATE, BEND, REMAINDER = range(5, 13)
-# while closed, since that look: c_v t / h^2, what every grain gained over eta, by what it was scaled, what it gained
-# evenly, and all gains taken positive
-PASSED, LIFT, SCALE, GAIN, SWING = range(13, 18)
-# while closed, of the last look: what the waves too short for the levels do at the base, by octave (`Waves.octaves`);
-# the same of a layer thinner than a level that the base had when it closed
-TAIL, LAYER = 18, 22
+at levels
+volume_at_update      m3
+load_at_update        Pa     liquefaction pressure
+bed_pressure          Pa     pressure of the bed after the last step, or of the soil that comes in
+deferred_diffusion    -      c_v t/h^2 left over by the update, to come with the next one
+volume_at_contact     m3     volume when this contact began
+contact_is_new        -      1 until the first update over this contact
+layer_jump            Pa     jump at the base of a boundary layer that levels do not resolve, at the end of a contact
+layer_content         -      integral of that layer over jump and thickness
 
-# LEVELS is a closed base too, of a column kept at levels; from FLUX on, soil that comes in brings its own pressure and
-# no more: SEALED, under an impermeable base, that of the base
-LEVELS, CLOSED, ERODING, HELD, FLUX, SEALED = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+in modes, by bands of modes too short for the levels (`modes.Modes.bands`)
+unresolved_bands      Pa     what loading and the slope at the base put into them, as seen at the base
+layer_bands           Pa     the same of a boundary layer that was there when the base became impermeable
+====================  =====  ==================================================================================
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+BANDS = 4  # of modes too short for the levels, seen at an impermeable base
+
+ALWAYS = ("contact", "load", "diffusion", "source_gain", "base_pressure")
+IN_MODES = (
+    "base_rate", "base_curvature", "remainder", "load_gain", "load_scale", "load_variation", "lowest_pressure",
+    "highest_pressure", "lowest_slope", "highest_slope",
+)  # fmt: skip
+AT_LEVELS = (
+    "volume_at_update", "load_at_update", "bed_pressure", "deferred_diffusion", "volume_at_contact", "contact_is_new",
+    "layer_jump", "layer_content",
+)  # fmt: skip
+IN_BANDS = ("unresolved_bands", "layer_bands")
+
+LAYOUT = np.dtype(
+    [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
+)
+SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
+"""Number of floats of a column in `ColumnState.memory`."""
+
+
+class LazyColumns(NamedTuple):
+    """The arrays of n columns, `ColumnState` with its memory as records."""
+
+    profile: np.ndarray  # (n, levels) pressure at levels, or in all but the last the amplitudes of modes [Pa]
+    state: np.ndarray  # (n,) of `LAYOUT`
+    clipped: np.ndarray  # (n,) pressure taken off by the bounds times thickness, so far [Pa m]
+
+
+def records(memory) -> np.ndarray:
+    """Return a view of `ColumnState.memory`, shape (n, `SIZE`), as records of `LAYOUT`, shape (n,)."""
+    return memory.view(LAYOUT)[:, 0]

@@ -1,0 +1,54 @@
+"""Solved columns as a Dataset, with units."""
+
+from numbers import Real
+
+import numpy as np
+import xarray as xr
+
+from ..physics.column.diagnostics import basal_peclet_number
+from ..record.attributes import NO_FILL, described, heading, quantity
+from .arguments import Inputs
+from .declarations import NUMBERS, OTHERS
+
+VARIABLES = {
+    "excess_pore_pressure": ("Pa", "excess pore pressure"),
+    "thickness": ("m", "slope-normal thickness"),
+    "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base, as friction feels it"),
+    "basal_peclet_number": ("-", "erosion rate times thickness over coefficient of consolidation"),
+    "front_height": ("-", "height over thickness of the front between old soil and new"),
+    "front_age": ("s", "time since the column first eroded"),
+    "consolidation_time": ("s", "thickness squared over coefficient of consolidation"),
+    "erosion_time": ("s", "thickness over erosion rate"),
+    "clipped_pressure": ("Pa m", "pressure taken off by the bounds times thickness, so far"),
+}
+
+
+def dataset(inputs: Inputs, given, output) -> xr.Dataset:
+    """Return the columns at all times of output as a Dataset.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        Checked arguments of `solve_column`.
+    given : dict
+        Its arguments as they were given: numbers and words become attributes.
+    output : list of dict
+        For each time the arrays of `VARIABLES`, shape (column,) or (column, level).
+    """
+    data = {}
+    for name, (unit, words) in VARIABLES.items():
+        dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
+        data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))
+    start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
+    data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
+    height = "height above the base over thickness, 0 at the base, 1 at the surface"
+    coordinates = {
+        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
+        "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
+        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
+    }
+    attributes, units = heading(), {n: argument.metadata["unit"] for n, argument in (NUMBERS | OTHERS).items()}
+    for name, value in given.items():
+        if isinstance(value, str | Real):
+            attributes |= quantity(name, value, units.get(name, "-"))
+    return xr.Dataset(data, coordinates, attributes)

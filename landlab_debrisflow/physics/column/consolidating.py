@@ -1,0 +1,55 @@
+"""Parameters and methods that the laws of consolidating columns share; no law itself."""
+
+import functools
+from typing import ClassVar
+
+from ...core.parameters import declared, parameter
+from ..contracts import ColumnForcing, ColumnState
+from .schemes.choices import BED_CONTACT, LOADING, Scheme, scheme_of
+from .schemes.registry import MEMORY_SIZE, advance, check_scheme, synchronise
+
+
+@declared
+class Consolidating:
+    """Columns whose excess pore pressure diffuses, and is loaded by changes of thickness and porosity."""
+
+    levels: int = parameter("-", "levels of a column, base and surface included", 11, (3, 1001), kind=int)
+    loading_source: str = parameter(
+        "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
+    )
+    scheme: str = parameter("-", "how the equation is solved", "default", choices=tuple(MEMORY_SIZE))
+    bed_contact: str = parameter(
+        "-", "whether the bed prescribes the pressure of a base that erodes, or what flows in", "dirichlet",
+        choices=BED_CONTACT,
+    )  # fmt: skip
+    tolerance: float = parameter(
+        "-", "error over the load aimed at when columns are left alone, 0: never; by default 0.3/(levels - 1)^2",
+        None, (0.0, 0.1),
+    )  # fmt: skip
+    source_includes_erosion: bool = parameter(
+        "-", "load grains by soil that comes in below them, to replicate eqs. 19 and 38", False, kind=bool
+    )
+
+    stores_pressure: ClassVar[bool] = True
+    moves_with_grains: ClassVar[bool]  # grains keep their depth below the surface; else their fraction of the depth
+
+    def _agree(self):
+        check_scheme(self)
+
+    @property
+    def memory_size(self) -> int:
+        """Number of floats of a column in `ColumnState.memory`."""
+        return MEMORY_SIZE[self.scheme]
+
+    @functools.cached_property
+    def choices(self) -> Scheme:
+        """The parameters as kernels read them."""
+        return scheme_of(self)
+
+    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
+        """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
+        advance(self, columns, forcing, dt, basal_pressure)
+
+    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
+        """Bring every profile to the present in place [Pa]."""
+        synchronise(self, columns, forcing)

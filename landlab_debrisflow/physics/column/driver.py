@@ -1,0 +1,162 @@
+"""Columns without a flow: a law advanced by a history of thickness, load and erosion that is given."""
+
+import numpy as np
+
+from ..contracts import BaseContact, ColumnForcing, ColumnState
+from ..material import Material
+
+WATER_TO_BUOYANT = Material().water_density / Material().buoyant_density
+"""Lower bound of the pressure ratio with the densities of `Material` [-]."""
+
+PER_COLUMN = {"volume", "thickness", "liquefaction_pressure", "entrained"}
+SWITCHES = {"water_to_buoyant", "bounded"}
+
+
+def forcing_at_rest(
+    volume, thickness, liquefaction_pressure, *, coefficient_of_consolidation=0.0, bed_pressure=0.0,
+    base=BaseContact.BY_EROSION, porosity_source=0.0, water_to_buoyant=WATER_TO_BUOYANT, bounded=True,
+) -> ColumnForcing:  # fmt: skip
+    """Return the forcing of columns into which nothing comes.
+
+    Parameters
+    ----------
+    volume : array_like, shape (n,)
+        [m3].
+    thickness : array_like, shape (n,)
+        Slope-normal [m].
+    liquefaction_pressure : array_like, shape (n,)
+        [Pa].
+    coefficient_of_consolidation, bed_pressure, base, porosity_source : float or array_like, shape (n,), optional
+        Members of `ColumnForcing`.
+    water_to_buoyant : float, optional
+        Density of water over buoyant density [-].
+    bounded : bool, optional
+        Whether pressure is kept between suction and liquefaction.
+
+    Returns
+    -------
+    ColumnForcing
+        Of arrays of its own.
+    """
+    members = {
+        "volume": volume,
+        "thickness": thickness,
+        "liquefaction_pressure": liquefaction_pressure,
+        "entrained": 0.0,
+        "bed_pressure": bed_pressure,
+        "base": base,
+        "porosity_source": porosity_source,
+        "coefficient_of_consolidation": coefficient_of_consolidation,
+        "water_to_buoyant": water_to_buoyant,
+        "bounded": bounded,
+    }
+    return ColumnForcing(**_arrays(members, np.size(volume)))
+
+
+def _arrays(members, count: int) -> dict:
+    """Return members of `ColumnForcing` as new arrays of their type and shape."""
+    arrays = {}
+    for name, value in members.items():
+        if name in PER_COLUMN:
+            value = np.array(np.broadcast_to(value, (count,)), float)
+        elif name not in SWITCHES:
+            value = np.array(value, np.int8 if name == "base" else float, ndmin=1)
+        arrays[name] = value
+    return arrays
+
+
+class Columns:
+    """Columns of one law and the forcing that they were told last.
+
+    Parameters
+    ----------
+    law : ColumnLaw
+        Advances the columns.
+    profile : array_like, shape (n, levels)
+        Excess pore pressure at the start, index 0 at the base; copied [Pa].
+    thickness : array_like, shape (n,)
+        Slope-normal, at the start [m].
+    volume : array_like, shape (n,), optional
+        At the start [m3]; the thickness if None, as over one square metre.
+    liquefaction_pressure : array_like, shape (n,)
+        At the start [Pa].
+    **forcing
+        Other arguments of `forcing_at_rest`.
+
+    Attributes
+    ----------
+    state : ColumnState
+        Columns in the law's own form.
+    forcing : ColumnForcing
+        Forcing of the last step.
+    basal_pressure : ndarray, shape (n,)
+        Excess pore pressure that friction feels [Pa].
+
+    Examples
+    --------
+    >>> from landlab_debrisflow.physics.column import ConstantRatio
+    >>> columns = Columns(ConstantRatio(ratio=0.5), [[0.0, 0.0]], [1.0], liquefaction_pressure=[1e4])
+    >>> columns.step(1.0, entrained=1.0), columns.forcing.thickness
+    (array([10000.]), array([2.]))
+    """
+
+    def __init__(self, law, profile, thickness, *, liquefaction_pressure, volume=None, **forcing):
+        profile = np.array(profile, dtype=float)
+        count = profile.shape[0]
+        volume = thickness if volume is None else volume
+        self.law, self.forcing = law, forcing_at_rest(volume, thickness, liquefaction_pressure, **forcing)
+        self.state = ColumnState(profile, np.zeros((count, law.memory_size)), np.zeros(count))
+        self.basal_pressure = np.zeros(count)
+        law.advance(self.state, self.forcing, 0.0, self.basal_pressure)
+
+    def step(self, dt: float, entrained=0.0, **changes) -> np.ndarray:
+        """Advance the columns by one step.
+
+        Parameters
+        ----------
+        dt : float
+            Duration [s].
+        entrained : float or array_like, shape (n,), optional
+            Volume that comes in at the base [m3].
+        **changes
+            Members of `ColumnForcing` that are not as before. Without them the thickness grows as the volume does, and
+            the liquefaction pressure as the thickness.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            Excess pore pressure that friction feels [Pa].
+        """
+        old = self.forcing
+        changes = _arrays({"entrained": entrained, **changes}, old.volume.size)
+        volume = changes.setdefault("volume", old.volume + changes["entrained"])
+        if "thickness" not in changes:
+            changes["thickness"] = old.thickness * (volume / old.volume)
+        if "liquefaction_pressure" not in changes:
+            changes["liquefaction_pressure"] = old.liquefaction_pressure * (changes["thickness"] / old.thickness)
+        self.forcing = old._replace(**changes)
+        self.law.advance(self.state, self.forcing, dt, self.basal_pressure)
+        return self.basal_pressure.copy()
+
+    def synchronise(self) -> None:
+        """Turn all columns into pressures at levels as they are now, in place."""
+        self.law.synchronise(self.state, self.forcing._replace(entrained=np.zeros_like(self.basal_pressure)))
+
+    def synchronised(self) -> ColumnState:
+        """Return a copy of the columns as pressures at levels; the columns themselves are left alone."""
+        state = ColumnState(*(array.copy() for array in self.state))
+        self.law.synchronise(state, self.forcing._replace(entrained=np.zeros_like(self.basal_pressure)))
+        return state
+
+    def profile(self) -> np.ndarray:
+        """Return the excess pore pressure at the levels, shape (n, levels) [Pa]."""
+        return self.synchronised().profile
+
+    def content(self) -> np.ndarray:
+        """Return the excess pore pressure integrated over the thickness, shape (n,) [Pa m]."""
+        return depth_mean(self.profile()) * self.forcing.thickness
+
+
+def depth_mean(profile) -> np.ndarray:
+    """Return the mean of profiles over the depth, trapezoidal as the laws count it, shape (n,) [Pa]."""
+    return (profile[:, 1:-1].sum(axis=1) + 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
