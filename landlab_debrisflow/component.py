@@ -1,16 +1,21 @@
 """The Landlab component: fields of the grid on one side, the model on the other."""
 
 import logging
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
+import xarray as xr
 from landlab import Component, RasterModelGrid
 from landlab.core.model_component import classproperty
 
 from .grid import checks, doubts
 from .grid.call import GridCall
 from .grid.fields import NODE_FIELDS, no_new_fields
+from .model.inflow.hydrograph import Hydrograph
 from .model.inflow.source import Inflow
+from .model.numerics import Numerics
 from .model.simulation import Simulation
+from .physics.material import Material
 from .record import summary
 from .record.attributes import of_moment
 from .record.citation import PAPER
@@ -82,8 +87,20 @@ class DebrisFlow(Component):
     _cite_as = PAPER
     _info: ClassVar = {field.name: field.info for field in NODE_FIELDS}
 
-    def __init__(self, grid, *, friction=None, erosion=None, column=None, flow=None, material=None,
-                 numerics=None, inflow=None, observers=(), continues=None):  # fmt: skip
+    def __init__(
+        self,
+        grid: RasterModelGrid,
+        *,
+        friction: Any = None,
+        erosion: Any = None,
+        column: Any = None,
+        flow: Any = None,
+        material: Material | Mapping[str, Any] | None = None,
+        numerics: Numerics | Mapping[str, Any] | None = None,
+        inflow: Hydrograph | Mapping[str, Any] | Sequence[Hydrograph | Mapping[str, Any]] | None = None,
+        observers: Any = (),
+        continues: "DebrisFlow | None" = None,
+    ) -> None:
         if not isinstance(grid, RasterModelGrid):
             raise checks.InputError(f"DebrisFlow needs a RasterModelGrid, got {type(grid).__name__}")
         self._setup = setup = Setup(
@@ -118,7 +135,7 @@ class DebrisFlow(Component):
 
     @classproperty
     @classmethod
-    def input_var_names(cls):
+    def input_var_names(cls) -> tuple[str, ...]:
         """Names of the fields that are read if they are there, sorted; `wrap_as_bmi` lets these be set, no others.
 
         Landlab's own list leaves out all that is optional.
@@ -127,7 +144,7 @@ class DebrisFlow(Component):
 
     # ---- what a user calls ----
 
-    def run_one_step(self, dt):
+    def run_one_step(self, dt: float) -> None:
         """Advance exactly `dt` seconds.
 
         Values > 0 in ``debris_flow__release_depth`` are taken first; what has come to rest at the end is
@@ -153,7 +170,7 @@ class DebrisFlow(Component):
         if (dt := checks.check_duration(dt)) > 0.0:
             self._call.run(dt, stop_at_rest=False)
 
-    def run_until_rest(self, max_duration=3600.0):
+    def run_until_rest(self, max_duration: float = 3600.0) -> bool:
         """Run the whole event.
 
         Parameters
@@ -176,7 +193,7 @@ class DebrisFlow(Component):
             self._call.run(duration, stop_at_rest=True)
         return self.at_rest
 
-    def settle(self):
+    def settle(self) -> None:
         """Lay the mass at rest into elevation and soil; the particles go.
 
         Raises
@@ -189,7 +206,7 @@ class DebrisFlow(Component):
             raise checks.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
         self._call.settle()
 
-    def new_event(self):
+    def new_event(self) -> None:
         """Start the maps of peaks (``max_...``) and the arrival time anew.
 
         Erosion, deposit, budget and elapsed time, which arrival time counts, go on. Call it between two events.
@@ -212,17 +229,17 @@ class DebrisFlow(Component):
         return self._setup
 
     @property
-    def elapsed_time(self):
+    def elapsed_time(self) -> float:
         """Time simulated so far [s], in all calls, and by the component that this one continues."""
         return self._simulation.time
 
     @property
-    def at_rest(self):
+    def at_rest(self) -> bool:
         """Whether nothing moves."""
         return self._simulation.at_rest
 
     @property
-    def budget(self):
+    def budget(self) -> dict[str, float]:
         """Volumes so far [m3]: released + inflow + eroded = moving + deposited + outflow, up to the residual.
 
         Each is measured on its own: release field, hydrographs, soil field, particles, elevation field,
@@ -231,7 +248,7 @@ class DebrisFlow(Component):
         return self._call.budget
 
     @property
-    def budget_by_phase(self):
+    def budget_by_phase(self) -> dict[str, dict[str, float]]:
         """The same for ``"solid"`` and ``"water"`` [m3]: grains, and what is between them, water if saturated.
 
         What of the released, inflowing and eroded volume is of which phase follows from the porosities.
@@ -239,7 +256,7 @@ class DebrisFlow(Component):
         return self._call.budget_by_phase
 
     @property
-    def outflow_by_edge(self):
+    def outflow_by_edge(self) -> dict[str, float]:
         """Volume that left over each side of the grid, or over open nodes inside it [m3]."""
         return self._simulation.state.outflow.by_edge(*self.grid.shape)
 
@@ -252,20 +269,20 @@ class DebrisFlow(Component):
         return self._simulation.diagnostics
 
     @property
-    def particles(self):
+    def particles(self) -> xr.Dataset:
         """The particles now: a Dataset over ``particle`` with map coordinates of the grid."""
         sim = self._simulation
         return particles_dataset(sim.particles, self.grid.xy_of_lower_left, self._setup, self.elapsed_time)
 
     @property
-    def columns(self):
+    def columns(self) -> xr.Dataset:
         """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
         sim = self._simulation
         c_v = sim.phases.coefficient_of_consolidation(sim.particles, slice(None))
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self._setup, self.elapsed_time)
 
     @property
-    def maps(self):
+    def maps(self) -> xr.Dataset:
         """Elevation, soil and outputs as a Dataset over ``y`` and ``x``, with units, budget and all parameters.
 
         Closed nodes are missing (NaN), except in the maps of impact pressure and run-up, which tell what ran against

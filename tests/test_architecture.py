@@ -55,6 +55,7 @@ def inner(name):
     return "__init__"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_go_downward_only(module):
     for name in imports(MODULES[module]):

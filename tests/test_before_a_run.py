@@ -20,6 +20,7 @@ SURGE = {
 # ---- refused constructors ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "keywords",
     [
@@ -73,6 +74,7 @@ def test_fields_that_were_there_stay():
 # ---- before a run ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("column", LAWS["column"])
 @pytest.mark.parametrize("law", LAWS["flow"])
 @pytest.mark.parametrize("state", ["before a run", "after settling", "nothing to do"])
@@ -154,12 +156,14 @@ def test_a_component_tells_its_state_laws_and_budget(valley):
     assert all(line.split(": ", 1)[1].strip() in cells.words for line in seen[-1].splitlines())
 
 
+@pytest.mark.slow
 def test_what_a_user_called_his_law_is_escaped(slope):
     law = type("<b>Mine</b> & co", (Coulomb,), {})()
     html = DebrisFlow(slope, friction=law)._repr_html_()
     assert "friction &lt;b&gt;Mine&lt;/b&gt; &amp; co" in html and "<b>" not in html
 
 
+@pytest.mark.slow
 def test_observers_may_print_the_flow(valley):
     class Printing:
         interval, seen = 5.0, ()
@@ -180,6 +184,7 @@ def test_waiting_for_inflow_is_a_state_and_an_unfinished_component_has_none():
     assert "DebrisFlow object" in repr(unfinished) and "under construction" in unfinished._repr_html_()
 
 
+@pytest.mark.slow
 def test_looking_does_not_log(valley, caplog):
     caplog.set_level(logging.INFO, "landlab_debrisflow")
     flow = DebrisFlow(valley)

@@ -12,6 +12,7 @@ from validation.grids import COARSE, copy_fields, dry_block, inclined, place, re
 Z, SOIL = "topographic__elevation", "soil__depth"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("edge", "fall"), [("east", (-1, 0)), ("west", (1, 0)), ("north", (0, -1)), ("south", (0, 1))])
 def test_what_leaves_is_counted_by_edge(edge, fall):
     grid = RasterModelGrid((30, 30), xy_spacing=5.0)
@@ -27,6 +28,7 @@ def test_what_leaves_is_counted_by_edge(edge, fall):
     np.testing.assert_array_equal(z[rim], before[rim])
 
 
+@pytest.mark.slow
 def test_an_open_node_inside_is_a_sink(valley):
     sink = np.flatnonzero((valley.x_of_node == 175.0) & (abs(valley.y_of_node - 47.5) < 30.0))
     valley.status_at_node[sink] = valley.BC_NODE_IS_FIXED_VALUE
@@ -39,6 +41,7 @@ def test_an_open_node_inside_is_a_sink(valley):
     assert not valley.at_node["debris_flow__max_depth"][beyond].any()
 
 
+@pytest.mark.slow
 def test_closed_walls_hold_and_say_so(slope, caplog):
     slope.set_closed_boundaries_at_grid_edges(True, True, True, True)
     before = copy_fields(slope)
@@ -59,6 +62,7 @@ def test_closed_walls_hold_and_say_so(slope, caplog):
     assert (deposit * slope.x_of_node).sum() / deposit.sum() > 250.0
 
 
+@pytest.mark.slow
 def test_nodata_in_the_way_says_so_and_an_open_edge_does_not(caplog):
     grid = inclined((20, 40), 5.0, 0.5)
     release_slab(grid, (30.0, 48.0), 8.0, 1.0)
@@ -76,6 +80,7 @@ def test_nodata_in_the_way_says_so_and_an_open_edge_does_not(caplog):
     assert float(messages[0].split()[0]) > 50.0  # most of 225 m3 lay in its way
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [1e30, np.nan])
 def test_values_of_nodata_nodes_are_never_read(value):
     results = []
@@ -95,6 +100,7 @@ def test_values_of_nodata_nodes_are_never_read(value):
         np.testing.assert_array_equal(values, results[1][0][name], name)
 
 
+@pytest.mark.slow
 def test_statuses_may_change_between_calls(slope):
     flow = DebrisFlow(slope, numerics=COARSE)
     flow.run_one_step(2.0)
@@ -103,6 +109,7 @@ def test_statuses_may_change_between_calls(slope):
     assert flow.budget["outflow"] == 0.0 and flow.budget["deposited"] > 225.0
 
 
+@pytest.mark.slow
 def test_terrain_changed_by_others_is_read_at_each_call(slope):
     flow = place(DebrisFlow(slope, numerics=COARSE | {"settle": False}))
     slope.at_node[Z][:] = 0.5 * (295.0 - slope.x_of_node[::-1])  # now it falls towards the west

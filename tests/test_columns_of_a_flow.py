@@ -15,6 +15,7 @@ def sloping():
     return grid
 
 
+@pytest.mark.slow
 def test_a_drained_bed_takes_the_pressure_and_shortens_the_way():
     fronts = {}
     for drained in (0, 1):
@@ -58,6 +59,7 @@ def pressure_ratio(flow):
     return (flow.particles.basal_excess_pore_pressure / flow.particles.liquefaction_pressure).values
 
 
+@pytest.mark.slow
 def test_behind_a_screen_the_pressure_comes_back_out_of_the_column():
     """Drained for a time t at its base and then closed for s, a deep column of pressure p has p 2/pi atan(sqrt(s/t)).
 
@@ -84,6 +86,7 @@ def test_behind_a_screen_the_pressure_comes_back_out_of_the_column():
     assert abs(error).max() < 0.025
 
 
+@pytest.mark.slow
 def test_on_a_screen_friction_is_full_and_the_flow_stops_earlier():
     full = 9.81 * (SLOPE - np.tan(np.radians(20.0)) * 990.0 / 1990.0) / np.hypot(1.0, SLOPE)
     reached = []

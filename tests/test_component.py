@@ -12,6 +12,7 @@ from validation.grids import COARSE, changed_fields, copy_fields, inclined, plac
 RELEASE, Z, SOIL = "debris_flow__release_depth", "topographic__elevation", "soil__depth"
 
 
+@pytest.mark.slow
 def test_a_grid_of_zeros_is_enough(caplog):
     grid = RasterModelGrid((10, 10))
     grid.add_zeros(Z, at="node")
@@ -37,6 +38,7 @@ def test_what_fails_is_taken_from_the_ground(slope):
     assert at["debris_flow__depth"].sum() * 25.0 == pytest.approx(225.0, rel=1e-13)  # round-off
 
 
+@pytest.mark.slow
 def test_a_step_advances_exactly_as_long_as_asked(slope):
     flow = DebrisFlow(slope, numerics=COARSE)
     for dt in (3.7, 1e-6, 2, np.float32(0.5), np.int64(1)):
@@ -45,6 +47,7 @@ def test_a_step_advances_exactly_as_long_as_asked(slope):
         assert flow.elapsed_time == before + float(dt)  # not one ulp aside
 
 
+@pytest.mark.slow
 def test_no_time_is_no_change(slope):
     flow = DebrisFlow(slope, numerics=COARSE)
     for _ in range(2):  # before the release is taken, and with mass on its way
@@ -55,6 +58,7 @@ def test_no_time_is_no_change(slope):
         flow.run_one_step(2.0)
 
 
+@pytest.mark.slow
 def test_an_event_that_ends_is_laid_into_the_terrain(valley):
     before = copy_fields(valley)
     flow = DebrisFlow(valley, numerics=COARSE)
@@ -76,6 +80,7 @@ def test_an_event_that_ends_is_laid_into_the_terrain(valley):
     assert valley.x_of_node[where] > 120.0  # and came to rest beyond the foot of the slope, at 150 m
 
 
+@pytest.mark.slow
 def test_time_after_rest_only_passes(valley):
     flow = DebrisFlow(valley, numerics=COARSE)
     flow.run_until_rest()
@@ -106,6 +111,7 @@ def test_what_is_not_settled_waits(valley):
     assert not changed_fields(valley, before)
 
 
+@pytest.mark.slow
 def test_an_event_cut_short_settles_nothing_and_can_go_on(valley):
     flow = DebrisFlow(valley, numerics=COARSE)
     assert flow.run_until_rest(max_duration=3.0) is False
@@ -119,6 +125,7 @@ def test_an_event_cut_short_settles_nothing_and_can_go_on(valley):
     assert flow.budget["moving"] == 0.0 and flow.budget["deposited"] > 225.0
 
 
+@pytest.mark.slow
 def test_events_follow_each_other_on_one_grid(valley):
     flow, release = DebrisFlow(valley, numerics=COARSE), valley.at_node[RELEASE].copy()
     flow.run_until_rest()
@@ -142,6 +149,7 @@ def test_a_second_release_joins_what_moves(valley):
     assert flow.particles.sizes["particle"] == 120 and flow.budget["released"] == pytest.approx(270.0, rel=1e-15)
 
 
+@pytest.mark.slow
 def test_fields_are_written_in_place(valley):
     arrays = {name: valley.at_node[name] for name in (Z, SOIL, RELEASE)}
     flow = DebrisFlow(valley, numerics=COARSE)
@@ -152,6 +160,7 @@ def test_fields_are_written_in_place(valley):
         assert np.shares_memory(array, valley.at_node[name]) and array.ndim == 1, name
 
 
+@pytest.mark.slow
 def test_ten_short_steps_are_one_long_step(valley):
     long = DebrisFlow(valley, numerics=COARSE)
     long.run_one_step(10.0)
@@ -166,6 +175,7 @@ def test_ten_short_steps_are_one_long_step(valley):
     assert float(short.particles.x.mean()) == pytest.approx(float(long.particles.x.mean()), abs=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spacing", [(5.0, 4.0), (4.0, 5.0)])
 def test_the_spacing_may_differ_between_the_axes(spacing):
     grid = inclined((24, 60), spacing, 0.5, soil=1.0)
@@ -182,6 +192,7 @@ def test_the_spacing_may_differ_between_the_axes(spacing):
     )
 
 
+@pytest.mark.slow
 def test_where_the_grid_lies_does_not_matter(slope):
     far = inclined((20, 60), 5.0, 0.5, soil=1.0, xy_of_lower_left=(5e5, 4e6))
     release_slab(far, (5e5 + 30.0, 4e6 + 48.0), 8.0, 1.0)
@@ -193,6 +204,7 @@ def test_where_the_grid_lies_does_not_matter(slope):
     np.testing.assert_array_equal(flows[0].particles.x + 5e5, flows[1].particles.x)
 
 
+@pytest.mark.slow
 def test_a_mass_wasting_id_fails_with_all_its_soil(slope):
     release = slope.at_node[RELEASE].copy()
     slope.at_node[RELEASE][:] = 0.0
@@ -205,6 +217,7 @@ def test_a_mass_wasting_id_fails_with_all_its_soil(slope):
     assert not slope.at_node[SOIL][release > 0.0].any()
 
 
+@pytest.mark.slow
 def test_without_soil_nothing_erodes_and_a_release_needs_none():
     grid = inclined((20, 60), 5.0, 0.5)
     release_slab(grid, (30.0, 48.0), 8.0, 5.0)
@@ -214,6 +227,7 @@ def test_without_soil_nothing_erodes_and_a_release_needs_none():
     assert SOIL not in grid.at_node
 
 
+@pytest.mark.slow
 def test_without_consolidation_the_peclet_number_is_infinite_where_it_erodes(valley):
     flow = DebrisFlow(valley, numerics=COARSE, material={"coefficient_of_consolidation": 0.0})
     flow.run_one_step(5.0)
@@ -222,6 +236,7 @@ def test_without_consolidation_the_peclet_number_is_infinite_where_it_erodes(val
     assert not np.any(np.isnan(peclet))
 
 
+@pytest.mark.slow
 def test_settling_takes_no_new_release(valley):
     flow = DebrisFlow(valley, numerics=COARSE | {"settle": False})
     assert flow.run_until_rest()
@@ -233,6 +248,7 @@ def test_settling_takes_no_new_release(valley):
     assert flow.budget["deposited"] == pytest.approx(moving, rel=1e-12)  # round-off of the elevations
 
 
+@pytest.mark.slow
 def test_settling_nothing_changes_nothing(valley):
     valley.at_node["debris_flow__release_depth"][:] = 0.0
     flow = DebrisFlow(valley, numerics=COARSE)

@@ -42,6 +42,7 @@ def test_its_test_passes(outside, name):
     getattr(outside[1], name)()
 
 
+@pytest.mark.slow
 def test_its_test_can_fail(outside, monkeypatch):
     """Each of the shown tests sees a law that is another one."""
     law, test = outside
@@ -66,6 +67,7 @@ def test_a_variable_that_there_is_already_is_refused(outside, slope, monkeypatch
         DebrisFlow(slope, erosion=law())
 
 
+@pytest.mark.slow
 def test_it_is_written_down_in_the_maps(outside, slope):
     law = outside[0].ExcessShear(erodibility="soil__depth", threshold=50.0)
     attributes = DebrisFlow(slope, erosion=law, numerics=COARSE).maps.attrs
@@ -74,6 +76,7 @@ def test_it_is_written_down_in_the_maps(outside, slope):
     assert (attributes["erosion_threshold"], attributes["erosion_threshold_units"]) == (50.0, "Pa")
 
 
+@pytest.mark.slow
 def test_a_field_that_is_missing_is_refused(outside, slope):
     with pytest.raises(ValueError, match="erosion: erodibility is to be read from the field 'soil__colour'"):
         DebrisFlow(slope, erosion=outside[0].ExcessShear(erodibility="soil__colour"))
@@ -91,6 +94,7 @@ grid:
 """
 
 
+@pytest.mark.slow
 def test_it_gets_a_name(outside, slope, monkeypatch):
     monkeypatch.setitem(LAWS, "erosion", dict(LAWS["erosion"]))  # back to what it was, afterwards
     with pytest.raises(ParameterError, match="unknown law 'excess_shear'"):
@@ -111,6 +115,7 @@ class Undeclared:
         out[:] = 0.001 * state.speed
 
 
+@pytest.mark.slow
 def test_an_object_with_the_method_will_do(slope):
     flow = DebrisFlow(slope, erosion=Undeclared(), numerics=COARSE)
     flow.run_one_step(5.0)

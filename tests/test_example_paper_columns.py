@@ -47,6 +47,7 @@ def run(example, tmp_path_factory):
     return errors, told.getvalue(), picture
 
 
+@pytest.mark.slow
 def test_numbers_are_close_to_exact_solutions_in_either_reading(run):
     errors, told, picture = run
     assert errors.keys() == {"default", "lax_wendroff"}
@@ -60,6 +61,7 @@ def test_numbers_are_close_to_exact_solutions_in_either_reading(run):
     assert "0.998" in told and "0.474" in told  # figure 7 at x/h = 0.8: growing to 1, or stopped
 
 
+@pytest.mark.slow
 def test_more_levels_come_closer(example, run, capsys):
     (coarse, _, _), fine = run, example.main(levels=21)
     for name, error in coarse["default"].items():
@@ -76,6 +78,7 @@ def test_a_fixed_column_that_does_not_erode_is_the_closed_form(example, time):
     assert_allclose(example.fixed_column(xi, time, 0.0), growing_column(xi, time, 0.0), rtol=0.0, atol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [0.01, 1.0, 10.0])
 def test_a_fixed_column_solves_the_equation(example, number):
     xi, time, dx, dt = np.linspace(0.1, 0.9, 9), 0.05, 1e-3, 1e-5

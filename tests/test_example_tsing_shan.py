@@ -31,6 +31,7 @@ def rasters(tmp_path):
     return paths
 
 
+@pytest.mark.slow
 def test_a_users_rasters_are_read_as_they_are(example, rasters):
     grid, valley = example.read_terrain(*rasters), tsing_shan_valley(**SHORT)
     for name in FIELDS.values():
@@ -39,6 +40,7 @@ def test_a_users_rasters_are_read_as_they_are(example, rasters):
     assert grid.at_node["soil__depth"][0] == 0.0
 
 
+@pytest.mark.slow
 def test_rasters_that_do_not_fit_are_refused(example, rasters, tmp_path):
     other = tmp_path / "other.asc"
     with open(other, "w") as stream:
@@ -47,6 +49,7 @@ def test_rasters_that_do_not_fit_are_refused(example, rasters, tmp_path):
         example.read_terrain(*rasters[:2], other)
 
 
+@pytest.mark.slow
 def test_both_models_run_on_a_users_rasters(example, rasters, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(example, "CONSOLIDATION", (4e-4,))
     records = example.main(40, tmp_path, rasters, duration=14.0)

@@ -16,6 +16,8 @@ from landlab_debrisflow import InputError
 from landlab_debrisflow.cli import demo, main
 from landlab_debrisflow.physics.registry import LAWS
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
 

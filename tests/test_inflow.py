@@ -47,6 +47,7 @@ def test_the_volume_is_the_integral_of_the_discharge(hill):
     assert volumes.size == 300 and np.all(volumes == volumes[0])  # no light beside heavy
 
 
+@pytest.mark.slow
 def test_an_event_ends_when_all_has_entered_and_come_to_rest(hill):
     second = SURGE | {"times": [2000.0, 2001.0, 2010.0]}
     before = hill.at_node[Z].copy()
@@ -91,6 +92,7 @@ def test_time_before_anything_enters_costs_nothing(hill, monkeypatch):
     assert flow.budget["inflow"] > 10.0
 
 
+@pytest.mark.slow
 def test_many_calls_are_one_call(hill):
     flows = []
     for calls in (1, 7, 60):
@@ -125,6 +127,7 @@ def test_a_slow_inflow_is_not_arrested_after_a_fast_release(hill, monkeypatch):
     np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 0.05, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_it_joins_a_release_and_erodes_only_beyond_the_strip(hill):
     release_slab(hill, (80.0, 48.0), 8.0, 1.0)
     flow = DebrisFlow(hill, inflow=SURGE, numerics={"particle_count": 200})
@@ -138,6 +141,7 @@ def test_it_joins_a_release_and_erodes_only_beyond_the_strip(hill):
     assert flow.run_until_rest() is True
 
 
+@pytest.mark.slow
 def test_a_call_that_fails_lets_nothing_in(hill):
     flow = DebrisFlow(hill, inflow=SURGE, numerics=COARSE)
     flow.run_one_step(3.0)
@@ -154,6 +158,7 @@ def test_a_call_that_fails_lets_nothing_in(hill):
     assert flow.budget == same.budget
 
 
+@pytest.mark.slow
 def test_maps_say_what_flowed_in(hill, tmp_path):
     flow = DebrisFlow(hill, inflow=SURGE, numerics=COARSE)
     flow.run_one_step(3.0)
@@ -163,6 +168,7 @@ def test_maps_say_what_flowed_in(hill, tmp_path):
     maps.to_netcdf(tmp_path / "maps.nc")
 
 
+@pytest.mark.slow
 def test_from_yaml_text():
     model = wrap_as_bmi(DebrisFlow)()
     model.initialize("""

@@ -48,6 +48,7 @@ def test_in_the_strip_rows_are_where_the_velocity_has_brought_them():
     np.testing.assert_allclose(np.linalg.norm(p.velocity[:, held], axis=0), 4.0 + 2.0 * 2.5 / 3.0, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_no_step_leaps_over_rows(monkeypatch):
     """On a coarse grid fast thin flow could go ten times as far in a step as its rows are apart."""
     grid = inclined((20, 40), 50.0, 0.3)
@@ -68,6 +69,7 @@ def test_no_step_leaps_over_rows(monkeypatch):
     assert sum(rows) > 20 and max(rows) <= 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("towards", "degrees"), [((1, 0), 0), ((-1, 0), 180), ((0, 1), 90), ((0.6, -0.8), None)])
 def test_it_flows_downslope_across_the_line_or_where_it_is_told(towards, degrees):
     towards = np.array(towards)
@@ -119,6 +121,7 @@ def test_pore_pressure_comes_in_as_given(hill, column):
     np.testing.assert_allclose(columns[:, 5], 0.5 * columns[:, 0], rtol=1e-12)  # linear, as the material says
 
 
+@pytest.mark.slow
 def test_without_a_ratio_it_is_that_of_a_release(hill):
     inflow = LINE | {"times": [0.0, 10.0], "discharge": 40.0, "velocity": 4.0}
     flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material={"initial_pressure_ratio": 0.4})
@@ -127,6 +130,7 @@ def test_without_a_ratio_it_is_that_of_a_release(hill):
     assert float(ratio[-1]) == pytest.approx(0.4, abs=0.02)  # it has drained for a moment
 
 
+@pytest.mark.slow
 def test_several_hydrographs_have_particles_of_one_size(hill):
     small = LINE | {
         "times": [0, 9],

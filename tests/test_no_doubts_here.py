@@ -27,10 +27,12 @@ def test_a_doubt_would_be_noticed(slope, no_doubts):
 # ---- examples and notebooks ----
 
 
+@pytest.mark.slow
 def test_demo(tmp_path):
     built(demo.run_demo, 100, tmp_path, Console(quiet=True))
 
 
+@pytest.mark.slow
 def test_obstacles():
     example = load("obstacle")
     built(example.main)
@@ -38,12 +40,14 @@ def test_obstacles():
         built(DebrisFlow(example.terrain(dam), friction="voellmy", erosion="none").run_until_rest)
 
 
+@pytest.mark.slow
 def test_tsing_shan():
     example = load("tsing_shan")
     for c_v, model in itertools.product(example.CONSOLIDATION, example.COLUMNS):
         built(example.run, tsing_shan_valley(**example.VALLEY), model, c_v, 100)
 
 
+@pytest.mark.slow
 def test_s1000(tmp_path):
     write_rasters(tmp_path)
     example = load("s1000")
@@ -55,6 +59,7 @@ def test_s1000(tmp_path):
 NOTEBOOKS = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if "DebrisFlow(" in path.read_text("utf-8")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebooks(path):
     """Every cell, but for those that ask for what a flow has found."""

@@ -25,6 +25,7 @@ def thrown(grid, velocity, **numerics):
     return flow
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("velocity", [(10.0, 0.0), (10.0, 5.0), (10.0, -20.0)])
 def test_a_thin_sheet_strikes_a_wall_with_the_velocity_towards_it(velocity):
     grid = RasterModelGrid((41, 32), xy_spacing=5.0)
@@ -41,6 +42,7 @@ def test_a_thin_sheet_strikes_a_wall_with_the_velocity_towards_it(velocity):
     assert impact[:, :30].max() >= DENSITY * (100.0 + velocity[1] ** 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("speed", "depth", "duration"), [(3.0, 0.5, 5.0), (10.0, 1.0, 2.5)])
 def test_at_a_wall_the_flow_stands_as_deep_as_behind_the_bore(speed, depth, duration):
     """The jump of mass and momentum that a wall across a channel sends back (e.g. Iverson, George & Logan, 2016).
@@ -71,6 +73,7 @@ def test_at_a_wall_the_flow_stands_as_deep_as_behind_the_bore(speed, depth, dura
 ANGLE, SPEED, DEPTH, SPACING = np.radians(15.0), 10.0, 0.2, 2.0
 
 
+@pytest.mark.slow
 def test_a_building_in_a_uniform_flow():
     """Steady inflow on a slope that friction balances meets a block of 6 by 5 closed nodes."""
     grid = RasterModelGrid((22, 50), xy_spacing=SPACING)
@@ -112,6 +115,7 @@ def test_a_building_in_a_uniform_flow():
     assert run_up[rows[1:-1], columns[-1]].max() < 0.1 * standing.min()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slope", [0.6, 1.0])
 def test_a_thin_body_runs_up_its_energy_head(slope):
     """From the flat over a rounded foot onto a dam, without friction: v^2/(2g)."""
@@ -131,6 +135,7 @@ def test_a_thin_body_runs_up_its_energy_head(slope):
     assert lowest.min() > -0.03 and lowest.max() <= 0.0  # the surface through the nodes dips by 2 cm before the foot
 
 
+@pytest.mark.slow
 def test_downhill_run_up_is_the_depth_and_impact_that_of_the_speed(slope):
     flow = DebrisFlow(slope, erosion="none", numerics={"particle_count": 100, "arrival_depth": 0.0})
     flow.run_one_step(1e-3)

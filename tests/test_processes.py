@@ -61,6 +61,7 @@ def test_an_error_of_the_simulation_comes_back_whole():
     assert again.__notes__ == ["of member 3"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seconds", [0.0, 3.0, 1e4], ids=["before it runs", "while it moves", "at rest"])
 def test_a_flow_goes_on_from_a_pickle(valley, seconds):
     flow = DebrisFlow(valley, numerics=COARSE)
@@ -163,6 +164,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 def test_workers_get_the_same_result(tmp_path, method):
     # a process of its own: after a fork landlab's own OpenMP hangs if it had threads before (README)

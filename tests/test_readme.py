@@ -35,6 +35,7 @@ def test_there_are_four_blocks_of_code():
     assert len([line for line in BLOCKS[0].splitlines() if line.strip()]) <= 22
 
 
+@pytest.mark.slow
 def test_first_flow_as_printed(read_through):
     seen, folder = read_through
     budget = eval(seen[0][1])

@@ -11,6 +11,7 @@ FEW = {"particle_count": 150}
 PERMEABLE = {"law": "two_phase", "drag": "anderson_jackson", "terminal_velocity": 2.0, "drag_exponent": 1.0}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("keywords", "words"),
     [
@@ -26,6 +27,7 @@ def test_materials_that_have_no_two_phases_are_refused(slope, keywords, words):
         DebrisFlow(slope, **({"flow": "two_phase"} | keywords))
 
 
+@pytest.mark.slow
 def test_a_drag_that_needs_no_stiffness_takes_a_material_that_does_not_consolidate(slope):
     material = {"coefficient_of_consolidation": 0.0}
     flow = DebrisFlow(slope, flow=PERMEABLE, material=material, numerics=FEW)
@@ -33,6 +35,7 @@ def test_a_drag_that_needs_no_stiffness_takes_a_material_that_does_not_consolida
     assert np.isfinite(flow.particles.velocity_x).all()
 
 
+@pytest.mark.slow
 def test_phases_have_fields_of_their_own(slope):
     flow = DebrisFlow(slope, flow=PERMEABLE, numerics=FEW)
     flow.run_one_step(4.0)
@@ -57,11 +60,13 @@ def test_phases_have_fields_of_their_own(slope):
     assert p.basal_excess_pore_pressure[p.phase == 0].all()  # it is grains that have columns
 
 
+@pytest.mark.slow
 def test_one_phase_does_not_have_them(slope):
     DebrisFlow(slope)
     assert not [name for name in slope.at_node if "solid" in name or "water_speed" in name]
 
 
+@pytest.mark.slow
 def test_each_phase_is_in_balance_when_it_has_settled(valley):
     flow = DebrisFlow(valley, flow="two_phase", material={"bed_porosity": 0.5}, numerics=FEW)
     assert flow.run_until_rest()
@@ -73,6 +78,7 @@ def test_each_phase_is_in_balance_when_it_has_settled(valley):
         assert terms["deposited"] > terms["released"] and terms["moving"] == 0.0
 
 
+@pytest.mark.slow
 def test_columns_consolidate_as_the_drag_says(slope):
     """K k_w = 2.5e5 Pa * 1e-3 m/s / (1000 kg/m3 * 9.81 m/s2) = 0.0255 m2/s, whatever the material says."""
     conductivity, c_v = 1e-3, 2.5e5 * 1e-3 / 9810.0
@@ -99,6 +105,7 @@ def test_one_phase_has_a_budget_by_phase_too(valley):
     assert abs(phases["solid"]["residual"]) < 1e-12 * whole["moving"]
 
 
+@pytest.mark.slow
 def test_a_hydrograph_brings_both(slope):
     inflow = {
         "line_start": (20.0, 35.0),
@@ -116,12 +123,14 @@ def test_a_hydrograph_brings_both(slope):
     assert flow.budget["inflow"] > 200.0
 
 
+@pytest.mark.slow
 def test_when_all_has_left_all_is_over(slope):
     flow = DebrisFlow(slope, flow="two_phase", erosion="none", numerics={"particle_count": 1})
     flow.run_one_step(60.0)  # a grain and its water, which leave in the same step
     assert flow.at_rest and flow.budget["outflow"] == pytest.approx(flow.budget["released"], rel=1e-15)
 
 
+@pytest.mark.slow
 def test_a_call_that_fails_leaves_grid_and_budget_as_they_were(slope):
     flow = DebrisFlow(slope, flow="two_phase", numerics=FEW)
     flow.run_one_step(2.5)

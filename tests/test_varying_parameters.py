@@ -35,6 +35,7 @@ def run(law, fields=()):
     return np.array([p.x, p.y, *p.velocity])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LAWS["friction"])
 def test_the_same_everywhere_is_the_same_to_the_bit_however_it_is_given(name):
     law = LAWS["friction"][name]
@@ -72,6 +73,7 @@ def two_bodies(law, fields):
     return place(DebrisFlow(grid, friction=law, erosion="none", column="none", material=material, numerics=numerics))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", ["field", "array", "list"])
 def test_each_body_has_the_friction_of_where_it_is(given):
     _, angle = halves()
@@ -84,6 +86,7 @@ def test_each_body_has_the_friction_of_where_it_is(given):
     np.testing.assert_allclose(found, exact, rtol=1e-10)  # rounding bends the plane: measured 1.2e-12
 
 
+@pytest.mark.slow
 def test_it_is_that_of_the_nearest_node():
     _, angle = halves()
     flow = two_bodies(Coulomb(basal_friction_angle=angle), {})
@@ -94,6 +97,7 @@ def test_it_is_that_of_the_nearest_node():
     np.testing.assert_allclose(here.basal_friction_angle, np.radians([10.0, 20.0]), rtol=1e-15)
 
 
+@pytest.mark.slow
 def test_a_field_may_change_between_calls():
     _, angle = halves()
     flow = two_bodies(Coulomb(basal_friction_angle=FIELD), {FIELD: angle})
@@ -118,6 +122,7 @@ def test_an_array_of_another_size_is_refused():
         two_bodies(Coulomb(basal_friction_angle=np.full(7, 20.0)), {})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wrong", [90.0, -1.0, math.nan, math.inf])
 def test_one_node_out_of_bounds_is_refused_with_its_place(wrong):
     _, angle = halves()
@@ -136,6 +141,7 @@ def test_one_node_out_of_bounds_is_refused_with_its_place(wrong):
     )
 
 
+@pytest.mark.slow
 def test_a_field_is_looked_at_again_in_every_call():
     _, angle = halves()
     flow = two_bodies(Coulomb(basal_friction_angle=FIELD), {FIELD: angle})
@@ -144,6 +150,7 @@ def test_a_field_is_looked_at_again_in_every_call():
         flow.run_one_step(1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missing", [math.nan, -9999.0, math.inf])
 @pytest.mark.parametrize("given", ["field", "array", "masked array"])
 def test_closed_nodes_need_no_value(given, missing):
@@ -161,6 +168,7 @@ def test_closed_nodes_need_no_value(given, missing):
         flow.run_one_step(1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missing", [math.nan, -9999.0])
 def test_closed_nodes_need_no_values_that_agree(missing):
     grid, angle = halves()

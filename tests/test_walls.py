@@ -40,6 +40,7 @@ def nearest(flow):
     return np.floor(x / SPACING + 0.5).astype(int), np.floor(y / SPACING + 0.5).astype(int)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [0.03, 0.7, 3.0])
 @pytest.mark.parametrize("shape", WALLS)
 def test_nothing_gets_into_a_wall_or_through(shape, step):
@@ -55,6 +56,7 @@ def test_nothing_gets_into_a_wall_or_through(shape, step):
     assert stopped.mean() < 0.3 * SPEED  # they ran against it, with 30 m/s from 35 m away
 
 
+@pytest.mark.slow
 def test_a_long_shallow_run_along_a_diagonal_wall_does_not_leak():
     """Every node of the wall is passed, at every distance from its corner."""
     wall, beyond = WALLS["diagonal, one node thick"]
@@ -63,6 +65,7 @@ def test_a_long_shallow_run_along_a_diagonal_wall_does_not_leak():
     assert not np.any(beyond(*nearest(flow)))
 
 
+@pytest.mark.slow
 def test_a_channel_one_node_wide_lets_through_what_its_walls_do_not_stop():
     flow = thrown(lambda c, r: (r != 16) & (c > 18) & (c < 28), (1, 0))
     inside = False

@@ -31,6 +31,7 @@ def refused(slope, **keywords):
     return str(refusal.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("keywords", "words"),
     [
@@ -61,6 +62,7 @@ def test_did_you_mean(slope, keywords, words):
     assert words in refused(slope, **keywords)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("word", ["ice", "", "x" * 50, 3, None])
 def test_nothing_near_is_not_suggested(slope, word):
     with pytest.raises(ParameterError) as refusal:
@@ -81,6 +83,7 @@ def test_the_case_of_names_does_not_matter(kind):
     assert ALE(loading_source="Proportional") == ALE(loading_source="proportional")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("keywords", "words"),
     [
@@ -152,6 +155,7 @@ def test_durations_in_quotes(slope, call):
 # ---- fields ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", ["float32", "int64", "int16", "uint16", ">f8"])
 @pytest.mark.parametrize("name", [Z, SOIL, RELEASE])
 def test_fields_of_other_numbers_say_how_to_convert_them(slope, name, dtype):
@@ -162,6 +166,7 @@ def test_fields_of_other_numbers_say_how_to_convert_them(slope, name, dtype):
     DebrisFlow(slope, numerics=COARSE).run_one_step(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dtype", ["float64", "int32", "bool"])
 def test_ids_of_other_numbers_say_how_to_convert_them(slope, dtype):
     slope.add_ones("mass__wasting_id", at="node", dtype=dtype)
@@ -170,6 +175,7 @@ def test_ids_of_other_numbers_say_how_to_convert_them(slope, dtype):
     DebrisFlow(slope, numerics=COARSE)
 
 
+@pytest.mark.slow
 def test_a_field_that_is_exchanged_later_is_looked_at_again(slope):
     flow = DebrisFlow(slope, numerics=COARSE)
     slope.at_node[Z] = slope.at_node[Z].astype(np.float32)
@@ -182,6 +188,7 @@ def test_a_field_that_is_exchanged_later_is_looked_at_again(slope):
 # ---- observers ----
 
 
+@pytest.mark.slow
 def test_one_observer_needs_no_list(valley):
     one, other = (Snapshots(5.0, variables=["debris_flow__depth"]) for _ in range(2))
     DebrisFlow(valley, numerics=COARSE, observers=one).run_one_step(10.0)
@@ -191,6 +198,7 @@ def test_one_observer_needs_no_list(valley):
     assert other.dataset.sizes["time"] == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("observers", "words"),
     [

@@ -28,6 +28,7 @@ class Watch:
         self.moving.append(float(flow.grid.at_node["debris_flow__depth"].sum()) * 25.0)
 
 
+@pytest.mark.slow
 def test_observers_are_called_after_the_steps_that_cross_their_interval_and_at_rest(valley):
     often, seldom, always = Watch(1.0), Watch(2.5), Watch(EVERY_STEP)
     flow = DebrisFlow(valley, numerics=COARSE, observers=[often, seldom, always])
@@ -57,6 +58,7 @@ def test_observers_are_left_in_peace_when_nothing_happens(valley):
     assert flow.run_until_rest() is True and watch.times == []
 
 
+@pytest.mark.slow
 def test_a_call_is_the_same_whether_watched_at_its_end_or_not(valley):
     release, z, soil = (valley.at_node[name].copy() for name in ("debris_flow__release_depth", Z, SOIL))
     particles = []
@@ -69,6 +71,7 @@ def test_a_call_is_the_same_whether_watched_at_its_end_or_not(valley):
     assert particles[0].identical(particles[1])
 
 
+@pytest.mark.slow
 def test_bedrock_and_soil_stay_together_beside_other_components(valley):
     grid = valley
     release = grid.at_node["debris_flow__release_depth"].copy()
@@ -138,6 +141,7 @@ def bmi():
     return model
 
 
+@pytest.mark.slow
 def test_a_model_from_yaml_text(bmi):
     assert bmi.get_component_name() == "DebrisFlow"
     assert "topographic__elevation" in bmi.get_input_var_names()
@@ -153,6 +157,7 @@ def test_a_model_from_yaml_text(bmi):
     assert physics.friction.turbulent_coefficient == 400.0 and physics.material.porosity == 0.35
 
 
+@pytest.mark.slow
 def test_update_until_ends_where_it_should(bmi):
     bmi.update_until(5.0)
     assert bmi.get_current_time() == bmi._base.elapsed_time == 5.0
@@ -160,6 +165,7 @@ def test_update_until_ends_where_it_should(bmi):
     assert bmi.get_current_time() == bmi._base.elapsed_time == 9.0
 
 
+@pytest.mark.slow
 def test_release_and_soil_set_through_bmi_are_those_of_the_next_step(bmi):
     bmi.update_until(90.0)
     released = bmi._base.budget["released"]
@@ -177,6 +183,7 @@ def test_release_and_soil_set_through_bmi_are_those_of_the_next_step(bmi):
         bmi.update()
 
 
+@pytest.mark.slow
 def test_every_input_can_be_set_through_bmi():
     def described(name):
         kind = "int" if name == "mass__wasting_id" else "float"
@@ -213,6 +220,7 @@ def climbing():
     return DebrisFlow(grid, friction=friction, erosion="none", numerics=COARSE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rate", [5.0, -5.0], ids=["uplift", "subsidence"])
 def test_what_moves_all_ground_is_no_run_up(rate):
     highest = []
@@ -235,6 +243,7 @@ MOVES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("move", MOVES.values(), ids=MOVES)
 def test_ground_that_others_move_is_neither_rise_nor_fall(move):
     flow = climbing()

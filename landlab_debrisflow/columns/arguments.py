@@ -2,7 +2,7 @@
 
 import dataclasses
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
@@ -24,7 +24,7 @@ BASE = {
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 
 
-def refuse(message: str):
+def refuse(message: str) -> NoReturn:
     """Raise ParameterError on behalf of `solve_column`."""
     raise ParameterError(f"solve_column: {message}")
 
@@ -109,11 +109,11 @@ class Inputs(NamedTuple):
     bounded: bool
     step: float | None  # longest step asked for [s]
 
-    def liquefaction_pressure(self, thickness) -> np.ndarray:
+    def liquefaction_pressure(self, thickness: np.ndarray) -> np.ndarray:
         """Return the load at the base [Pa]."""
         return self.loading * thickness if self.loading[0] > 0.0 else self.pressure_scale
 
-    def bed_pressure(self, time: float, thickness) -> np.ndarray:
+    def bed_pressure(self, time: float, thickness: np.ndarray) -> np.ndarray:
         """Return the pressure of the bed [Pa]."""
         return self.bed.at(time) * (self.loading * thickness if self.bed_is_ratio else 1.0)
 
@@ -144,11 +144,11 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     for history in histories.values():
         history.spread(count)
     value = {name: history.value for name, history in histories.items()}
-    bed, is_ratio = histories.get("basal_pressure_ratio"), "basal_pressure_ratio" in histories
+    is_ratio = "basal_pressure_ratio" in histories
     inputs = Inputs(
-        times, law, profile, value["thickness"], value["coefficient_of_consolidation"], value["loading"], None,
-        *(histories[name] for name in ("entrainment_rate", "divergence_rate", "porosity_source", "base")),
-        bed if is_ratio else histories["basal_pressure"], is_ratio, given["bounded"], given["step"],
+        times, law, profile, value["thickness"], value["coefficient_of_consolidation"], value["loading"], np.empty(0),
+        histories["entrainment_rate"], histories["divergence_rate"], histories["porosity_source"], histories["base"],
+        histories["basal_pressure_ratio" if is_ratio else "basal_pressure"], is_ratio, given["bounded"], given["step"],
     )  # fmt: skip
     bed = inputs.bed_pressure(0.0, inputs.thickness)
     if profile is None:

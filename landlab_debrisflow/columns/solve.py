@@ -1,9 +1,12 @@
 """Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
 
 import math
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
 from ..physics.column.driver import Columns
@@ -17,12 +20,30 @@ BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
 
 
 def solve_column(
-    thickness=1.0, entrainment_rate=0.01, coefficient_of_consolidation=1e-3, basal_pressure=1.0, times=None,
-    initial="zero", initial_pressure=None, initial_layer_fraction=0.1, base="by_erosion", bed_contact="dirichlet",
-    divergence_rate=0.0, loading=0.0, loading_source="overburden", porosity_source=0.0,
-    source_includes_erosion=False, bounded=False, law="ale", scheme="default", levels=11, advance="lazy", step=None,
-    tolerance=None, basal_pressure_ratio=None,
-) -> xr.Dataset:  # fmt: skip
+    thickness: ArrayLike = 1.0,
+    entrainment_rate: ArrayLike | Callable[[float], ArrayLike] = 0.01,
+    coefficient_of_consolidation: ArrayLike = 1e-3,
+    basal_pressure: ArrayLike | Callable[[float], ArrayLike] = 1.0,
+    times: ArrayLike | None = None,
+    initial: str | ArrayLike = "zero",
+    initial_pressure: ArrayLike | None = None,
+    initial_layer_fraction: float = 0.1,
+    base: str | Sequence[str] | Callable[[float], str | Sequence[str]] = "by_erosion",
+    bed_contact: str = "dirichlet",
+    divergence_rate: ArrayLike | Callable[[float], ArrayLike] = 0.0,
+    loading: ArrayLike = 0.0,
+    loading_source: str = "overburden",
+    porosity_source: ArrayLike | Callable[[float], ArrayLike] = 0.0,
+    source_includes_erosion: bool = False,
+    bounded: bool = False,
+    law: Any = "ale",
+    scheme: str = "default",
+    levels: int = 11,
+    advance: str = "lazy",
+    step: float | None = None,
+    tolerance: float | None = None,
+    basal_pressure_ratio: ArrayLike | Callable[[float], ArrayLike] | None = None,
+) -> xr.Dataset:
     """Solve for the excess pore pressure in columns that erode, strain and consolidate.
 
     ``dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S`` with ``dh/dt = e_R - D h`` and p = 0 at the

@@ -22,7 +22,7 @@ import math
 from collections import namedtuple
 from collections.abc import Mapping
 from numbers import Integral, Real
-from typing import Any, dataclass_transform
+from typing import Any, TypeVar, dataclass_transform
 
 import numpy as np
 
@@ -30,6 +30,8 @@ from .checks import in_range
 from .docstrings import with_parameters
 from .errors import ParameterError
 from .hints import did_you_mean, give_number, number_in, plain, same_word
+
+T = TypeVar("T")
 
 
 class NodeValues:
@@ -46,7 +48,7 @@ class NodeValues:
     (<2 node values from 1 to 2.5>, True)
     """
 
-    def __init__(self, values):
+    def __init__(self, values: np.ndarray) -> None:
         self.values = values.copy()
         self.values.flags.writeable = False
 
@@ -111,8 +113,8 @@ def parameter(
     return dataclasses.field(default=default, metadata=metadata)
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(parameter,))
-def declared(cls):
+@dataclass_transform(frozen_default=True, kw_only_default=True)
+def declared(cls: type[T]) -> type[T]:
     """Make a frozen, keyword-only dataclass whose parameters are checked when it is built.
 
     A method ``_agree`` of the class is called last, for what concerns several parameters at once. The docstring gets a
@@ -246,7 +248,7 @@ def _checked_list(name: str, value: Any, meta):
 
 def _checked_number(name: str, value: Any, meta):
     kind, unit = meta["kind"], meta["unit"]
-    expected = Integral if kind is int else Real
+    expected: Any = Integral if kind is int else Real
     if isinstance(value, bool) or not isinstance(value, expected):
         word, hint = "an integer" if kind is int else "a number", give_number(value, kind is int)
         raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}{hint}")
@@ -259,7 +261,7 @@ def _checked_number(name: str, value: Any, meta):
     return int(value) if kind is int else number
 
 
-def from_mapping(cls, mapping: Mapping[str, Any], relatives: Mapping[str, type] | None = None):
+def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[str, type] | None = None) -> T:
     """Build a declared class from plain values, as they come from YAML.
 
     Parameters
@@ -276,7 +278,8 @@ def from_mapping(cls, mapping: Mapping[str, Any], relatives: Mapping[str, type] 
     ParameterError
         If a key is unknown (the message lists the legal ones with units) or a value is refused.
     """
-    legal = {f.name: f.metadata["unit"] for f in dataclasses.fields(cls)}
+    declaration: Any = cls
+    legal = {f.name: f.metadata["unit"] for f in dataclasses.fields(declaration)}
     for key in mapping:
         if key not in legal:
             allowed = ", ".join(f"{name} [{unit}]" for name, unit in legal.items()) or "none"

@@ -1,5 +1,9 @@
 """What the debris is made of, and the pore pressure it starts with."""
 
+from typing import Any
+
+import numpy as np
+
 from ..core.constants import GRAVITY
 from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter
@@ -81,6 +85,6 @@ class Material:
         """Porosity of the soil of the bed [-]."""
         return self.porosity if self.bed_porosity is None else self.bed_porosity
 
-    def density_of(self, porosity):
+    def density_of(self, porosity: np.ndarray | float) -> Any:
         """Return the density of a mixture of some porosity, a number or an array [kg m-3]."""
         return (1.0 - porosity) * self.solid_density + porosity * self.bearing_density

@@ -1,6 +1,7 @@
 """All laws by name, and the one place that builds them from names."""
 
 from collections.abc import Mapping
+from typing import Any, TypeVar
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, plain, same_word
@@ -24,6 +25,8 @@ LAWS = {
 }
 """Every law by kind and name; the first of a kind is the default."""
 
+T = TypeVar("T")
+
 METHOD = {
     "flow": "interact",
     "friction": "basal_resistance",
@@ -39,7 +42,7 @@ def law_name(kind: str, law) -> str:
     return next((name for name, known in LAWS[kind].items() if known is cls), f"{cls.__module__}.{cls.__qualname__}")
 
 
-def build_law(kind: str, value):
+def build_law(kind: str, value: Any) -> Any:
     """Return the law of some kind that `value` stands for; the case of its name does not matter.
 
     Examples
@@ -62,8 +65,8 @@ def build_law(kind: str, value):
         values = dict(value)
         if "law" not in values:
             hint = "".join(did_you_mean(key, ("law",)) for key in values)
-            known = ", ".join(laws)
-            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {known}; got {value!r}{hint}")
+            names = ", ".join(laws)
+            raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {names}; got {value!r}{hint}")
         name = values.pop("law")
         if (known := same_word(plain(name), laws)) is None:
             outside = isinstance(name, str) and "." in name
@@ -81,7 +84,7 @@ def build_law(kind: str, value):
     return value
 
 
-def build_declared(cls, value, keyword: str):
+def build_declared(cls: type[T], value: T | Mapping[str, Any] | None, keyword: str) -> T:
     """Return an instance of a declared class from an instance, a mapping or None.
 
     Raises

@@ -3,7 +3,9 @@
 Figures are plain matplotlib objects: no pyplot, no global state, no display needed.
 """
 
+import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -35,7 +37,15 @@ class Layer(NamedTuple):
     """Values of smaller magnitude are left transparent."""
 
 
-def draw_maps(layers: Sequence[Layer], relief: xr.DataArray, *, outline=None, contours=(), margin=50.0, extent=None):
+def draw_maps(
+    layers: Sequence[Layer],
+    relief: xr.DataArray,
+    *,
+    outline: xr.DataArray | None = None,
+    contours: Sequence[float] = (),
+    margin: float = 50.0,
+    extent: tuple[float, float, float, float] | None = None,
+) -> Figure:
     """Draw layers as rows and runs as columns, all over the same hillshade.
 
     Parameters
@@ -93,7 +103,7 @@ def draw_maps(layers: Sequence[Layer], relief: xr.DataArray, *, outline=None, co
     return figure
 
 
-def save_figure(figure: Figure, path, dpi: int = 150):
+def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
     """Write a figure, atomically; return where.
 
     Raises

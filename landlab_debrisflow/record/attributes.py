@@ -6,6 +6,7 @@ A quantity stands under its name, in letters, digits and underscores, and its un
 
 import dataclasses
 import re
+from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from numbers import Integral, Real
 from typing import Any
@@ -39,7 +40,7 @@ def date_created() -> dict[str, str]:
     return {"date_created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
 
 
-def of_moment(time: float, particles, budget=()) -> dict[str, Any]:
+def of_moment(time: float, particles: Any, budget: Mapping[str, float] | tuple[()] = ()) -> dict[str, Any]:
     """Return elapsed time [s], number of particles so far and the terms of a budget [m3], if there is one."""
     attributes = quantity("elapsed_time", time, "s") | quantity("number_of_particles", particles.ever)
     for name, volume in dict(budget).items():
@@ -74,7 +75,7 @@ def legal(name: str) -> str:
     return re.sub("[^A-Za-z0-9_]", lambda other: f"u{ord(other[0]):x}", name)
 
 
-def plain(value: Any):
+def plain(value: Any) -> str | int | float | tuple[float, ...] | None:
     """Return a value as number, text or tuple of numbers, which files give back equal; None if it is no such thing."""
     if isinstance(value, str):
         return str(value)
@@ -89,7 +90,7 @@ def plain(value: Any):
     return None
 
 
-def parameters(obj: Any):
+def parameters(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
     """Yield name, value and declaration (a mapping) of all parameters of an object.
 
     An object that declares none, a law from outside perhaps, has its public attributes.
@@ -103,7 +104,7 @@ def parameters(obj: Any):
 
 def of_parameters(kind: str, obj: Any) -> dict[str, Any]:
     """Return the attributes of all parameters of an object."""
-    attributes = {}
+    attributes: dict[str, Any] = {}
     for name, value, declaration in parameters(obj):
         attributes |= quantity(f"{kind}_{name}", value, declaration.get("unit", "-"))
     return attributes
@@ -118,7 +119,9 @@ def of_laws(setup) -> dict[str, str]:
     return attributes
 
 
-def at_nodes(kind: str, obj: Any, fields, count: int):
+def at_nodes(
+    kind: str, obj: Any, fields: Mapping[str, np.ndarray], count: int
+) -> Iterator[tuple[str, np.ndarray, dict[str, str]]]:
     """Yield name, values over `count` nodes and attributes of every parameter that is given at all of them.
 
     `fields` are those of the grid at its nodes, of which a parameter may have given the name.

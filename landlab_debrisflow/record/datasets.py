@@ -1,6 +1,7 @@
 """The state as xarray Datasets with units, after the CF conventions."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -106,7 +107,7 @@ def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
             missing = closed & (values == field.start) & (name not in ON_WALLS)
         values = np.where(missing, np.nan, values).reshape(grid.shape)
         data[name] = (("y", "x"), values, described(field.unit, field.doc), encoding)
-    attributes = {}
+    attributes: dict[str, Any] = {}
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(setup, kind)
         attributes |= of_parameters(kind, law)

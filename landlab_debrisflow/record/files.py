@@ -5,10 +5,12 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import xarray as xr
+
 from ..core.errors import InputError
 
 
-def check_writable(path) -> Path:
+def check_writable(path: str | os.PathLike[str]) -> Path:
     """Return `path` as a Path if a file can be written there.
 
     Parameters
@@ -41,7 +43,7 @@ def check_writable(path) -> Path:
     return path
 
 
-def write_atomically(path, write: Callable[[Path], object]) -> Path:
+def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], object]) -> Path:
     """Write a file so that `path` never holds half of it: beside it first, then renamed.
 
     Parameters
@@ -71,7 +73,7 @@ def write_atomically(path, write: Callable[[Path], object]) -> Path:
     return path
 
 
-def write_dataset(path, dataset) -> Path:
+def write_dataset(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     """Write an xarray Dataset as compressed NetCDF, atomically; return where.
 
     Raises

@@ -11,10 +11,15 @@ An observer that raises ends the call after that step, with everything computed 
 observers still look at the step, and no look is repeated.
 """
 
+import os
+from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 from rich.console import Console
 
 from ..core.checks import require
@@ -48,7 +53,7 @@ class Progress:
         self.interval = _positive(interval, type(self).__name__)
         self._label, self._console = label, console or Console(stderr=True)
 
-    def observe(self, flow) -> None:
+    def observe(self, flow: Any) -> None:
         """Show time [s], moving volume [m3] and the largest speed on the grid [m/s]."""
         if not self._console.is_terminal:
             return
@@ -79,13 +84,19 @@ class Snapshots:
         If the interval is not > 0, or the file could not be written: before anything is computed.
     """
 
-    def __init__(self, interval: float, path=None, variables=None):
+    def __init__(
+        self,
+        interval: float,
+        path: str | os.PathLike[str] | None = None,
+        variables: Sequence[str] | None = None,
+    ) -> None:
         self.interval = _positive(interval, type(self).__name__)
         self.path = None if path is None else check_writable(path)
         self._variables = None if variables is None else list(variables)
-        self._times, self._maps = [], []
+        self._times: list[float] = []
+        self._maps: list[xr.Dataset] = []
 
-    def observe(self, flow) -> None:
+    def observe(self, flow: Any) -> None:
         """Keep the maps of now; write the file if the flow is at rest."""
         maps = flow.maps
         if self._variables is not None:
@@ -118,7 +129,7 @@ class Snapshots:
         series, last = stack(self._maps, "time", self._times, **time), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
 
-    def write(self, path=None):
+    def write(self, path: str | os.PathLike[str] | None = None) -> Path:
         """Write the dataset as NetCDF, atomically.
 
         Parameters
@@ -168,15 +179,18 @@ class Series:
 
     interval = EVERY_STEP
 
-    def __init__(self, times, measure):
+    def __init__(self, times: ArrayLike, measure: Callable[[Any], Mapping[str, ArrayLike]]) -> None:
         self._wanted = np.array(times, float, ndmin=1)
         if self._wanted.ndim != 1 or not np.all(np.isfinite(self._wanted)) or np.any(np.diff(self._wanted) <= 0.0):
             raise InputError(f"Series: times must be finite numbers of seconds that increase, got {times!r}")
         if not callable(measure):
             raise InputError(f"Series: measure must be callable with the flow, got {measure!r}")
-        self._measure, self._before, self._times, self._values = measure, None, [], []
+        self._measure = measure
+        self._before: tuple[float, dict[str, np.ndarray]] | None = None
+        self._times: list[float] = []
+        self._values: list[dict[str, np.ndarray]] = []
 
-    def observe(self, flow) -> None:
+    def observe(self, flow: Any) -> None:
         """Measure, and interpolate what is wanted between the last time and now."""
         now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
         then, earlier = self._before or (now, values)

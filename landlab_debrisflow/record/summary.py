@@ -1,18 +1,19 @@
 """A component in a few lines: its state, its laws and its budget, as text and as a table for notebooks."""
 
 from html import escape
+from typing import Any
 
 from ..physics.registry import LAWS, law_name
 
 
-def text(flow) -> str:
+def text(flow: Any) -> str:
     """Return state, laws and budget, one line each."""
     if (rows := _rows(flow)) is None:
         return object.__repr__(flow)
     return "\n  ".join([f"DebrisFlow: {rows.pop('state')}", *(f"{name}: {words}" for name, words in rows.items())])
 
 
-def html(flow) -> str:
+def html(flow: Any) -> str:
     """Return the same as a table."""
     rows = _rows(flow) or {"state": "under construction"}
     cells = "".join(

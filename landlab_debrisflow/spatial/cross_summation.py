@@ -212,8 +212,10 @@ def _find(
                         continue
                     for s in range(source_start[d], source_start[d + 1]):
                         j = source_order[s]
+                        if j >= n:
+                            continue
                         r2 = (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2
-                        if r2 < radius * radius and found < MOST_PARTNERS and j < n:
+                        if r2 < radius * radius and found < MOST_PARTNERS:
                             index[row_of, found] = j
                             weight[row_of, found] = volume[j] * (1.0 - np.sqrt(r2) / radius) ** 2 / (r2 + nearest)
                             total += weight[row_of, found]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
+from scipy.integrate import trapezoid
 
 from landlab_debrisflow import ParameterError, __version__, solve_column
 from landlab_debrisflow.exact.columns import consolidation, growing_column
@@ -21,6 +22,7 @@ def profile(ds, column=0, time=-1):
 # ---- closed forms ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "number, time, atol",
     [(0.01, 0.05, 6e-3), (0.01, 0.5, 1e-3), (1.0, 0.1, 3e-3), (1.0, 1.0, 3e-3), (1.0, 5.0, 3e-3), (10.0, 1.0, 1e-2)],
@@ -112,7 +114,7 @@ def test_what_new_soil_brings():
     ds = solve_column(
         coefficient_of_consolidation=1e-6, basal_pressure=3.0, times=[100.0], bed_contact="flux", levels=101
     )
-    content = np.trapezoid(profile(ds), ds.level) * ds.thickness.values[0, 0]
+    content = trapezoid(profile(ds), ds.level) * ds.thickness.values[0, 0]
     assert_allclose(content, 3.0 * 0.01 * 100.0, rtol=1e-2)
 
 
@@ -224,6 +226,7 @@ def test_a_bed_pressure_that_rises():
         assert_allclose(profile(ds), exact, atol=6e-3)
 
 
+@pytest.mark.slow
 def test_a_bed_pressure_that_swings_is_not_skipped():
     """Lazily as at every step: half a wave and back leaves nothing unless it is seen."""
     given = {
@@ -289,6 +292,7 @@ def test_a_look_changes_nothing(law):
     assert_allclose(profile(free), profile(few), atol=5e-3 * LOADING)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["ale", "classical"])
 def test_lazy_is_close_to_every_step(law):
     given = {

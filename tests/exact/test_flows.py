@@ -161,6 +161,7 @@ def test_sliding_and_stopping():
     assert travel == pytest.approx([3.75 * stop, 5.0 * stop, 5.0 * stop])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", ["linear", 0.1, 1.0])
 @pytest.mark.parametrize("slope", [R15, R30])
 def test_consolidating_block_against_a_quadrature(start, slope):

@@ -63,6 +63,7 @@ def test_hydrographs_that_cannot_be(change, words):
     assert not changed_fields(grid, before)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("inflow", ["surge.csv", 3.0, [GOOD, 3.0], object()])
 def test_what_is_no_hydrograph(inflow):
     with pytest.raises(ParameterError, match="inflow must be a Hydrograph"):
@@ -77,6 +78,7 @@ def refused(grid, call):
     return str(refusal.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -102,6 +104,7 @@ def test_lines_that_are_not_on_core_nodes(change, words):
     assert flow.elapsed_time == 0.0 and flow.budget["inflow"] == 0.0
 
 
+@pytest.mark.slow
 def test_a_line_one_node_inside_the_edge_is_well():
     grid = inclined((20, 60), 5.0, 0.5)
     line = {"line_start": (5.0, 5.0), "line_end": (5.0, 90.0)}
@@ -110,6 +113,7 @@ def test_a_line_one_node_inside_the_edge_is_well():
     assert flow.budget["inflow"] == pytest.approx(100.0, rel=1e-14) and flow.outflow_by_edge["west"] == 0.0
 
 
+@pytest.mark.slow
 def test_ground_that_falls_to_neither_side_needs_a_direction():
     grid = RasterModelGrid((20, 20), xy_spacing=5.0)
     grid.add_field(Z, 0.3 * grid.y_of_node, at="node")  # along the line
@@ -122,6 +126,7 @@ def test_ground_that_falls_to_neither_side_needs_a_direction():
     assert np.all(flow.particles.velocity_x > 0.0)
 
 
+@pytest.mark.slow
 def test_where_nothing_more_flows_in_the_nodes_may_close():
     grid = inclined((20, 60), 5.0, 0.5)
     flow = DebrisFlow(grid, inflow=GOOD, numerics=COARSE)

@@ -42,11 +42,13 @@ def test_only_rasters(grid):
         DebrisFlow(grid)
 
 
+@pytest.mark.slow
 def test_elevation_is_needed():
     with pytest.raises(FieldError, match=Z):
         DebrisFlow(RasterModelGrid((5, 5)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("node", [INSIDE, EDGE])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("name", [Z, SOIL])
@@ -58,6 +60,7 @@ def test_values_that_are_no_numbers(slope, flow, name, value, node):
     flow.run_one_step(0.1)  # at a closed node it is nobody's business
 
 
+@pytest.mark.slow
 def test_open_nodata_says_how_to_close_it(slope, flow):
     slope.at_node[Z][[INSIDE, INSIDE + 1]] = -9999.0
     message = refused(slope, flow)
@@ -81,6 +84,7 @@ def test_a_ratio_of_the_bed_outside_0_to_1(slope, flow, value):
     assert "bed__excess_pore_pressure_ratio must lie in [0, 1]" in message and f"node {INSIDE} " in message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("node", "value", "words"),
     [
@@ -121,6 +125,7 @@ def test_boundaries_that_mean_nothing(slope, flow, status, word):
     assert not changed_fields(slope, before)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dt", [-1.0, -1e-300, math.nan, math.inf, "1", True, None, [1.0], 1j])
 def test_times_that_are_none(slope, flow, dt):
     assert "dt must be" in refused(slope, flow, call=lambda: flow.run_one_step(dt))
@@ -180,6 +185,7 @@ class Poison:
         {"yield_stress": yield_stress, "drag": drag}[self.poisoned][state.speed > 5.0] = np.nan
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("poisoned", ["yield_stress", "drag"])
 def test_a_state_that_is_no_number_any_more(slope, poisoned):
     flow = DebrisFlow(slope, friction=Poison(poisoned), numerics=COARSE)
@@ -195,6 +201,7 @@ def test_a_state_that_is_no_number_any_more(slope, poisoned):
     flow.run_one_step(0.1)  # what did not fail can go on
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [0.0, 2.5])
 def test_a_step_that_raises(slope, start):
     flow = DebrisFlow(slope, numerics=COARSE)

@@ -51,6 +51,7 @@ class Auditor:
         return budget
 
 
+@pytest.mark.slow
 def test_at_every_moment_of_an_event(valley):
     audit = Auditor(valley)
     flow = audit.expect_release()
@@ -64,6 +65,7 @@ def test_at_every_moment_of_an_event(valley):
     assert budget["deposited"] > 300.0 and budget["moving"] == budget["outflow"] == 0.0
 
 
+@pytest.mark.slow
 def test_until_the_soil_is_used_up():
     grid = inclined((20, 80), 5.0, 0.5, soil=0.05, foot=200.0)
     release_slab(grid, (30.0, 48.0), 8.0, 0.05)
@@ -77,6 +79,7 @@ def test_until_the_soil_is_used_up():
     assert bare.sum() > 10  # exhausted somewhere, to the last grain
 
 
+@pytest.mark.slow
 def test_with_inflow_and_outflow(slope):
     line = {"line_start": (20.0, 30.0), "line_end": (20.0, 60.0)}
     hydrograph = {"times": [0.0, 5.0, 20.0], "discharge": [0.0, 60.0, 0.0], "velocity": 5.0}
@@ -115,6 +118,7 @@ def test_with_two_releases_and_settling_by_hand(valley):
     assert audit.check()["deposited"] == pytest.approx(resting["moving"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_over_many_events(valley):
     release = valley.at_node[RELEASE].copy()
     audit = Auditor(valley, column="none")
@@ -126,6 +130,7 @@ def test_over_many_events(valley):
     assert deposited == sorted(set(deposited))
 
 
+@pytest.mark.slow
 def test_with_unequal_spacing_and_a_bed_of_its_own_ratio():
     grid = inclined((24, 60), (6.0, 4.0), 0.6, soil=1.0, foot=200.0)
     grid.at_node[SOIL][:] = np.random.default_rng(1).uniform(0.0, 1.0, grid.number_of_nodes)

@@ -44,6 +44,7 @@ def built(caplog):
     return build
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("keywords", "words"),
     [
@@ -68,6 +69,7 @@ def test_parameters_in_other_units(slope, said, keywords, words):
     assert len(messages) == 1 and all(word in messages[0] for word in words), messages
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "keywords",
     [
@@ -147,6 +149,7 @@ def test_metres_are_metres(built, corner, spacing, relief):
     assert built(earth(corner, spacing, relief)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("offset", [20000.0, -15000.0])
 def test_ground_that_is_nowhere_on_earth_is_computed_and_doubted(said, slope, offset):
     slope.at_node[Z] += offset
@@ -157,6 +160,7 @@ def test_ground_that_is_nowhere_on_earth_is_computed_and_doubted(said, slope, of
 # ---- names ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["soil_depth", "Soil__Depth", "soil__thickness", "soil__dept", "soil"])
 def test_soil_by_another_name(said, name):
     grid = inclined((20, 60), 5.0, 0.5)
@@ -169,6 +173,7 @@ def test_soil_by_another_name(said, name):
     assert said(grid) == [] and SOIL in grid.at_node
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "ours"),
     [
@@ -184,6 +189,7 @@ def test_other_inputs_by_another_name(slope, said, name, ours):
     assert len(messages) == 1 and repr(name) in messages[0] and repr(ours) in messages[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["release_thickness", "release_depth", "debris_flow__release_thickness", "landslide_release", "Release"]
 )
@@ -212,6 +218,7 @@ def run(flow, said):
     return messages
 
 
+@pytest.mark.slow
 def test_ids_without_soil_release_nothing_and_say_why(said):
     grid = inclined((20, 60), 5.0, 0.5)
     ids = grid.add_zeros(IDS, at="node", dtype=int)
@@ -223,6 +230,7 @@ def test_ids_without_soil_release_nothing_and_say_why(said):
     assert "soil__depth is 0 at all of them" in message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     ["snow__depth", "water__depth", "rock__depth", "soil_production__rate", "soil__erodibility", "bedrock__elevation",
@@ -242,6 +250,7 @@ def test_a_name_beside_ours_or_without_values_is_left_alone(slope, said):
     assert said(slope) == []
 
 
+@pytest.mark.slow
 def test_a_field_that_a_law_reads_is_left_alone(said):
     grid = inclined((20, 60), 5.0, 0.5)
     release_slab(grid, (30.0, 48.0), 8.0, 0.5)
@@ -282,6 +291,7 @@ def test_a_release_just_as_deep_as_wide_is_not_doubted(said):
     assert said(grid) == []
 
 
+@pytest.mark.slow
 def test_doubts_change_nothing(slope):
     before = copy_fields(slope)
     flow = DebrisFlow(slope, material={"solid_density": 2.65, "water_density": 0.0}, numerics=COARSE)

@@ -32,6 +32,7 @@ def twin():
 # ---- interrupted ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_call_that_was_interrupted_goes_on(name, twin):
     expected, expected_state, steps = twin(name)
@@ -42,6 +43,7 @@ def test_a_call_that_was_interrupted_goes_on(name, twin):
         assert not different(outcome(flow), expected) and not different(state(flow), expected_state)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_an_observer_that_fails_in_the_last_look_finds_a_call_that_came_to_its_end(name, twin):
     expected, expected_state, steps = twin(name)
@@ -54,6 +56,7 @@ def test_an_observer_that_fails_in_the_last_look_finds_a_call_that_came_to_its_e
     assert not different(outcome(flow), expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_left_of_a_step_is_enough(name):
     """`run_one_step(dt)` ends where it should have, whatever rounding is in what is left of dt."""
@@ -65,6 +68,7 @@ def test_what_is_left_of_a_step_is_enough(name):
     assert not different(outcome(flow), outcome(whole)) and not different(state(flow), state(whole))
 
 
+@pytest.mark.slow
 def test_it_may_go_on_until_rest_or_for_a_time():
     flow, whole = build("eroding", [Fails(30)]), build("eroding")
     with pytest.raises(Failed):
@@ -128,6 +132,7 @@ def drain_bed(grid):
     grid.at_node["bed__excess_pore_pressure"][:] = 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "change", [add_release, take_soil, close_nodes, raise_ground, forget_peaks, replace_soil, drain_bed]
 )
@@ -176,6 +181,7 @@ def test_a_mistake_that_is_mended_does_not_count(twin):
     assert not different(outcome(flow), twin("eroding")[0]) and not different(state(flow), twin("eroding")[1])
 
 
+@pytest.mark.slow
 def test_a_field_that_a_law_reads_counts():
     flows = []
     for angle in (30.0, 60.0):
@@ -191,6 +197,7 @@ def test_a_field_that_a_law_reads_counts():
 # ---- undone ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_call_that_failed_was_not(name):
     rng = np.random.default_rng(2)
@@ -211,6 +218,7 @@ def test_a_call_that_failed_was_not(name):
         assert not different(outcome(flow), outcome(same)) and not different(state(flow), state(same))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_call_that_failed_after_it_was_interrupted_goes_on_from_the_interruption(name, twin):
     expected, expected_state, steps = twin(name)
@@ -253,6 +261,7 @@ def test_whatever_a_step_changes_is_undone():
     assert sim.number == 1 and not hasattr(sim, "new") and not sim.array.any() and len(sim.nested["list"]) == 1
 
 
+@pytest.mark.slow
 def test_to_undo_costs_no_copy_of_the_raster():
     flow = build("eroding", shape=(400, 300))
     flow.run_one_step(1.0)

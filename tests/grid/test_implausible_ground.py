@@ -46,6 +46,7 @@ def follow(message, grid):
     DebrisFlow(grid, numerics=COARSE).run_one_step(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("height", [0.0, 200.0, 3000.0])
 @pytest.mark.parametrize("value", FILLS + FLOATS)
 def test_fill_values_are_refused_with_count_place_and_remedy(value, height):
@@ -60,6 +61,7 @@ def test_fill_values_are_refused_with_count_place_and_remedy(value, height):
     assert np.all(grid.status_at_node[void] == grid.BC_NODE_IS_CLOSED)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [-32768.0, 1e20])
 def test_it_does_not_matter_how_much_is_missing(value):
     """A single node, or most of a raster that was rotated."""
@@ -72,6 +74,7 @@ def test_it_does_not_matter_how_much_is_missing(value):
     assert f"at {np.count_nonzero(beyond)} nodes" in refusal(grid)
 
 
+@pytest.mark.slow
 def test_a_void_read_from_a_file_is_refused_whatever_its_header_says():
     for nodata in (-9999, -32768, -340282346638528859811704183484516925440):
         grid, void = slope_at(200.0)
@@ -100,6 +103,7 @@ def test_cliffs_higher_than_any_are_refused(value):
     follow(message, grid)
 
 
+@pytest.mark.slow
 def test_the_smoothed_rim_of_a_void_is_refused_too():
     grid, void = slope_at(1500.0)
     grid.at_node[Z][void] = np.linspace(-9000.0, -5000.0, void.size)  # as bilinear resampling leaves it
@@ -107,6 +111,7 @@ def test_the_smoothed_rim_of_a_void_is_refused_too():
     assert np.all(grid.status_at_node[void] == grid.BC_NODE_IS_CLOSED)
 
 
+@pytest.mark.slow
 def test_elevations_in_millimetres_are_refused():
     grid, _ = slope_at(200.0)
     grid.at_node[Z] *= 1000.0
@@ -122,6 +127,7 @@ def test_voids_filled_with_a_number_that_exists_are_refused(value):
     follow(message, grid)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [-1000.0, 1.0, 255.0])
 def test_deep_voids_filled_with_any_number_are_refused(value):
     grid, void = slope_at(600.0)
@@ -152,12 +158,14 @@ def accepted(grid):
     DebrisFlow(grid, friction={"law": "coulomb", "basal_friction_angle": 20.0}, numerics=COARSE).run_one_step(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("offset", [-11000.0, 0.0, 8000.0, 20000.0, 1e6])
 def test_the_datum_is_nobodys_business(offset):
     grid, _ = slope_at(offset)
     accepted(grid)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "build",
     [
@@ -171,6 +179,7 @@ def test_pits_cliffs_and_steep_slopes_are_ground(build):
     accepted(build())
 
 
+@pytest.mark.slow
 def test_a_flat_below_walls_is_ground_if_it_opens_to_the_edge():
     row, column = np.mgrid[:21, :41]
     grid = scenes.raster(np.where((column > 20) & (abs(row - 10) < 6), 0.0, 400.0), 5.0)
@@ -178,6 +187,7 @@ def test_a_flat_below_walls_is_ground_if_it_opens_to_the_edge():
     accepted(grid)
 
 
+@pytest.mark.slow
 def test_a_lake_in_a_caldera_is_ground():
     """At sea level, below walls of 200 m at 45 degrees."""
     y, x = np.mgrid[:41, :41] - 20.0
@@ -186,6 +196,7 @@ def test_a_lake_in_a_caldera_is_ground():
     accepted(grid)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("value", [-9999.0, 32767.0, 1e20, -3.4028234663852886e38])
 @pytest.mark.parametrize("name", [SOIL, RELEASE])
 def test_fill_values_of_soil_and_release_are_replaced_as_printed(name, value):
@@ -206,6 +217,7 @@ def test_fill_values_at_closed_nodes_are_nobodys_business(value):
     accepted(grid)
 
 
+@pytest.mark.slow
 def test_a_fill_value_of_ids_lets_nothing_fail():
     grid, void = slope_at(0.0, soil=1.0)
     grid.at_node[RELEASE][:] = 0.0
@@ -224,6 +236,7 @@ def test_deep_soil_is_soil():
     DebrisFlow(grid, erosion="none", numerics=COARSE).run_one_step(0.1)
 
 
+@pytest.mark.slow
 def test_a_grid_closed_everywhere_has_no_ground_to_refuse():
     grid = RasterModelGrid((5, 5), xy_spacing=5.0)
     grid.add_full(Z, -9999.0, at="node")

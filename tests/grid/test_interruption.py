@@ -63,6 +63,7 @@ def during_a_step(monkeypatch, number, action, stage="consolidate"):
     monkeypatch.setattr(step, stage, disturbed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [1, 2, 30])  # the first is in the release, before any step
 def test_ctrl_c_ends_the_call_after_the_step(number, expected, monkeypatch, caplog):
     flow = build("eroding")
@@ -100,6 +101,7 @@ def test_ctrl_c_in_a_call_without_steps(monkeypatch):
     assert flow.at_rest and flow._call.rollback.interrupted is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", ["friction_and_kick", "move", "interact", "consolidate"])
 def test_ctrl_c_for_the_second_time_undoes_the_call_at_once(stage, expected, monkeypatch):
     flow = build("eroding")
@@ -115,6 +117,7 @@ def test_ctrl_c_for_the_second_time_undoes_the_call_at_once(stage, expected, mon
     assert not different(outcome(flow), expected[0])
 
 
+@pytest.mark.slow
 def test_ctrl_c_again_and_again_does_not_disturb_the_way_back(expected, monkeypatch):
     flow = build("eroding", [Fails(25)])
     with pytest.raises(Failed):
@@ -131,6 +134,7 @@ def test_ctrl_c_again_and_again_does_not_disturb_the_way_back(expected, monkeypa
     assert not different(outcome(flow), expected[0]) and not different(state(flow), expected[1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [1, 2, 3])
 def test_ctrl_c_while_an_observer_looks_keeps_everything(times, expected):
     flow = build("eroding", [Presses(4.0, times)])
@@ -160,6 +164,7 @@ def test_a_handler_of_somebody_else_is_left_alone(expected):
     assert not different(outcome(flow), expected[0])
 
 
+@pytest.mark.slow
 def test_in_a_thread_nothing_is_done_about_signals(expected):
     handlers = []
     asks = SimpleNamespace(interval=5.0, observe=lambda _: handlers.append(signal.getsignal(signal.SIGINT)))
@@ -171,6 +176,7 @@ def test_in_a_thread_nothing_is_done_about_signals(expected):
     assert not different(outcome(flow), expected[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "error",
     [KeyboardInterrupt, SystemExit(3), MemoryError, OSError(errno.ENOSPC, "No space left on device"), ValueError],
@@ -184,6 +190,7 @@ def test_whatever_an_observer_raises_comes_out(error, expected, caplog):
     assert not different(outcome(flow), expected[0])
 
 
+@pytest.mark.slow
 def test_an_observer_that_fails_does_not_keep_the_others_from_looking():
     first, second, third = Fails(10), Fails(), Fails(10, 11, error=ValueError("me, too"))
     flow = build("eroding", [first, second, third])
@@ -245,6 +252,7 @@ SCRIPT = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for a single process there")
 def test_a_signal_from_outside():
     root = str(Path(__file__).parents[2])

@@ -34,6 +34,7 @@ class Looks:
 TEN = (EVERY_STEP, 1.37, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 30.0, np.inf)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_flow_is_the_same_however_many_look(name):
     alone = build(name)
@@ -46,6 +47,7 @@ def test_a_flow_is_the_same_however_many_look(name):
         assert all(observer.seen for observer in watched._observers)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_flow_in_many_calls_is_the_same_when_watched(name):
     flows = [build(name), build(name, [Looks(0.2)])]
@@ -55,6 +57,7 @@ def test_a_flow_in_many_calls_is_the_same_when_watched(name):
     assert not different(outcome(flows[0]), outcome(flows[1])) and not different(state(flows[0]), state(flows[1]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_look_shows_what_the_end_of_a_call_would(name):
     looks = Looks(EVERY_STEP)
@@ -66,6 +69,7 @@ def test_a_look_shows_what_the_end_of_a_call_would(name):
         assert different(looks.seen[step], everything(flow)) == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_seen_fits_together(name):
     class Checks:
@@ -110,6 +114,7 @@ def test_an_observer_may_not_run_the_flow(call):
     assert not different(outcome(flow), outcome(twin))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_nothing_of_a_look_stays_on_the_grid(name, monkeypatch):
     present, shown = FieldWriter.present, set()
@@ -128,6 +133,7 @@ def test_nothing_of_a_look_stays_on_the_grid(name, monkeypatch):
     assert {"debris_flow__depth", "debris_flow__deposit_depth", "debris_flow__max_run_up"} <= shown
 
 
+@pytest.mark.slow
 def test_nor_where_it_wrote_over_what_a_former_event_left():
     flow = build("eroding", [Looks(0.3)])
     flow.run_until_rest()

@@ -56,6 +56,7 @@ def agree(flow, of=None):
     return budget
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("walled", [False, True])
 def test_a_second_component_finds_nothing_of_the_first(walled):
     """A study of parameters: what is an input is put back, and the rest is as on a fresh grid, walls included."""
@@ -72,6 +73,7 @@ def test_a_second_component_finds_nothing_of_the_first(walled):
         np.testing.assert_array_equal(grid.at_node[name], values, name)
 
 
+@pytest.mark.slow
 def test_numbers_of_two_phases_do_not_stay_for_one():
     grid = scene()
     two = DebrisFlow(grid, flow="two_phase", numerics=COARSE)
@@ -87,6 +89,7 @@ def test_numbers_of_two_phases_do_not_stay_for_one():
     assert all(grid.at_node[name].any() for name in phases)
 
 
+@pytest.mark.slow
 def test_what_is_neither_written_nor_computed_starts_anew():
     """As after reading a grid with the outputs of another process from a file."""
     grid = scene()
@@ -124,6 +127,7 @@ def of(flow, name):
     return np.nan_to_num(flow.maps[name].values.ravel())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("laws", [({}, {"friction": "voellmy"}), ({"flow": "two_phase"}, {})])
 def test_components_called_in_turn_have_outputs_of_their_own(laws):
     grid = scene()
@@ -144,6 +148,7 @@ def test_components_called_in_turn_have_outputs_of_their_own(laws):
     assert sum(flow.budget["released"] for flow in flows) == pytest.approx(3 * 45.0 + 45.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_one_called_is_as_if_it_had_been_alone():
     """A call of another one in between, without a release, leaves no trace."""
     grid, alone = scene(), scene()
@@ -160,6 +165,7 @@ def test_the_one_called_is_as_if_it_had_been_alone():
     assert first.budget == same.budget
 
 
+@pytest.mark.slow
 def test_outputs_of_one_that_is_gone_do_not_stay():
     grid = scene()
     first = DebrisFlow(grid, numerics=COARSE)
@@ -175,6 +181,7 @@ def test_outputs_of_one_that_is_gone_do_not_stay():
         np.testing.assert_array_equal(grid.at_node[name], values, name)
 
 
+@pytest.mark.slow
 def test_they_are_written_also_where_nothing_flowed_since():
     """A call keeps to the rows of the raster that the flow may reach; the first event was far from them."""
     grid = inclined((80, 40), 5.0, 0.5, soil=1.0, foot=100.0)
@@ -206,6 +213,7 @@ class Fails:
         raise RuntimeError("no paper left")
 
 
+@pytest.mark.slow
 def test_a_call_that_fails_leaves_the_outputs_of_the_other_one(monkeypatch):
     grid = scene()
     first = DebrisFlow(grid, numerics=COARSE)
@@ -225,6 +233,7 @@ def test_a_call_that_fails_leaves_the_outputs_of_the_other_one(monkeypatch):
         np.testing.assert_array_equal(first.maps[name], maps[name], name)
 
 
+@pytest.mark.slow
 def test_a_copy_of_grid_and_component_is_a_component_of_its_own():
     grid = scene()
     flow = DebrisFlow(grid, numerics=COARSE)
@@ -255,6 +264,7 @@ def test_debris_that_is_left_behind_is_said_once(caplog):
 # ---- going on ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("laws", [({}, {}), ({"flow": "two_phase"}, {}), ({}, {"flow": "two_phase"})])
 def test_a_component_that_continues_adds_to_maps_and_budget(laws):
     grid = scene()
@@ -286,6 +296,7 @@ def test_a_component_that_continues_adds_to_maps_and_budget(laws):
         np.testing.assert_array_equal(first.maps[name].values.ravel(), before[name], name)
 
 
+@pytest.mark.slow
 def test_inflow_of_one_that_continues_is_by_elapsed_time():
     grid = scene()
     first = DebrisFlow(grid, numerics=COARSE)
@@ -301,6 +312,7 @@ def test_inflow_of_one_that_continues_is_by_elapsed_time():
     assert second.budget["released"] == 225.0
 
 
+@pytest.mark.slow
 def test_only_what_is_over_is_continued():
     grid = scene()
     flow = DebrisFlow(grid, numerics=COARSE | {"settle": False})
@@ -322,6 +334,7 @@ def test_only_what_is_over_is_continued():
     agree(second)
 
 
+@pytest.mark.slow
 def test_a_landscape_with_a_component_for_every_event():
     grid, budget, flow = scene(), None, None
     for centre in (NEAR, FAR, NEAR):
@@ -336,6 +349,7 @@ def test_a_landscape_with_a_component_for_every_event():
 # ---- a new event ----
 
 
+@pytest.mark.slow
 def test_a_new_event_starts_peaks_and_nothing_else():
     grid = scene(walled=True)
     flow = DebrisFlow(grid, numerics=COARSE)
@@ -355,6 +369,7 @@ def test_a_new_event_starts_peaks_and_nothing_else():
     assert grid.at_node["debris_flow__max_depth"].max() < before["debris_flow__max_depth"].max()
 
 
+@pytest.mark.slow
 def test_no_event_begins_while_the_last_goes_on():
     grid = scene()
     flow = DebrisFlow(grid, numerics=COARSE, inflow=SURGE)
@@ -365,6 +380,7 @@ def test_no_event_begins_while_the_last_goes_on():
     assert not changed_fields(grid, before)
 
 
+@pytest.mark.slow
 def test_what_lies_has_forgotten_the_way_it_came():
     """Debris left on a counter-slope has run up; in the next event its surface is its depth above the bed below it."""
     grid = inclined((20, 80), 5.0, 0.0)
@@ -385,6 +401,7 @@ def test_what_lies_has_forgotten_the_way_it_came():
 # ---- maps and budget ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("zeroed", [(DEPOSIT,), (ERODED,), (DEPOSIT, ERODED)])
 @pytest.mark.parametrize("settle", [True, False])
 def test_the_accounts_are_the_components_own(zeroed, settle):
@@ -406,6 +423,7 @@ def test_the_accounts_are_the_components_own(zeroed, settle):
     agree(flow)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("settle", [True, False])
 @pytest.mark.parametrize("keywords", [{}, {"flow": "two_phase"}, {"inflow": SURGE}, {"column": "none"}])
 def test_over_the_life_of_a_component(settle, keywords):
@@ -434,6 +452,7 @@ def test_over_the_life_of_a_component(settle, keywords):
     agree(flow)
 
 
+@pytest.mark.slow
 def test_nodes_closed_over_a_deposit_keep_it_in_the_maps():
     grid = scene()
     flow = DebrisFlow(grid, numerics=COARSE)

@@ -11,6 +11,8 @@ from validation.measure import body
 
 from .test_outputs import ARRIVAL, DEPOSIT, ERODED, FAR, NEAR, PEAKS, RELEASE, SOIL, Fails, scene
 
+pytestmark = pytest.mark.slow
+
 LAWS = (
     {}, {"flow": "two_phase"}, {"friction": "voellmy"}, {"column": "none", "erosion": "none"},
     {"material": {"bed_porosity": 0.5}},

@@ -39,6 +39,7 @@ def ending(foot, columns, soil=1.0):
     return grid
 
 
+@pytest.mark.slow
 def test_a_dem_that_ends_inside_the_deposit_is_told_with_side_and_volume(caplog):
     flow = DebrisFlow(ending(150.0, 58), numerics=COARSE)
     flow.run_until_rest()
@@ -51,6 +52,7 @@ def test_a_dem_that_ends_inside_the_deposit_is_told_with_side_and_volume(caplog)
     assert float(percent) == pytest.approx(100.0 * share, rel=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("left", "tells"), [(0.009, 0), (0.011, 1)])
 def test_one_per_cent_is_where_telling_begins(caplog, left, tells):
     flow = place(DebrisFlow(inclined_with_release(), numerics=COARSE | {"settle": False}))
@@ -66,6 +68,7 @@ def inclined_with_release():
     return grid
 
 
+@pytest.mark.slow
 def test_every_side_is_named(caplog):
     """A cone, from the top of which it flows down all round."""
     grid = RasterModelGrid((31, 31), xy_spacing=5.0)
@@ -80,6 +83,7 @@ def test_every_side_is_named(caplog):
         assert float(volume) == pytest.approx(flow.outflow_by_edge[side], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_open_nodes_inside_are_an_edge_too(caplog, valley):
     sink = (valley.x_of_node == 175.0) & (abs(valley.y_of_node - 47.5) < 30.0)
     valley.status_at_node[sink] = valley.BC_NODE_IS_FIXED_VALUE
@@ -87,6 +91,7 @@ def test_open_nodes_inside_are_an_edge_too(caplog, valley):
     assert "over open nodes inside" in told(caplog, "left the grid")[0]
 
 
+@pytest.mark.slow
 def test_steps_tell_once_and_rest_tells_the_whole(caplog):
     flow = DebrisFlow(ending(150.0, 58), numerics=COARSE)
     for _ in range(60):
@@ -97,6 +102,7 @@ def test_steps_tell_once_and_rest_tells_the_whole(caplog):
     assert float(whole[1].getMessage().split()[0]) == pytest.approx(flow.budget["outflow"], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_every_event_is_told_by_itself(caplog):
     grid = ending(150.0, 58, soil=5.0)
     flow = DebrisFlow(grid, numerics=COARSE)
@@ -114,6 +120,7 @@ def test_every_event_is_told_by_itself(caplog):
     assert [float(v) for v in found] == pytest.approx([left, 100.0 * left / came], rel=1e-2)
 
 
+@pytest.mark.slow
 def test_what_stays_inside_is_not_told(caplog, valley):
     DebrisFlow(valley, numerics=COARSE).run_until_rest()
     assert caplog.messages == []
@@ -122,6 +129,7 @@ def test_what_stays_inside_is_not_told(caplog, valley):
 # ---- not at rest ----
 
 
+@pytest.mark.slow
 def test_what_does_not_rest_is_told_with_volume_speed_and_place(caplog):
     grid = inclined((20, 80), 5.0, 0.5, foot=150.0, xy_of_lower_left=(5e5, 4e6))
     release_slab(grid, (5e5 + 30.0, 4e6 + 48.0), 8.0, 1.0)
@@ -144,6 +152,7 @@ def test_what_does_not_rest_is_told_with_volume_speed_and_place(caplog):
     assert len(told(caplog, "not at rest after 21 s")) == 1
 
 
+@pytest.mark.slow
 def test_inflow_that_has_yet_to_come_is_told(caplog):
     surge = {
         "line_start": (20.0, 38.0), "line_end": (20.0, 58.0), "times": [50.0, 60.0], "discharge": 20.0, "velocity": 4.0,
@@ -154,6 +163,7 @@ def test_inflow_that_has_yet_to_come_is_told(caplog):
     assert "the inflow lasts until 60 s" in message and "still move" not in message
 
 
+@pytest.mark.slow
 def test_rest_and_plain_steps_are_not_told(caplog, valley):
     flow = DebrisFlow(valley, numerics=COARSE)
     flow.run_one_step(1.0)
@@ -175,6 +185,7 @@ def thrown(wall, speed, slope=0.0, friction=0.2, volume_per_node=1.5):
     return flow
 
 
+@pytest.mark.slow
 def test_what_was_stopped_is_told_with_the_time_of_the_first(caplog):
     """Its front, 12.5 m from the middle, is 22.5 m from the face of the wall, and slows down by 2 m/s2."""
     flow = thrown(lambda x: x > 112.0, 20.0)
@@ -187,6 +198,7 @@ def test_what_was_stopped_is_told_with_the_time_of_the_first(caplog):
     assert "obstacles, or the DEM is too small" in message
 
 
+@pytest.mark.slow
 def test_what_bounced_off_and_left_is_counted(caplog):
     """It runs up against a wall, slides back down, and leaves on the other side."""
     flow = thrown(lambda x: x > 112.0, 25.0, slope=-0.5, friction=0.05)
@@ -196,6 +208,7 @@ def test_what_bounced_off_and_left_is_counted(caplog):
     assert float(message.split()[0]) > 0.2 * flow.budget["released"]
 
 
+@pytest.mark.slow
 def test_a_particle_is_counted_once_however_the_time_is_cut(caplog):
     whole, steps = (thrown(lambda x: x > 112.0, 20.0) for _ in range(2))
     whole.run_one_step(6.0)
@@ -227,6 +240,7 @@ def test_the_volume_is_that_when_it_is_stopped():
     assert stopped.volume == 0.0
 
 
+@pytest.mark.slow
 def test_what_leaves_a_wall_did_not_run_against_it(caplog):
     """A slide that starts at a divide, beyond which there is no DEM."""
     grid = RasterModelGrid((31, 81), xy_spacing=5.0)
@@ -250,6 +264,7 @@ class Poison:
         yield_stress[:] = drag[:] = np.nan if self.flow and self.flow._simulation.time > self.after else 0.0
 
 
+@pytest.mark.slow
 def test_a_call_that_fails_counts_nothing(caplog):
     """Half of the slab is stopped before numbers cease to be any; the same half is counted when it is run again."""
     poison, counted = Poison(), []

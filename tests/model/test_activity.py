@@ -76,6 +76,7 @@ def test_who_falls_asleep(slope, base, above, sleeps):
     assert p.awake == p.count
 
 
+@pytest.mark.slow
 def test_who_is_disturbed_wakes_in_the_same_step(monkeypatch):
     _, flow = two_bodies()
     sim, woken, most = flow._simulation, [], [0]
@@ -113,6 +114,7 @@ def test_what_sleeps_changes_its_place_but_not_its_name():
     np.testing.assert_array_equal(flow.columns.excess_pore_pressure, flow._simulation.columns_now()[order])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("west", [False, True])
 def test_nobody_can_tell_who_slept(sleepless, west):
     """Positions, columns and maps, on the way and at the end, with and without sleep.

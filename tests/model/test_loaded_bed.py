@@ -51,6 +51,7 @@ def test_without_drainage_new_ground_bears_what_lies_on_it_now(calls):
     assert np.all(grid.at_node[FIELD] >= 0.0)
 
 
+@pytest.mark.slow
 def test_it_drains_while_nothing_moves_and_between_calls_time_stands_still():
     grid, flow = slope(drainage_time=20.0, foot=60.0, numerics={"settle": True})
     rain = np.where(grid.x_of_node > 170.0, 4e3, 0.0)
@@ -74,6 +75,7 @@ def test_soil_comes_in_with_the_pressure_the_flow_has_made():
     np.testing.assert_allclose(sim.particles.entrained_ratio[front], B * 1990.0 / 990.0, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_bed_that_keeps_its_pressure_lets_the_flow_run_farther():
     def run_out(drainage_time):
         _, flow = slope(0.15, drainage_time, foot=100.0, shape=(41, 70))
@@ -87,6 +89,7 @@ def test_a_bed_that_keeps_its_pressure_lets_the_flow_run_farther():
     assert kept > drained + 10.0  # measured 139 and 120 m
 
 
+@pytest.mark.slow
 def test_grains_and_water_weigh_what_their_mixture_weighs():
     """At the start, on bare ground: two sets of particles in one place are one load, not two."""
     loads = []

@@ -20,6 +20,7 @@ def test_the_number_of_particles():
         Numerics(particle_count=7, particle_spacing=1.0)
 
 
+@pytest.mark.slow
 def test_threads_change_nothing(valley):
     start = copy_fields(valley)
     ends = []
@@ -57,6 +58,7 @@ def test_no_step_jumps_over_the_terrain(monkeypatch, depth):
     assert 0.3 * 5.0 < longest <= 0.5 * 5.0
 
 
+@pytest.mark.slow
 def test_shorter_steps_change_little(valley):
     start = copy_fields(valley)
     centres = []

@@ -38,6 +38,7 @@ def south(flow):
     return float(p.x.values[here].mean()), float(np.hypot(p.velocity_x, p.velocity_y).values[here].mean())
 
 
+@pytest.mark.slow
 def test_a_slow_slide_does_not_stop_because_a_large_one_did():
     alone, beside = two_slopes(slow=1.0), two_slopes(slow=1.0, fast=6.0)
     for flow in (alone, beside):
@@ -48,6 +49,7 @@ def test_a_slow_slide_does_not_stop_because_a_large_one_did():
     assert south(beside)[0] == pytest.approx(south(alone)[0], abs=1.0)
 
 
+@pytest.mark.slow
 def test_a_large_slide_that_has_stopped_stays_so_while_a_slow_one_moves():
     flow = two_slopes(slow=1.0, fast=6.0)
     flow.run_one_step(40.0)
@@ -61,6 +63,7 @@ def test_a_large_slide_that_has_stopped_stays_so_while_a_slow_one_moves():
     np.testing.assert_array_equal(p.x[p.y > 150.0], before)
 
 
+@pytest.mark.slow
 def test_what_lies_elsewhere_is_not_woken_by_a_release():
     flow = two_slopes(fast=6.0)
     flow.run_until_rest(200.0)
@@ -73,6 +76,7 @@ def test_what_lies_elsewhere_is_not_woken_by_a_release():
     np.testing.assert_array_equal(np.sort(p.x[p.y > 150.0]), before)
 
 
+@pytest.mark.slow
 def test_a_flow_sets_free_what_it_runs_into():
     flow = two_slopes(laid=2.0)
     assert flow.run_until_rest() is True
@@ -83,6 +87,7 @@ def test_a_flow_sets_free_what_it_runs_into():
     assert flow.particles.x[:lying].mean() > was + 5.0
 
 
+@pytest.mark.slow
 def test_a_slow_slide_of_two_phases_does_not_stop_either():
     alone, beside = two_slopes(slow=1.0, flow="two_phase"), two_slopes(slow=1.0, fast=6.0, flow="two_phase")
     for flow in (alone, beside):
@@ -91,6 +96,7 @@ def test_a_slow_slide_of_two_phases_does_not_stop_either():
     assert south(beside) == pytest.approx(south(alone), rel=0.02)  # steps differ
 
 
+@pytest.mark.slow
 def test_what_leans_on_a_wall_comes_to_rest():
     """Judged by friction alone, which cannot hold it on this slope, it crept at 1e-12 m/s for ever."""
     grid = inclined((20, 40), 5.0, 0.5)
@@ -119,6 +125,7 @@ def test_bodies_are_those_that_feel_each_other():
         np.testing.assert_array_equal(found, np.unique(label, return_inverse=True)[1])
 
 
+@pytest.mark.slow
 def test_the_peak_goes_with_the_particles_when_a_body_parts():
     flow = two_slopes(fast=6.0)
     flow.run_one_step(3.0)

@@ -18,6 +18,7 @@ def runs():
     return flows, [touched_by(flow) for flow in flows]
 
 
+@pytest.mark.slow
 def test_the_same_nodes_are_touched_in_every_step(runs):
     _, (small, large) = runs
     assert len(small.eroded) > 50 and max(small.eroded) > 0 and max(small.shown) > 0
@@ -38,6 +39,7 @@ def test_results_are_equal_to_the_last_bit(runs):
             assert np.array_equal(small.grid.at_node[name].reshape(60, 60), part), name
 
 
+@pytest.mark.slow
 def test_nothing_else_changes(runs):
     (_, large), _ = runs
     outside = np.ones(large.grid.shape, bool)

@@ -83,6 +83,7 @@ CASES = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "name", "form"), CASES)
 def test_every_law_in_every_form(kind, name, form, tmp_path):
     grid, law = scene(), LAWS[kind][name]
@@ -111,6 +112,7 @@ def test_every_law_in_every_form(kind, name, form, tmp_path):
             assert kept.attrs["units"] == {"deg": "degree", "-": "1"}.get(unit, unit)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", ["number", "none", "text"])
 @pytest.mark.parametrize(("keyword", "cls"), [("material", Material), ("numerics", Numerics)])
 def test_material_and_numerics_in_every_form(keyword, cls, form, tmp_path):
@@ -121,6 +123,7 @@ def test_material_and_numerics_in_every_form(keyword, cls, form, tmp_path):
         assert read.get(f"{keyword}_{key}") == value, key
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("velocity", [4.0, [4.0, 5.0, 6.0]])
 def test_hydrographs(velocity, tmp_path):
     line = {
@@ -139,6 +142,7 @@ def test_hydrographs(velocity, tmp_path):
     assert attributes["inflow_0_discharge_units"] == "m3 s-1" and "inflow_0_direction" not in attributes
 
 
+@pytest.mark.slow
 def test_attributes_build_the_same_law_again(tmp_path):
     law = Coulomb(basal_friction_angle=12.5, velocity_profile="parabolic")
     flow, snapshots = run(scene(), friction=law)
@@ -197,6 +201,7 @@ OUTSIDE = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", OUTSIDE)
 def test_laws_from_outside(which, tmp_path):
     law = OUTSIDE[which]
@@ -221,6 +226,7 @@ def test_laws_from_outside(which, tmp_path):
 # ---- what every file says ----
 
 
+@pytest.mark.slow
 def test_every_file_says_what_wrote_it_when_and_of_how_much(tmp_path):
     before = datetime.now(UTC).replace(microsecond=0)
     flow, snapshots = run(scene(), friction="voellmy")
@@ -249,6 +255,7 @@ def test_the_version_is_said_once():
 # ---- closed nodes ----
 
 
+@pytest.mark.slow
 def test_closed_nodes_are_missing_in_every_map(tmp_path):
     """A DEM of which a part is NODATA; only what runs against its faces is known there."""
     grid = scene(walled=False)
@@ -277,6 +284,7 @@ def test_closed_nodes_are_missing_in_every_map(tmp_path):
 # ---- series ----
 
 
+@pytest.mark.slow
 def test_snapshots_whose_maps_differ_are_written(tmp_path):
     """A field that comes between two calls, and a parameter field that changes."""
     grid = inclined(SHAPE, 5.0, 0.5)
@@ -298,6 +306,7 @@ def test_snapshots_whose_maps_differ_are_written(tmp_path):
     assert not [name for name in series.attrs if name.startswith(("budget", "elapsed_time"))]
 
 
+@pytest.mark.slow
 def test_node_values_print_as_a_file_tells_them():
     flow = DebrisFlow(scene(), friction=Coulomb(cohesion=np.linspace(0.0, 5.0, NODES)))
     assert flow.maps.attrs["friction_cohesion"] == repr(NodeValues(np.linspace(0.0, 5.0, NODES))).strip("<>")

@@ -25,12 +25,14 @@ def slope_with(*observers):
     return DebrisFlow(grid, numerics={"particle_count": 60}, observers=observers)
 
 
+@pytest.mark.slow
 def test_progress_is_silent_without_a_terminal():
     stream = io.StringIO()
     slope_with(Progress(1.0, console=Console(file=stream))).run_one_step(2.0)
     assert stream.getvalue() == ""
 
 
+@pytest.mark.slow
 def test_progress_tells_time_volume_and_speed_on_a_terminal():
     stream = io.StringIO()
     console = Console(file=stream, force_terminal=True, width=120)

@@ -30,6 +30,7 @@ def wanted(times):
     return Series(times, lambda flow: {f"the {name}": value for name, value in measure(flow).items()})
 
 
+@pytest.mark.slow
 def test_they_are_interpolated_between_the_steps_around():
     steps, times = Steps(), np.arange(0.0, 12.0, 0.37)
     series = wanted(times)
@@ -48,6 +49,7 @@ def test_they_are_interpolated_between_the_steps_around():
     assert float(found["the eroded"][0]) == 0.0 < float(found["the eroded"][-1])
 
 
+@pytest.mark.slow
 def test_times_of_steps_are_met_exactly_and_those_not_reached_are_left_out():
     steps = Steps()
     build("eroding", [steps]).run_until_rest()
@@ -58,6 +60,7 @@ def test_times_of_steps_are_met_exactly_and_those_not_reached_are_left_out():
     assert series.dataset["the eroded"].values.tolist() == [steps.kept[time]["eroded"] for time in known[::7]]
 
 
+@pytest.mark.slow
 def test_calls_and_interruptions_make_no_gaps():
     times = np.arange(0.0, 6.0, 0.25)
     one, pieces, broken = wanted(times), wanted(times), wanted(times)

@@ -15,6 +15,7 @@ def fields(grid):
     return (grid.at_node[name].reshape(grid.shape) for name in names)
 
 
+@pytest.mark.slow
 def test_release_has_the_volume_of_both_landslides_and_fits_into_the_soil():
     grid = tsing_shan_valley()
     _, soil, release = fields(grid)
@@ -38,6 +39,7 @@ def test_erodible_path_and_fall():
     assert_allclose(thalweg[crown] - thalweg[crown + 200], 490.0, rtol=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", [0, 1])
 def test_curvature_is_continuous(axis):
     grid = tsing_shan_valley(spacing=1.0, width=60.0, runout_length=400.0)
@@ -47,6 +49,7 @@ def test_curvature_is_continuous(axis):
     assert jumps.max() < 0.2 * np.abs(curvature).max()  # a kink or a jump of curvature gives 1
 
 
+@pytest.mark.slow
 def test_roughness_is_correlated_reproducible_and_as_strong_as_asked():
     smooth, rough, same, other = (
         next(fields(tsing_shan_valley(roughness=r, seed=s))) for r, s in ((0.0, 1), (0.4, 1), (0.4, 1), (0.4, 2))
@@ -58,6 +61,7 @@ def test_roughness_is_correlated_reproducible_and_as_strong_as_asked():
     assert np.corrcoef(noise[:, 1:].ravel(), noise[:, :-1].ravel())[0, 1] > 0.9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", [0, 1])
 def test_an_offset_moves_all_of_the_valley_between_the_nodes(axis):
     half = np.eye(2)[1 - axis] * 0.5  # eastward along axis 1
@@ -67,6 +71,7 @@ def test_an_offset_moves_all_of_the_valley_between_the_nodes(axis):
         assert_allclose(one[1:], other[:-1], rtol=1e-9, atol=1e-9)  # half a node either way: a whole one apart
 
 
+@pytest.mark.slow
 def test_event_stays_on_the_grid_and_never_reaches_the_bottom_of_the_soil():
     grid = tsing_shan_valley()
     flow = DebrisFlow(grid, numerics={"particle_count": 200})

@@ -12,6 +12,7 @@ from validation.watch import Scene
 from .checks import assert_sound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2, 100])
 def test_a_release_of_one_cell(count):
     grid = inclined((21, 61), 5.0, 0.5, foot=150.0)
@@ -21,12 +22,14 @@ def test_a_release_of_one_cell(count):
     assert scene.flow.budget["released"] == pytest.approx(25.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_release_of_a_million_cubic_metres():
     scene = Scene(scenes.wide_release(1e6), 30.0, angle=12.0, count=2000).run()
     assert_sound(scene)
     assert scene.flow.budget["released"] == pytest.approx(1e6, rel=0.01)  # a cap on a raster
 
 
+@pytest.mark.slow
 def test_a_thin_tail_is_not_faster_than_it_fell():
     """Where the flow thins out, velocity is carried by the particles: no momentum is divided by a small depth."""
     scene = Scene(scenes.plane(0.5, 1.0), 10.0, keep=("z", "thickness", "velocity_x", "velocity_y", "velocity_z")).run()
@@ -47,6 +50,7 @@ def nearest_neighbours(flow):
     return cKDTree(points).query(points, 2)[0][:, 1] / np.sqrt(p.volume.values / p.thickness.values)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 def test_particles_of_a_stretched_front_do_not_pair(angle):
     """A kernel that pairs particles would bring nearest neighbours to zero; a lattice has them at 1 to 1.07."""
@@ -60,6 +64,7 @@ def test_particles_of_a_stretched_front_do_not_pair(angle):
     assert np.median(near) > 0.7
 
 
+@pytest.mark.slow
 def test_particles_in_the_bowl_stay_in_order():
     """Two periods of stretching and gathering."""
     scene = Scene(scenes.bowl(), 2.0 * scenes.period(), count=800, looks=20).run()
@@ -67,6 +72,7 @@ def test_particles_in_the_bowl_stay_in_order():
     assert near.min() > 0.5 and np.median(near) > 0.9  # measured .72 and .97
 
 
+@pytest.mark.slow
 def test_few_neighbours_at_a_front():
     """Every particle of a few, alone or in pairs, moves as gravity tells it."""
     grid = inclined((41, 121), 5.0, 0.5)

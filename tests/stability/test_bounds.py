@@ -13,6 +13,8 @@ from landlab_debrisflow.physics.registry import LAWS
 from validation.grids import inclined, release_slab
 from validation.watch import FINITE
 
+pytestmark = pytest.mark.slow
+
 INFINITE = 1e6
 """Stands for a bound that is infinite: far beyond any use, as a length, rate, angle or number."""
 

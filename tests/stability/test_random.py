@@ -1,12 +1,15 @@
 """Scenes nobody thought of: rough terrain, walls, any body, any law."""
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from landlab import RasterModelGrid
 
 from validation.grids import release
 from validation.watch import Scene
+
+pytestmark = pytest.mark.slow
 
 LAWS = st.fixed_dictionaries(
     {

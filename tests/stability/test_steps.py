@@ -20,6 +20,7 @@ def swing(*arguments, **keywords):
     return build(*arguments, **keywords).run()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shift", [0.0, 30.0])
 @pytest.mark.parametrize("courant", [0.3, 0.6, 1.0])
 def test_the_bowl_is_stable_at_every_step_allowed(courant, shift):
@@ -45,6 +46,7 @@ def test_a_step_beyond_the_limit_is_refused():
         swing(courant_number=1.01)
 
 
+@pytest.mark.slow
 def test_beyond_the_limit_it_does_blow_up():
     """What the bound protects from: twice the limit, put past the check."""
     scene = build(count=8000, spacing=20.0)
@@ -54,6 +56,7 @@ def test_beyond_the_limit_it_does_blow_up():
     assert scene.watch.gain > 0.3 * max(scene.watch.kinetic) and scene.flow.budget["outflow"] > 0.0
 
 
+@pytest.mark.slow
 def test_without_shock_viscosity_energy_grows():
     """What its lower bound protects from: measured 1.1 of the kinetic energy, .23 with a strength of .25."""
     with pytest.raises(ParameterError, match="shock_viscosity"):
@@ -63,6 +66,7 @@ def test_without_shock_viscosity_energy_grows():
     assert scene.run().watch.gain > 0.5 * max(scene.watch.kinetic)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("viscosity", [0.5, 1.0, 3.0, 6.0, 10.0])
 def test_the_shock_viscosity_is_stable_over_its_range(viscosity):
     """Gains over the kinetic energy: 8e-3, 2e-3, 3e-6 and, as steps get shorter, 0 from 6 on."""

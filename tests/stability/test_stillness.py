@@ -20,6 +20,7 @@ def root_mean_square_speed(scene, share):
     return math.sqrt(2.0 * G * scene.watch.kinetic[int(share * (len(scene.watch.kinetic) - 1))])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("amplitude", [0.0, 0.2])
 def test_still_water_calms_down(amplitude):
     """Without friction; what moves at first is the difference of a raster's surface to the particles'."""
@@ -32,6 +33,7 @@ def test_still_water_calms_down(amplitude):
     assert late < 0.5 * early and late < 6e-3 * CELERITY
 
 
+@pytest.mark.slow
 def test_water_over_a_rough_bed_has_a_residual():
     """The weight g cos(theta) of a slope-normal thickness has no potential: a lake over noise goes on circulating.
 
@@ -48,6 +50,7 @@ def test_water_over_a_rough_bed_has_a_residual():
     assert calm.flow.at_rest and not calm.speeds.any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("courant", [0.3, 1.0])
 @pytest.mark.parametrize("degrees", [5.0, 15.0])
 def test_friction_never_reverses_a_body_thrown_uphill(degrees, courant):
@@ -81,6 +84,7 @@ def test_what_has_come_to_rest_stays_to_the_last_bit(amplitude):
     assert scene.flow.at_rest and scene.flow.particles.identical(before.assign_attrs(scene.flow.particles.attrs))
 
 
+@pytest.mark.slow
 def test_a_remnant_above_its_friction_angle_comes_to_rest_too():
     """On 17 degrees with 15 of friction nothing holds; the kinetic energy, a part of its peak on the flat, ends it."""
     grid = inclined((21, 121), 5.0, 0.3, foot=300.0)

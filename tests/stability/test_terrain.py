@@ -11,6 +11,7 @@ from validation.watch import NoThrust, Scene
 from .checks import assert_sound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 @pytest.mark.parametrize("depth", [1.0, 5.0, 20.0])
 def test_a_gully_one_cell_wide(depth, angle):
@@ -21,6 +22,7 @@ def test_a_gully_one_cell_wide(depth, angle):
         assert np.median(abs(scene.flow.particles.y.values - 50.0)) < 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 15.0])
 @pytest.mark.parametrize("height", [50.0, 200.0])
 def test_a_cliff(height, angle):
@@ -29,6 +31,7 @@ def test_a_cliff(height, angle):
     assert scene.flow.budget["outflow"] < scene.flow.budget["released"]
 
 
+@pytest.mark.slow
 def test_a_cliff_is_no_dam():
     """On 17 degrees with 10 of friction everything slides to the edge, and over it: 2 m above, 50 m below."""
     scene = Scene(scenes.cliff(50.0), 30.0, 10.0, count=300).run()
@@ -37,6 +40,7 @@ def test_a_cliff_is_no_dam():
     assert above < 0.02 * scene.flow.budget["released"]  # measured 0; .96 where the surface has a lip of 3.7 m
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 @pytest.mark.parametrize("depth", [5.0, 20.0, 100.0])
 def test_a_pit_ejects_nothing(depth, angle):
@@ -49,6 +53,7 @@ def test_a_pit_ejects_nothing(depth, angle):
     assert scene.watch.head <= 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("depth", [20.0, 50.0, 200.0])
 def test_particles_without_pressure_keep_their_head_in_a_pit(depth):
     """What the drift gains off a tangent is paid for: without that +28 m of head out of 20, +4100 m out of 200."""
@@ -56,6 +61,7 @@ def test_particles_without_pressure_keep_their_head_in_a_pit(depth):
     assert scene.watch.head <= 0.0  # measured -9.6, -22 and -86 m; twice `rise` is 10, 25 and 100 m
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])
 def test_particles_without_pressure_keep_their_head_over_noise(amplitude):
     scene = Scene(scenes.noisy_slope(amplitude), 14.0, flow=NoThrust()).run()
@@ -70,12 +76,14 @@ def test_no_step_jumps_over_the_terrain():
     assert scene.steps.lengths[-4] * scene.watch.speed == pytest.approx(0.5 * 5.0, rel=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 15.0])
 @pytest.mark.parametrize("amplitude", [1.0, 2.0])
 def test_noise_of_the_elevation(amplitude, angle):
     assert_sound(Scene(scenes.noisy_slope(amplitude), 14.0, angle).run())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [0.0, 15.0])
 @pytest.mark.parametrize("gap", [False, True])
 def test_walls_of_closed_nodes(gap, angle):
@@ -89,6 +97,7 @@ def test_walls_of_closed_nodes(gap, angle):
     assert (behind > 0.0) == gap
 
 
+@pytest.mark.slow
 def test_a_wall_never_makes_faster():
     """Nor does a corner, into which all of it falls at 48 m/s: images must not let the smoothing length collapse."""
     scene = Scene(scenes.steep_corner(), 5.0, count=200).run()
@@ -97,6 +106,7 @@ def test_a_wall_never_makes_faster():
     assert scene.watch.speed <= scene.watch.allowed  # measured .93
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0.0, 80.0])
 @pytest.mark.parametrize("thickness", [1e-3, 1.0, 100.0])
 def test_slopes_and_thicknesses_at_their_ends(degrees, thickness):

@@ -106,6 +106,7 @@ TWO_DIMENSIONS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TWO_DIMENSIONS)
 def test_convergence_in_two_dimensions(name):
     coarse, fine = rival_row(name, 30), rival_row(name, 60)
@@ -115,12 +116,14 @@ def test_convergence_in_two_dimensions(name):
         assert math.log2(coarse[norm] / fine[norm]) > order
 
 
+@pytest.mark.slow
 def test_the_similarity_solution_is_off_by_its_linearised_friction():
     """Errors in L2 go down to .006 and .008, not to 0: measured .0063, .0079 on 160 cells, .0061, .0078 on 320."""
     row = rival_row("similarity", 160)
     assert 0.0055 < row["L2_h"] < 0.007 and 0.0070 < row["L2_hu"] < 0.0085
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ahead", [0.0, 0.1])
 def test_circular_dam_break(ahead):
     errors = []

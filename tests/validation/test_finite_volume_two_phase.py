@@ -191,6 +191,7 @@ def test_a_faint_hump_of_porosity_follows_the_linear_equations(mixture):
 ORDERS = {"hump": 1.8, "cap": 1.4, "collapse": 1.3, "porosity_dam": 1.1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ORDERS)
 def test_convergence(name):
     case = CASES[name]
@@ -200,6 +201,7 @@ def test_convergence(name):
     assert min(orders) > ORDERS[name], orders
 
 
+@pytest.mark.slow
 def test_drag_that_changes_along_the_way_keeps_the_order():
     """Steep in porosity: 2.14 to 2.27 against so near a reference, and 1.98 to 2.05 with drag of the end of steps."""
     mixture = Mixture("anderson_jackson", terminal_velocity=20.0, exponent=3.0)

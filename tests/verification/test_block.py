@@ -19,6 +19,7 @@ from validation.grids import dry_block, place, release_cap
 G = 9.81
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [20, 30, 45, 60])
 def test_a_block_travels_half_a_t_squared(degrees):
     angle, duration = math.radians(degrees), 8.0
@@ -30,6 +31,7 @@ def test_a_block_travels_half_a_t_squared(degrees):
     assert speed == pytest.approx(acceleration * duration, rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [20, 30, 45])
 def test_what_is_left_is_the_friction_of_spreading(degrees):
     """Friction opposes each particle's own direction, so a body that spreads sideways is held a bit less.
@@ -48,6 +50,7 @@ def test_what_is_left_is_the_friction_of_spreading(degrees):
     assert travel / (0.5 * acceleration * 64.0) - 1.0 == pytest.approx(gain, rel=0.25)
 
 
+@pytest.mark.slow
 def test_neither_the_direction_nor_the_shape_of_the_cells_matters():
     """Down a plane that falls 30 degrees in a direction of 0.6, 0.8 over cells of 8 m by 11 m."""
     angle, duration = math.radians(30.0), 6.0
@@ -66,6 +69,7 @@ def test_neither_the_direction_nor_the_shape_of_the_cells_matters():
     assert float(travel.y) == pytest.approx(exact * direction[1], rel=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 10, 16])
 def test_a_block_below_its_friction_angle_never_moves(degrees):
     # tan 16 deg = 0.287 < 0.3; the thrust of the cap, 2 h/R = 8e-4 of its weight, does not make up the difference
@@ -74,6 +78,7 @@ def test_a_block_below_its_friction_angle_never_moves(degrees):
     assert not np.any(flow.particles.velocity_y)
 
 
+@pytest.mark.slow
 def test_a_block_that_erodes_follows_the_closed_form():
     speed, travel, ratio = flows.eroding_block(20.0, math.radians(30.0), 0.21, 3e-3)
     exact = np.array([travel, speed, ratio])

@@ -14,6 +14,7 @@ COS = math.cos(ANGLE)
 SIZE, DEPTH = 10.0, 1.0  # radius or half width along the slope, slope-normal thickness in the middle [m]
 
 
+@pytest.mark.slow
 def test_a_circular_cap_spreads_at_the_exact_rate():
     """Without friction R^2 = R0^2 + 2 g' h0 t^2; on the map the cap is an ellipse."""
     grid = inclined((113, 221), 0.5, math.tan(ANGLE))
@@ -36,6 +37,7 @@ def parabola(p, x, y):
     return 1.0 - ((p.x - p.x.mean()) / (x * COS)) ** 2 / 6.0 - ((p.y - p.y.mean()) / y) ** 2 / 6.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("friction_angle", [0.0, 20.0])
 def test_a_ridge_spreads_at_the_exact_rate_whatever_its_friction(friction_angle):
     """1-D: while all of it moves downslope, friction is the same for all and the half width obeys
@@ -53,6 +55,7 @@ def test_a_ridge_spreads_at_the_exact_rate_whatever_its_friction(friction_angle)
     assert half_width == pytest.approx(24.586978, rel=6e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0.0, 45.0])
 def test_a_circular_cap_keeps_its_shape_whatever_the_slope(degrees):
     found = planes.cap(500, degrees)

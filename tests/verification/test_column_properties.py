@@ -11,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+from scipy.integrate import trapezoid
 
 from landlab_debrisflow import solve_column
 from landlab_debrisflow.physics.column import ALE, Classical
@@ -182,6 +183,7 @@ def worst_excess(fleet):
 # ---- no new extreme, without loading ----
 
 
+@pytest.mark.slow
 @examples
 @laws
 def test_no_new_extreme(seed, levels, tolerance, contact, law):
@@ -226,6 +228,7 @@ def test_a_bed_of_constant_pressure_under_a_column_that_thins(coefficient):
 # ---- no more than liquefied, with loading ----
 
 
+@pytest.mark.slow
 @examples
 @laws
 def test_no_more_than_liquefied_by_overburden(seed, levels, tolerance, contact, law):
@@ -233,6 +236,7 @@ def test_no_more_than_liquefied_by_overburden(seed, levels, tolerance, contact, 
     assert worst_excess(Fleet(law_of(law, levels, tolerance, contact, "overburden"), seed, BASES)) <= ROUNDING_OF_LOAD
 
 
+@pytest.mark.slow
 @examples
 @laws
 def test_no_more_than_liquefied_by_proportional_loading(seed, levels, tolerance, contact, law):
@@ -280,6 +284,7 @@ def test_a_small_excess_does_not_grow(levels, contact):
 # ---- content ----
 
 
+@pytest.mark.slow
 @examples
 @given(
     seed=st.integers(0, 2**32 - 1),
@@ -304,6 +309,7 @@ def test_content_is_kept_without_erosion_and_diffusion(seed, levels, source, law
             assert_allclose(fleet.profile() / scale[:, None], expected / scale[:, None], atol=ROUNDING)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("contact", ["dirichlet", "flux"])
 @pytest.mark.parametrize("warm", [0.0, 0.5])
 @pytest.mark.parametrize("steps", [{}, {"advance": "every_step"}, {"step": 25.0}])
@@ -320,7 +326,7 @@ def test_content_is_what_came_in_without_diffusion(contact, warm, steps):
             initial=np.full(levels, warm) * (np.arange(levels) < cells), **steps,
         )  # fmt: skip
         thickness = ds.thickness.values[:, 0]
-        content = np.trapezoid(ds.excess_pore_pressure.values[:, 0], dx=1.0 / cells) * thickness
+        content = trapezoid(ds.excess_pore_pressure.values[:, 0], dx=1.0 / cells) * thickness
         came_in = thickness - 1.0  # of 1 Pa
         assert_allclose((content - warm * (1.0 - 0.5 / cells) - came_in) / thickness, 0.0, atol=0.5 / cells)
 
@@ -361,6 +367,7 @@ def test_what_thinning_takes_off_is_counted(steps):
     assert_allclose(state.clipped, taken, rtol=1e-7, atol=1e-8 * LOAD_PER_METRE)
 
 
+@pytest.mark.slow
 @examples
 @laws
 def test_nothing_is_clipped_that_stays_within_bounds(seed, levels, tolerance, contact, law):

@@ -18,6 +18,7 @@ def gauss(count):
     return 0.5 * (node + 1.0), 0.5 * weight
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name, peclet", [("A_cold", 1e-2), ("A_warm", 10.0), ("A_cold", 1e3)])
 def test_growth_at_a_constant_rate_then_decay(name, peclet):
     unit, weight = gauss(1200)
@@ -44,6 +45,7 @@ def test_classical_law_is_conduction_between_fixed_ends(peclet):
     assert mean == pytest.approx(0.5 * (1.0 - share), **CLOSE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loading", ["none", "proportional", "overburden"])
 @pytest.mark.parametrize("rate", [1.0, -0.5])
 def test_closed_column_that_strains(loading, rate):
@@ -70,6 +72,7 @@ def test_closed_column_that_strains(loading, rate):
         assert mean[i] == pytest.approx(expected[1:] @ weight, **CLOSE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loading", ["overburden", "proportional"])
 def test_erosion_and_loading_keep_a_profile_in_step_with_the_overburden(loading):
     # p = r h (1 - xi) solves both laws of loading: dh/dt = e - D h is the balance of its mean

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
-from scipy.integrate import simpson
+from scipy.integrate import simpson, trapezoid
 
 from landlab_debrisflow import solve_column
 from landlab_debrisflow.exact.columns import consolidation, constant_local_peclet, front, growing_column
@@ -36,6 +36,7 @@ def orders(errors):
 # ---- growing column ----
 
 
+@pytest.mark.slow
 def test_growing_column_has_the_printed_digits():
     """To 1e-6, from a cold start over a bed that jumps to 1.
 
@@ -73,6 +74,7 @@ def grown(scheme, levels, number, steps, start=0.0, **given):
     return profile, np.abs(profile - growing_column(xi, last, number, start)).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number, start", [(1.0, 0.0), (1.0, 0.3), (10.0, 0.0)])
 @pytest.mark.parametrize("scheme", ["default", "lax_wendroff", "upwind"])
 def test_order_in_space(scheme, number, start):
@@ -108,6 +110,7 @@ def test_order_in_time(scheme, levels, number, steps, low, high):
     assert differences[0] < 1e-3
 
 
+@pytest.mark.slow
 def test_the_error_of_laziness_falls_with_its_tolerance():
     """At 81 levels, against every step: 1.3e-3 to 2.8e-5 for 1e-2 to 1e-6, as tolerance^0.4 or faster."""
     eager = grown("default", 81, 1.0, 6400)[0]
@@ -118,6 +121,7 @@ def test_the_error_of_laziness_falls_with_its_tolerance():
     assert errors[0] < 2e-3 and errors[1] < 0.4 * errors[0] and errors[2] < 0.2 * errors[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance, allowed", [(1e-2, 1e-2), (1e-3, 3e-3), (1e-4, 1e-3), (1e-5, 2e-4)])
 def test_what_friction_feels_falls_with_the_tolerance(tolerance, allowed):
     """After erosion, over the load, against every step: 5e-3, 2.1e-3, 7e-4, 1.3e-4 measured, more than was aimed at.
@@ -155,6 +159,7 @@ def test_a_constant_ratio_is_exact(source, scheme):
 # ---- constant local Péclet number ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "number, atol", [(0.1, 1e-4), (1.0, 2e-4), (10.0, 3e-5), (100.0, 6e-4)]
 )  # twice what was measured; at 100 the boundary layer is .1 of the depth, four levels
@@ -252,6 +257,7 @@ def test_memory_of_erosion(law, kept, advance):
 # ---- switches ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("levels", [11, 41])
 @pytest.mark.parametrize("law, contact", [("ale", "dirichlet"), ("ale", "flux"), ("classical", "dirichlet")])
 @pytest.mark.parametrize("advance", ["lazy", "every_step"])
@@ -266,7 +272,7 @@ def test_content_is_continuous_across_switches(levels, law, contact, advance, so
         basal_pressure_ratio=0.65, law=law, bed_contact=contact, advance=advance, levels=levels,
         times=np.sort(np.concatenate([switches - brief, switches, switches + brief])),
     )  # fmt: skip
-    content = np.trapezoid(ds.excess_pore_pressure, dx=1.0 / (levels - 1), axis=-1) * ds.thickness.values
+    content = trapezoid(ds.excess_pore_pressure, dx=1.0 / (levels - 1), axis=-1) * ds.thickness.values
     load = LOADING * ds.thickness.values
     jumps = np.abs(np.diff(content.reshape(20, 3, 4), axis=1))
     # soil at most liquefied, and what diffuses in from a bed at most liquefied, 2 (c_v t/pi)^(1/2) of it
@@ -320,6 +326,7 @@ def slope_at_end(pressure, spacing):
     return pressure[:, :4] @ np.array([-11.0, 18.0, -9.0, 2.0]) / 6.0 / spacing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", ["overburden", "proportional", "none"])
 @pytest.mark.parametrize("contact", ["dirichlet", "flux", "closed"])
 def test_balance(source, contact):
@@ -348,7 +355,7 @@ def test_balance(source, contact):
     )  # fmt: skip
     pressure, thickness = ds.excess_pore_pressure.values[:, 0], ds.thickness.values[:, 0]
     spacing = thickness / (levels - 1)
-    content = np.trapezoid(pressure, dx=1.0 / (levels - 1), axis=1) * thickness
+    content = trapezoid(pressure, dx=1.0 / (levels - 1), axis=1) * thickness
     lost = {"overburden": loading * thickness**2 / 2.0, "proportional": content, "none": 0.0 * content}[source]
     rates = {
         "through the surface": -coefficient * slope_at_end(pressure[:, ::-1], spacing),

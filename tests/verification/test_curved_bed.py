@@ -56,6 +56,7 @@ def test_friction_feels_the_curvature(mu, duration):
     assert found.mean() == pytest.approx(exact.mean(), rel=0.007)
 
 
+@pytest.mark.slow
 def test_the_bed_carries_weight_and_centripetal_force():
     """N/m = g cos phi + v^2/R, at the bottom g + v^2/R: 1.66 g here."""
     flow, phi, speed = through_the_dip(0.0, 20.0, 2.4)

@@ -11,6 +11,7 @@ from validation.cases import basins, planes
 ALONG = 48  # particles along the reservoir, some 4600 in all
 
 
+@pytest.mark.slow
 def test_ritter():
     found = planes.ritter(ALONG)
     # measured .022 and .073, with 96 along .013 and .042: kinks and the tip are as wide as the kernel, 5.6 spacings
@@ -25,6 +26,7 @@ def test_a_fixed_smoothing_length_fails_that_test():
     assert found.h.l1 > 0.06 and found.hu.l1 > 0.15
 
 
+@pytest.mark.slow
 def test_stoker():
     found = planes.stoker(ALONG)
     # measured .034 and .074: the shock is some five spacings of the shallow water wide, each 3.2 of the deep one's
@@ -32,6 +34,7 @@ def test_stoker():
     assert -0.022 < found.scalars["energy drift"] < -0.01  # a shock takes energy; measured -.0154
 
 
+@pytest.mark.slow
 def test_mangeney():
     found = planes.mangeney(ALONG)
     # measured .028 and .029, with 96 along .013 and .013
@@ -39,6 +42,7 @@ def test_mangeney():
     assert abs(found.scalars["2 % front, error over way"]) < 0.12  # measured -.08
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("ahead", "h", "hu"), [(0.1, 0.12, 0.22), (0.0, 0.065, 0.14)])
 def test_a_circular_dam(ahead, h, hu):
     found = basins.circular_dam_break(1000, ahead=ahead)

@@ -30,6 +30,7 @@ def block(step, **material):
     return np.array([(x - start) / math.cos(ANGLE), speed / math.cos(ANGLE), grown / volume]), flow
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slip", [0.0, 0.5, 0.8, 1.0])
 def test_soil_that_slips_along_takes_less_of_the_momentum(slip):
     """v = sqrt(a/E') tanh(sqrt(a E') t), x = ln cosh(sqrt(a E') t)/E', h = h_0 exp(E x), E' = E (1 - slip)."""
@@ -63,6 +64,7 @@ def speed_after(way, heavier):
     return math.sqrt(2.0 * PULL * work) / (1.0 + k * (grown - 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("porosity", "bed_porosity"), [(0.5, 0.2), (0.2, 0.6)])
 def test_a_heavier_bed_takes_more_of_the_speed(porosity, bed_porosity):
     heavier, errors = (1.0 - bed_porosity) / (1.0 - porosity), []
@@ -78,6 +80,7 @@ def test_a_heavier_bed_takes_more_of_the_speed(porosity, bed_porosity):
     np.testing.assert_allclose(p.density, (1.0 - p.porosity) * 2650.0, rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_grains_pores_and_momentum_are_what_they_were_with_what_came_in(monkeypatch):
     """The stage alone, saturated and with slip: n V, rho V and m^(1 - s) v, for every particle, to round-off."""
     slip, bed = 0.4, 0.3
@@ -122,6 +125,7 @@ def test_by_hand():
     assert peclet == pytest.approx(4.0 / 3.0 * 0.8 * 1.6 / 4e-4, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_rates_from_a_field_hold_where_they_are():
     """Twice the rate on one side, nothing on the other, of a sheet that runs down the middle."""
     grid = inclined((31, 40), 5.0, math.tan(ANGLE), soil=1.0)

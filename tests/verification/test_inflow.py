@@ -43,6 +43,7 @@ def test_steady_inflow_makes_uniform_flow():
     assert flow.budget["moving"] == pytest.approx(flow.budget["inflow"], rel=1e-14)
 
 
+@pytest.mark.slow
 def test_without_the_strip_it_would_be_pushed_back(monkeypatch):
     """What the strip is for: with a free surface behind the line the flow is a tenth too slow and too thick."""
     build = Source.__init__

@@ -1,8 +1,11 @@
 """A lake over an uneven floor. Slope-normal equations know no level lake: g sin^3(theta) is left over."""
 
+import pytest
+
 from validation.cases.basins import lake_damped, lake_rough
 
 
+@pytest.mark.slow
 def test_a_damped_lake_becomes_level():
     found = lake_damped(1000)
     # 1 m over waves of 5 cm by 20 m, seven particles long. Measured 5.9 mm and 1.5 mm, 2.6 mm with 4000 particles:

@@ -84,6 +84,7 @@ def thickness(flow):
     return float(flow.particles.thickness[0])
 
 
+@pytest.mark.slow
 @of_laws
 def test_a_steady_flow_has_the_speed_of_its_closed_form(law):
     """A third of the mean velocity slides; that nothing does is the same with other numbers."""
@@ -94,12 +95,14 @@ def test_a_steady_flow_has_the_speed_of_its_closed_form(law):
     assert speed(flow) == pytest.approx(exact, rel=1e-10)
 
 
+@pytest.mark.slow
 def test_what_is_liquefied_keeps_cohesion_and_viscosity():
     flow = lone(LAWS[0], STEEP, ratio=1.0)
     flow.run_one_step(60.0)
     assert speed(flow) == pytest.approx(terminal_speed(LAWS[0], thickness(flow), Material(), ratio=1.0), rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [Coulomb(basal_friction_angle=30.0), MuI()], ids=["Coulomb", "MuI"])
 def test_what_is_liquefied_falls_freely(law):
     flow = lone(law, STEEP, ratio=1.0)
@@ -107,6 +110,7 @@ def test_what_is_liquefied_falls_freely(law):
     assert speed(flow) == pytest.approx(G * math.sin(STEEP) * 5.0, rel=1e-12)
 
 
+@pytest.mark.slow
 @of_laws
 @pytest.mark.parametrize("dt", [1e-3, 1e3])
 def test_what_its_strength_holds_never_moves(law, dt):
@@ -117,6 +121,7 @@ def test_what_its_strength_holds_never_moves(law, dt):
     assert flow.at_rest and not body(flow).velocity.any()
 
 
+@pytest.mark.slow
 @of_laws
 def test_what_is_thrown_stops_and_stays(law):
     flow = lone(law, GENTLE)
@@ -133,6 +138,7 @@ def test_what_is_thrown_stops_and_stays(law):
     assert float(flow.particles.x[0]) == x and speed(flow) == 0.0
 
 
+@pytest.mark.slow
 @of_laws
 @pytest.mark.parametrize("velocity", [1e-12, -1e-12, 1e-3, -1e-3, 3.0, -3.0, 50.0, -50.0])
 def test_friction_never_reverses_what_it_stops(law, velocity, gently):
@@ -153,6 +159,7 @@ def gently():
     return lambda law: made[law] if law in made else made.setdefault(law, lone(law, GENTLE))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "law", [Bingham(yield_stress=1000.0), HerschelBulkley(yield_stress=1000.0)], ids=["Bingham", "HerschelBulkley"]
 )
@@ -165,6 +172,7 @@ def test_pore_pressure_is_nothing_to_a_fluid_without_friction(law):
     assert speeds[0] == speeds[1] > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [LAWS[0], LAWS[2], LAWS[4], LAWS[6], LAWS[7]], ids=lambda law: type(law).__name__)
 def test_pore_pressure_makes_what_has_friction_faster(law):
     flow = lone(law, STEEP, ratio=0.5)

@@ -66,6 +66,7 @@ def body(slope=0.0, shape=(30, 60), soil=None, **keywords):
     return grid, dry_block(0.0, particle_count=300, rest_energy=0.0, **keywords)
 
 
+@pytest.mark.slow
 def test_a_body_on_a_smooth_plain_keeps_its_momentum(monkeypatch):
     grid, keywords = body()
     flow = thrown(grid, (12.0, -3.0), **keywords)
@@ -77,6 +78,7 @@ def test_a_body_on_a_smooth_plain_keeps_its_momentum(monkeypatch):
     np.testing.assert_allclose(momentum(flow), before, rtol=0, atol=sums.rounding)
 
 
+@pytest.mark.slow
 def test_on_an_incline_it_gains_what_gravity_gives_along_the_bed(monkeypatch):
     slope = 0.5
     grid, keywords = body(slope)
@@ -104,6 +106,7 @@ def test_coulomb_friction_takes_what_its_law_says():
     assert (momentum(flow) - before)[0] / cosine == pytest.approx(gain, rel=3e-5)
 
 
+@pytest.mark.slow
 def test_soil_that_is_picked_up_brings_no_momentum(monkeypatch):
     """The balance closes with the reaction of the bed alone, into which the body digs a hollow."""
     grid, keywords = body(soil=5.0, erosion={"law": "growth", "growth_rate": 3e-3})
@@ -127,6 +130,7 @@ def test_soil_that_is_picked_up_brings_no_momentum(monkeypatch):
     assert 1e-3 < abs(bed[0]) / size < 1e-2
 
 
+@pytest.mark.slow
 def test_entrainment_itself_conserves_momentum_to_round_off(monkeypatch):
     """The stage alone: V v before it is V' v' after it, for every particle."""
     grid, keywords = body(soil=5.0, erosion={"law": "growth", "growth_rate": 3e-2})
@@ -147,6 +151,7 @@ def test_entrainment_itself_conserves_momentum_to_round_off(monkeypatch):
     flow.run_one_step(0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "axis", "velocity"), [("east", 0, (9.0, 2.0)), ("north", 1, (2.0, 9.0))])
 def test_a_wall_takes_the_momentum_towards_it_and_no_other(side, axis, velocity):
     """One that hits a wall alone keeps what it has along the wall; its image pushes it back, and no further aside."""
@@ -168,6 +173,7 @@ def test_a_wall_takes_the_momentum_towards_it_and_no_other(side, axis, velocity)
     assert 145.0 - 2.5 - 2.5 <= position <= 145.0 - 2.5
 
 
+@pytest.mark.slow
 def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
     """The impulse of the wall, added up where it acts, is all that changes the momentum on a smooth plain."""
     grid = inclined((20, 40), 5.0, 0.0)
@@ -199,6 +205,7 @@ def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
     np.testing.assert_allclose(after - before, impulse + sums.thrust, rtol=0, atol=1e-12 * before[0])
 
 
+@pytest.mark.slow
 def test_what_leaves_takes_its_momentum_with_it(monkeypatch):
     grid, keywords = body(shape=(30, 40))
     flow = thrown(grid, (20.0, 1.0), **keywords)
@@ -218,6 +225,7 @@ def test_what_leaves_takes_its_momentum_with_it(monkeypatch):
     np.testing.assert_allclose(momentum(flow) + out, before, rtol=0, atol=sums.rounding)
 
 
+@pytest.mark.slow
 def test_inflow_brings_its_momentum_and_the_thrust_behind_it():
     """Control volume behind the line, no friction: dP/dt = L (h v^2 + g h^2/2)."""
     speed, thickness, length = 5.0, 0.5, 40.0

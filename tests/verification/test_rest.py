@@ -14,6 +14,7 @@ G, MU, ANGLE = 9.81, 0.4, math.radians(15.0)
 SPEED = 10.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [1e-3, 0.1, 10.0])
 def test_a_slab_below_its_friction_angle_stays_for_every_step(step):
     grid = inclined((15, 40), 10.0, math.tan(ANGLE))
@@ -43,6 +44,7 @@ def speeds(flow):
     return np.linalg.norm(body(flow).velocity, axis=0)
 
 
+@pytest.mark.slow
 def test_a_sliding_slab_stops_in_time_and_stays(sliding):
     braking = G * (MU * math.cos(ANGLE) - math.sin(ANGLE))
     stop = SPEED / braking

@@ -3,9 +3,12 @@
 2.25 periods, so that it moves as fast as it ever does; relative errors as validation/measure.py defines them.
 """
 
+import pytest
+
 from validation.cases.basins import thacker_curved, thacker_planar
 
 
+@pytest.mark.slow
 def test_a_flat_surface_swings_to_and_fro():
     found = thacker_planar(500)
     # measured .020 of h, .021 of hu: the release starts .8 % narrower than the cap and breathes from there on; the

@@ -32,6 +32,7 @@ def pair(example):
     return both(example, 4e-4)
 
 
+@pytest.mark.slow
 def test_the_event_has_the_numbers_it_should(pair):
     for record in pair:
         m = record.measures
@@ -74,6 +75,7 @@ def test_the_marked_column_remembers_with_ale_only(pair):
         assert pressures["ALE", since][0] > pressures["classical", since][0] + 0.1
 
 
+@pytest.mark.slow
 def test_where_diffusion_wins_they_agree(example):
     # Pe_b = 0.4, as of the paper's second set; our flow is ten times as fast, which takes 4 m2/s instead of 0.4
     ale, classical = (record.measures for record in both(example, 4.0))

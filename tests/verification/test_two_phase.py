@@ -44,6 +44,7 @@ def rate(conductivity):
 # ---- balances ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("foot", [None, 150.0])
 def test_the_volume_of_each_phase_balances(foot):
     """With soil of another porosity, over the edge (a slope throughout) or into a deposit (a slope that ends)."""
@@ -68,6 +69,7 @@ def test_the_volume_of_each_phase_balances(foot):
     assert solid["outflow" if foot is None else "deposited"] > 100.0
 
 
+@pytest.mark.slow
 def test_what_grains_lose_water_gains():
     """Drag leaves the momentum of both to round-off; pressure, summed in floats, to their 6e-8."""
     grid = inclined((30, 30), 1.0, 0.0)
@@ -118,6 +120,7 @@ def speeds(flow, angle, centre=0.0, half=6.0):
     return v[near & ~water].mean(), v[near & water].mean()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("conductivity", "parts"), [(5.0, 1), (5.0, 5), (1e-4, 1), (1e-4, 5)])
 def test_a_slip_decays(conductivity, parts):
     """d = d0 exp(-h C_d (1/(rho_s h_s) + 1/(rho_w h_w)) t), rates of 1 and 5e4 per second, however long the steps."""
@@ -133,6 +136,7 @@ def test_a_slip_decays(conductivity, parts):
     assert (M_S * grains + M_W * water) / (M_S + M_W) == pytest.approx(2.0 * M_W / (M_S + M_W), rel=0.01)
 
 
+@pytest.mark.slow
 def test_the_decay_does_not_know_the_step():
     """The kick alone, in one and in twelve parts."""
     found = []
@@ -153,6 +157,7 @@ def test_the_decay_does_not_know_the_step():
     np.testing.assert_allclose(found[0], found[1], rtol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("conductivity", "tolerance"), [(1e-3, 0.01), (1e-2, 0.02)])
 def test_water_seeps_through_grains_that_friction_holds(conductivity, tolerance):
     """Darcy: n v_w = K sin(theta), to the hills of the lattice, over more of which faster water has come."""
@@ -163,6 +168,7 @@ def test_water_seeps_through_grains_that_friction_holds(conductivity, tolerance)
     assert N * water == pytest.approx(conductivity * math.sin(angle), rel=tolerance)  # measured -.3 and +.7 %
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("conductivity", "tolerance"), [(0.02, 0.02), (0.1, 0.06)])
 def test_friction_slows_the_grains_and_drag_the_water(conductivity, tolerance):
     """A slab: slip F/(rho_s h_s) (1 - exp(-rate t))/rate, F = (rho_s - rho_w) h_s g cos(theta) tan(phi)."""
@@ -221,6 +227,7 @@ def basin(cells, across, spacing, column, per_cell=1, friction_angle=0.0, numeri
     return flow
 
 
+@pytest.mark.slow
 def test_particles_feel_the_gradients_of_both_thrusts():
     """Where thickness, porosity and pore pressure vary together, over 40 spacings of a perfect lattice."""
     length, cells = 20.0, 40
@@ -275,6 +282,7 @@ class Sealed:
         pass
 
 
+@pytest.mark.slow
 def test_porosity_swings_with_the_stiffness_of_the_skeleton():
     """Water against grains in a sealed box: c^2 = K n (1/rho_w + n/((1 - n) rho_s)), (11.2 m/s)^2.
 
@@ -310,6 +318,7 @@ def test_porosity_swings_with_the_stiffness_of_the_skeleton():
     assert size.max() < 1.02 and size[32:].max() < size[:24].max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("column", ["none", "ale"])
 def test_porosity_stays_a_porosity(column):
     """A dam breaks, down a slope, onto dry ground with bumps and a closed house: hundreds of steps."""

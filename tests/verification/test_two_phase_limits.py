@@ -31,6 +31,7 @@ def sliding_cap(law, count):
     return (float(p.x[grains].mean()) - start) / math.cos(DEGREES), float(pressure.sum() / load.sum())
 
 
+@pytest.mark.slow
 def test_a_tight_mixture_is_one_phase_with_pore_pressure():
     """By the default coefficient of consolidation, 4e-4 m2/s: a slip of 1e-7 m/s.
 
@@ -42,6 +43,7 @@ def test_a_tight_mixture_is_one_phase_with_pore_pressure():
     assert found_ratio == pytest.approx(ratio, rel=0.01)  # 17 Pa of some 1700
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "count", "depths", "momenta"),
     [
@@ -70,6 +72,7 @@ def centres(flow):
     return [np.average(two_phase_strips.profile(flow, phase)[0]) for phase in two_phase_strips.PHASES]
 
 
+@pytest.mark.slow
 def test_a_permeable_mixture_drains_by_itself():
     """Columns with and without pore pressure come together as the conductivity rises: pressure over load is h dn/dt/K.
 
@@ -88,6 +91,7 @@ def test_a_permeable_mixture_drains_by_itself():
     assert apart[0] > 0.015 and apart[1] < 0.008 and apart[2] < 0.004  # measured .022, .004, .001 with 500
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stiffness", [2.5e5, 2.5e6])
 def test_a_mixture_at_rest_consolidates(stiffness):
     """Terzaghi's series, with c_v = K k_w of the law's own stiffness and conductivity; c_v of the material is not used.

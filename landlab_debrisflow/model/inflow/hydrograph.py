@@ -91,7 +91,7 @@ class Hydrograph:
                     "m3 s-1: the flow would be infinitely thick; give a velocity > 0"
                 )
 
-    def series(self, *names):
+    def series(self, *names: str) -> list[np.ndarray]:
         """Return parameters as arrays, shape (times,)."""
         return [np.broadcast_to(np.asarray(getattr(self, name)), len(self.times)) for name in names]
 
@@ -147,7 +147,7 @@ class Integral:
     (array([ 0.75,  3.  ,  6.  , 12.  ]), 1.0)
     """
 
-    def __init__(self, times, values):
+    def __init__(self, times: np.ndarray, values: np.ndarray) -> None:
         self._times, self._values = times, values
         self._slopes = np.append(np.diff(values) / np.diff(times), 0.0)
         steps = 0.5 * (values[1:] + values[:-1]) * np.diff(times)
@@ -158,7 +158,7 @@ class Integral:
         """The integral over all times given."""
         return float(self._before[-1])
 
-    def __call__(self, time):
+    def __call__(self, time: np.ndarray | float) -> np.ndarray:
         """Return the integral from the first of the times to `time`."""
         k = np.maximum(np.searchsorted(self._times, time, side="right") - 1, 0)
         passed = time - self._times[k]

@@ -25,6 +25,7 @@ def test_the_time_of_an_amount_is_the_inverse_of_the_integral(values, share):
     assert integral(time) == pytest.approx(share * integral.total, rel=1e-9)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=50)
 @example([1.0, 0.0, 1.0], 163, 0.65625)  # a row that two surges share
 @example([1.0, 0.0, 1.0], 1, 1.0)

@@ -4,6 +4,8 @@ import pytest
 
 from .release_fields import KINDS, examine
 
+pytestmark = pytest.mark.slow
+
 NUMBER = 335
 
 

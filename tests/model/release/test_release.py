@@ -30,6 +30,7 @@ def test_all_of_the_volume_in_equal_parts_inside_the_failing_cells(count):
     assert np.all(failing[nearest(grid, flow)])
 
 
+@pytest.mark.slow
 def test_one_cell_and_two_apart():
     grid = inclined((20, 40), 5.0, 0.2)
     depth = np.zeros(grid.number_of_nodes)
@@ -41,6 +42,7 @@ def test_one_cell_and_two_apart():
     assert counts.tolist() == [10, 30]  # by volume
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("dx", "dy", "angle"), [(5.0, 5.0, 0.0), (5.0, 4.0, 0.0), (5.0, 5.0, 35.0)])
 def test_a_slab_is_even(dx, dy, angle):
     grid = inclined((40, 40), (dx, dy), math.tan(math.radians(angle)))
@@ -56,6 +58,7 @@ def test_a_slab_is_even(dx, dy, angle):
     assert abs(noise.mean()) < 0.005
 
 
+@pytest.mark.slow
 def test_a_cap_has_its_shape():
     grid = inclined((40, 40), 2.0, 0.0)
     release_cap(grid, (39.0, 39.0), (30.0, 30.0), 2.0, on_top=True)
@@ -68,6 +71,7 @@ def test_a_cap_has_its_shape():
     assert float(r2.mean()) == pytest.approx(1.0 / 3.0, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_number_of_particles_follows_the_spacing_asked_for():
     grid = inclined((20, 20), 5.0, 0.0)
     release_slab(grid, (47.5, 47.5), 25.0, 1.0)
@@ -76,6 +80,7 @@ def test_the_number_of_particles_follows_the_spacing_asked_for():
     assert place(DebrisFlow(grid, **keywords)).particles.sizes["particle"] == 4 * failing
 
 
+@pytest.mark.slow
 def test_the_same_release_gives_the_same_particles():
     positions = []
     for _ in range(2):
@@ -94,6 +99,7 @@ def uneven(grid, rng):
     return np.where(inside, rng.uniform(0.1, 2.0, grid.number_of_nodes), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["slab", "mound", "uneven"])
 @pytest.mark.parametrize("count", [1, 30, 1000])
 def test_what_never_moved_gives_back_just_what_it_took(kind, count):
@@ -113,6 +119,7 @@ def test_what_never_moved_gives_back_just_what_it_took(kind, count):
     np.testing.assert_allclose(grid.at_node["debris_flow__deposit_depth"], depth, rtol=0, atol=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [50, 400, 2000])
 def test_cells_of_which_nothing_moved_are_as_before_though_others_of_the_release_slid_away(count):
     grid = inclined((40, 60), 5.0, 0.4)
@@ -146,6 +153,7 @@ def test_a_body_that_settles_a_little_keeps_its_shape():
     assert np.abs(grid.at_node["topographic__elevation"] - before)[depth > 0.0].max() < 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("later", [False, True])
 def test_one_particle_of_a_wide_site_gives_back_all_of_it(later):
     """Also far beyond its tent, and in a call in which nothing was released."""
@@ -165,6 +173,7 @@ def test_one_particle_of_a_wide_site_gives_back_all_of_it(later):
 # ---- a second release ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("second", [0.02, 0.1, 1.0])
 def test_a_small_release_takes_the_particle_volume_of_what_moves(second):
     grid = inclined((30, 100), 5.0, 0.5)
@@ -181,6 +190,7 @@ def test_a_small_release_takes_the_particle_volume_of_what_moves(second):
     assert flow._simulation.state.limits.longest_step > 0.5 * step  # with 2000 particles of its own it was 0.02 of it
 
 
+@pytest.mark.slow
 def test_a_large_release_beside_a_remnant_has_its_own_number():
     grid = inclined((30, 100), 5.0, 0.5)
     grid.at_node["debris_flow__release_depth"] = np.zeros(3000)
@@ -191,6 +201,7 @@ def test_a_large_release_beside_a_remnant_has_its_own_number():
     assert flow.particles.sizes["particle"] == 400
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flow", ["one_phase", "two_phase"])
 def test_slivers_that_a_flow_buries_cost_it_no_steps(flow):
     found = []

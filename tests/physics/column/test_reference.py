@@ -108,6 +108,7 @@ def after_erosion(law, start="basal_layer"):
     return [ratios[319], ratios[1599], ratios[3999]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law, kept", [(ALE, (0.96, 0.91, 0.86)), (Classical, (0.58, 0.37, 0.27))])
 def test_memory_of_erosion(law, kept):
     """The difference that makes the longer run-out.
@@ -162,6 +163,7 @@ def test_balance_of_a_growing_column(number):
     assert_allclose(columns.content()[0] - before, source, rtol=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", ["overburden", "proportional", "none"])
 def test_what_friction_feels_through_a_whole_event(source):
     """Bursts of erosion, thickening and thinning by a sixth, several switches, at every flow step.
@@ -196,6 +198,7 @@ def base_after_growth(number, passed):
     return np.einsum("tw,w", np.exp(-np.outer(passed, waves**2)), amplitude)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [0.01, 1.0, 10.0, 32.0, 100.0, 320.0, 1e4])
 def test_what_friction_feels_after_erosion_stops(number):
     """What is aimed at (docs/decisions.md, Column), at every flow step: 4e-3 at 11 levels, 1.5e-3 at 21."""

@@ -61,6 +61,7 @@ def block(step):
     return np.array([speed / math.cos(ANGLE), after / before])
 
 
+@pytest.mark.slow
 def test_a_block_loses_to_the_bed_twice_the_friction_it_has():
     """dm/dt = k m/v with k = 2 mu g cos takes k off the acceleration at any speed: a' = g (sin - 3 mu cos).
 
@@ -77,6 +78,7 @@ def test_a_block_loses_to_the_bed_twice_the_friction_it_has():
     assert abs(2.0 * fine - coarse).max() < 2e-4
 
 
+@pytest.mark.slow
 def test_in_a_flow_nothing_erodes_at_rest_and_never_more_than_the_highest_rate():
     keywords = dry_block(0.6, "liquefied_bed", particle_count=150)
     still = inclined((15, 30), 5.0, 0.3, soil=2.0)

@@ -59,6 +59,7 @@ def slab(erosion, depth=2.0):
     return grid, DebrisFlow(grid, **dry_block(0.2, erosion, particle_count=120))
 
 
+@pytest.mark.slow
 def test_below_the_threshold_a_flow_erodes_nothing():
     # tau = 1590 * 9.81 * 0.05 m * cos * sin = 338 Pa
     grid, flow = slab("shear_excess", depth=0.05)
@@ -81,6 +82,7 @@ def event(grid, flow, calls):
     return grid.at_node["debris_flow__eroded_depth"] - before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("calls", [1, 24])
 def test_the_depth_holds_for_an_event_in_one_call_or_many(calls):
     grid, flow = slab(SHALLOW)
@@ -95,6 +97,7 @@ def test_the_depth_holds_for_an_event_in_one_call_or_many(calls):
     assert np.all(eroded[under] < 2.0 * limit[under])
 
 
+@pytest.mark.slow
 def test_the_next_event_erodes_again():
     grid, flow = slab(SHALLOW)
     first = event(grid, flow, 1)

@@ -1,0 +1,124 @@
+"""Every habit is one command: ``nox -l`` lists them, ``nox -s test-fast`` runs one in an environment of its own."""
+
+import re
+import time
+import tomllib
+from pathlib import Path
+
+import nox
+
+nox.options.sessions = ["check", "test-fast"]
+nox.options.reuse_existing_virtualenvs = True
+
+PROJECT = tomllib.loads(Path("pyproject.toml").read_text(encoding="utf-8"))["project"]
+EXTRAS = PROJECT["optional-dependencies"]
+JITTED = r"^\s*@(kernel|approximate_kernel|inner)\b"
+
+PLAIN = [
+    "tests/without_jit",
+    "tests/cli/test_laws.py",
+    "tests/columns",
+    "tests/core",
+    "tests/exact",
+    "tests/grid/test_bad_inflow.py",
+    "tests/physics",
+    "tests/plots",
+    "tests/scene",
+    "tests/test_varying_parameters.py",
+    "landlab_debrisflow/core",
+    "landlab_debrisflow/physics",
+    "--ignore=tests/physics/column/test_bounds.py",
+]
+"""Tests that take no more than minutes where kernels are plain Python."""
+
+FIGURES = {
+    "column.png": "python -m benchmarks.column",
+    "column_stability.png": "python -m benchmarks.column_stability",
+    "demo.png": "landlab-debrisflow demo --output-dir docs",
+    "flow.png": "python -m benchmarks.flow",
+    "flow_stability.png": "python -m benchmarks.flow_stability",
+    "paper_columns.png": "python examples/paper_columns.py --output docs/paper_columns.png",
+    "s1000.png": "python examples/s1000.py --output-dir docs",
+    "speed.png": "python -m benchmarks.speed",
+    "tsing_shan_columns.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
+    "tsing_shan_flow.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
+    "tsing_shan_maps.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
+    "two_phase.png": "python -m benchmarks.two_phase",
+    "when_ale_matters.png": "python -m benchmarks.when_ale_matters",
+}
+"""The command that makes each figure of docs/; most run for minutes, and write their table, too."""
+
+
+@nox.session
+def test(session):
+    """Run all tests, doctests and notebooks."""
+    session.install("-e", ".[test]")
+    session.run("python", "-m", "pytest", *session.posargs)
+
+
+@nox.session(name="test-fast")
+def test_fast(session):
+    """Run a subset that reaches every room: less than a minute once kernels are in numba's cache."""
+    session.install("-e", ".[test]")
+    start = time.perf_counter()
+    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+    session.log(f"fast subset: {time.perf_counter() - start:.0f} s")
+
+
+@nox.session(name="test-nojit")
+def test_nojit(session):
+    """Run kernels as plain Python, which checks every index, and measure coverage: at least 95 % outside kernels.
+
+    Whole events take hours as plain Python. So the lines of kernels, and what small scenes reach besides, are counted
+    there first; the fast subset, compiled, then adds lines outside kernels and none inside.
+    """
+    session.install("-e", ".[test]", *(each for each in EXTRAS["dev"] if each.startswith("coverage")))
+    plain, compiled = ".coverage.plain", ".coverage.compiled"
+    run = ["python", "-m", "coverage", "run"]
+    # numba keeps silent where NaN is meant; Python warns
+    quiet = ["-m", "pytest", "-q", "-m", "not slow", "-W", "default::RuntimeWarning"]
+    session.run(*run, f"--data-file={plain}", *quiet, *PLAIN, env={"NUMBA_DISABLE_JIT": "1"})
+    session.run(*run, f"--data-file={compiled}", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow")
+    session.run("coverage", "combine", "--keep", plain, compiled)
+    for words, file, least in (("plain Python alone", plain, 0), ("with the fast subset", ".coverage", 95)):
+        session.log(f"{words}: all lines, then those outside kernels")
+        session.run("coverage", "report", f"--data-file={file}")
+        only = {"COVERAGE_LEAVE_OUT": JITTED}
+        session.run("coverage", "report", f"--data-file={file}", f"--fail-under={least}", env=only)
+
+
+@nox.session(python="3.11")
+def oldest(session):
+    """Run the fast subset with the lowest versions that pyproject.toml allows."""
+    lowest = [re.sub(r">=([\d.]+)(,[^;]*)?", r"==\1", each) for each in PROJECT["dependencies"] + EXTRAS["test"]]
+    session.install(*lowest)
+    session.install("--no-deps", "-e", ".")
+    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+
+
+@nox.session
+def check(session):
+    """Check style, form and types."""
+    session.install("-e", ".[dev]")
+    session.run("ruff", "check", ".")
+    session.run("ruff", "format", "--check", ".")
+    session.run("typos")
+    session.run("mypy")
+
+
+@nox.session
+def docs(session):
+    """Check that the pages are true: the code they show, links, the page of laws, doctests, notebooks."""
+    session.install("-e", ".[test]")
+    pages = ["tests/test_readme.py", "tests/test_contributing.py", "tests/cli/test_laws.py"]
+    session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", "notebooks")
+
+
+@nox.session
+def figures(session):
+    """Make figures of docs/ anew, those named: ``nox -s figures -- column.png``."""
+    if not session.posargs:
+        session.error("name figures of docs/: " + ", ".join(FIGURES))
+    session.install("-e", ".[test]")
+    for command in dict.fromkeys(FIGURES[name] for name in session.posargs):
+        session.run(*command.split())

@@ -1,0 +1,36 @@
+"""What noxfile.py and pyproject.toml say of the project is so."""
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+NOXFILE = (ROOT / "noxfile.py").read_text(encoding="utf-8")
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
+def test_every_figure_of_the_pages_has_a_command():
+    assigned = next(node for node in ast.parse(NOXFILE).body if "FIGURES = " in ast.unparse(node))
+    figures = ast.literal_eval(assigned.value)
+    assert sorted(figures) == sorted(path.name for path in (ROOT / "docs").glob("*.png"))
+    for command in figures.values():
+        name = re.search(r"(?:-m (\S+)|(examples/\S+)|landlab-debrisflow)", command)
+        place = name[1].replace(".", "/") + ".py" if name[1] else name[2] or "landlab_debrisflow/cli/demo.py"
+        assert (ROOT / place).exists(), command
+
+
+def test_every_dependency_has_a_lowest_version():
+    needed = PROJECT["dependencies"] + PROJECT["optional-dependencies"]["test"]
+    assert [each for each in needed if ">=" not in each and "python_version" not in each] == []
+
+
+def test_tools_that_judge_are_pinned():
+    pinned = {each.split("==")[0] for each in PROJECT["optional-dependencies"]["dev"] if "==" in each}
+    assert {"ruff", "mypy", "typos", "coverage"} <= pinned
+
+
+def test_contributing_names_every_session():
+    sessions = re.findall(r'@nox\.session(?:\(name="(.*?)"\)|\(.*\))?\ndef (\w+)', NOXFILE)
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    assert [name or function for name, function in sessions if f"nox -s {name or function}" not in text] == []
