@@ -12,12 +12,8 @@ from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.contracts import BaseContact
 
-BASE = {
-    "by_erosion": BaseContact.BY_EROSION,
-    "prescribed": BaseContact.PRESCRIBED,
-    "impermeable": BaseContact.IMPERMEABLE,
-    "drained": BaseContact.DRAINED,
-}
+ALLOWED = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE, BaseContact.DRAINED
+BASE = {contact.name.lower(): contact for contact in ALLOWED}
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 WORDS = {"law": ("ale", "classical", "constant_ratio"), "advance": ("lazy", "every_step")}
 
