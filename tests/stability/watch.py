@@ -33,7 +33,7 @@ class Steps:
 
     def __init__(self, column=None):
         self.column, self.lengths = column or NoExcessPressure(), []
-        self.levels = self.column.levels
+        self.levels, self.memory_size = self.column.levels, self.column.memory_size
 
     def advance(self, columns, forcing, dt, basal_pressure):
         if dt > 0.0:
