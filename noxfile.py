@@ -37,6 +37,7 @@ FIGURES = {
     "demo.png": "landlab-debrisflow demo --output-dir docs",
     "flow.png": "python -m benchmarks.flow",
     "flow_stability.png": "python -m benchmarks.flow_stability",
+    "lazy_scheme.png": "python -m benchmarks.lazy_figure",
     "paper_columns.png": "python examples/paper_columns.py --output docs/paper_columns.png",
     "s1000.png": "python examples/s1000.py --output-dir docs",
     "speed.png": "python -m benchmarks.speed",

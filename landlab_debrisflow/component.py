@@ -11,6 +11,7 @@ from landlab.core.model_component import classproperty
 from .grid import checks, doubts
 from .grid.call import GridCall
 from .grid.fields import NODE_FIELDS, no_new_fields
+from .model.diagnostics import Diagnostics
 from .model.inflow.hydrograph import Hydrograph
 from .model.inflow.source import Inflow
 from .model.numerics import Numerics
@@ -123,7 +124,7 @@ class DebrisFlow(Component):
                     )
                 checks.check_continued(continues, grid, entering)
             self._simulation = Simulation(setup, setup.numerics, entering)
-            self._call = GridCall(self, None if continues is None else continues._call)
+            self._call: GridCall = GridCall(self, None if continues is None else continues._call)
         for doubt in (*odd, *doubts.about_parameters(grid, setup)):
             log.warning("%s", doubt)
 
@@ -224,7 +225,7 @@ class DebrisFlow(Component):
         self._call.restart_peaks()
 
     @property
-    def setup(self):
+    def setup(self) -> Setup:
         """Laws, material, numerics and inflow, as they were checked: a `Setup`."""
         return self._setup
 
@@ -261,7 +262,7 @@ class DebrisFlow(Component):
         return self._simulation.state.outflow.by_edge(*self.grid.shape)
 
     @property
-    def diagnostics(self):
+    def diagnostics(self) -> Diagnostics:
         """What the run took so far: number of steps, smallest one [s], share of particles asleep, CPU seconds by stage.
 
         A `model.diagnostics.Diagnostics`, of all calls of this component.

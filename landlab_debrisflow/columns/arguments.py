@@ -53,7 +53,7 @@ class History:
         return numbers(self.name, NUMBERS[self.name], value, when)
 
 
-def numbers(name: str, argument: dataclasses.Field, value, when="", each="column") -> np.ndarray:
+def numbers(name: str, argument: dataclasses.Field, value: Any, when: str = "", each: str = "column") -> np.ndarray:
     """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
     array, meta = _array(value), argument.metadata
     if array is None or array.ndim > 1 or array.size == 0:

@@ -1,6 +1,7 @@
 """Solved columns as a Dataset, with units."""
 
 from numbers import Real
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -23,7 +24,7 @@ VARIABLES = {
 }
 
 
-def dataset(inputs: Inputs, given, output) -> xr.Dataset:
+def dataset(inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.ndarray]]) -> xr.Dataset:
     """Return the columns at all times of output as a Dataset.
 
     Parameters
@@ -35,7 +36,7 @@ def dataset(inputs: Inputs, given, output) -> xr.Dataset:
     output : list of dict
         For each time the arrays of `VARIABLES`, shape (column,) or (column, level).
     """
-    data = {}
+    data: dict[str, Any] = {}
     for name, (unit, words) in VARIABLES.items():
         dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
         data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))

@@ -20,7 +20,7 @@ import dataclasses
 import functools
 import math
 from collections import namedtuple
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from numbers import Integral, Real
 from typing import Any, TypeVar, dataclass_transform
 
@@ -68,9 +68,10 @@ class NodeValues:
 
 
 def parameter(
-    unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False, *,
-    open_below=False, timed=False, remedy="",
-):  # fmt: skip
+    unit: str, meaning: str, default: Any, bounds: tuple[float | None, float | None] = (None, None),
+    choices: Collection[str] | None = None, kind: type = float, varies: bool = False, *,
+    open_below: bool = False, timed: bool = False, remedy: str = "",
+) -> Any:  # fmt: skip
     """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
     Parameters
@@ -128,13 +129,14 @@ def declared(cls: type[T]) -> type[T]:
         if hasattr(self, "_agree"):
             self._agree()
 
-    cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
-    cls = dataclasses.dataclass(frozen=True, kw_only=True)(cls)
-    cls.__doc__ = with_parameters(cls.__doc__, dataclasses.fields(cls))
-    return cls
+    made: Any = cls
+    made.__post_init__ = check  # before dataclass() runs: it looks for the method only then
+    made = dataclasses.dataclass(frozen=True, kw_only=True)(made)
+    made.__doc__ = with_parameters(made.__doc__, dataclasses.fields(made))
+    return made
 
 
-def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
+def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
     """Return the value of a parameter, or of an argument, in its declared type.
 
     Parameters
@@ -191,7 +193,7 @@ def _checked_on_nodes(name: str, value: Any, meta):
     return NodeValues(values.astype(float))
 
 
-def on_nodes(obj, fields: Mapping[str, Any]):
+def on_nodes(obj: Any, fields: Mapping[str, Any]) -> Any:
     """Return all that a law reads of its parameters: numbers as arrays over nodes, or of length 1, in SI units.
 
     Parameters
@@ -224,7 +226,7 @@ def on_nodes(obj, fields: Mapping[str, Any]):
 @functools.cache
 def _struct(names: tuple[str, ...], constants: tuple[tuple[str, float], ...]) -> type:
     """Return the type of named tuples with some names and constants; the same one for the same, also in a pickle."""
-    cls = namedtuple("Parameters", names)
+    cls = namedtuple("Parameters", names)  # type: ignore[misc]  # which names, is known when it runs
     return type("Parameters", (cls,), {
         "__doc__": "Parameters of a law in SI units, of which each is an ndarray, shape (n,) or (1,).",
         "__slots__": (), "__module__": __name__, **dict(constants),
@@ -257,7 +259,8 @@ def _checked_number(name: str, value: Any, meta):
     except OverflowError:  # of an integer
         number = math.inf
     told = value if kind is int and math.isfinite(number) else number
-    in_range(name, told, *meta["bounds"], unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
+    low, high = meta["bounds"]
+    in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
     return int(value) if kind is int else number
 
 

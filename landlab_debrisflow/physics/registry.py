@@ -36,7 +36,7 @@ METHOD = {
 """The method that makes an object a law of its kind."""
 
 
-def law_name(kind: str, law) -> str:
+def law_name(kind: str, law: Any) -> str:
     """Return the name a law of some kind is chosen by, or module and class of one that has no name."""
     cls = type(law)
     return next((name for name, known in LAWS[kind].items() if known is cls), f"{cls.__module__}.{cls.__qualname__}")

@@ -110,9 +110,9 @@ def of_parameters(kind: str, obj: Any) -> dict[str, Any]:
     return attributes
 
 
-def of_laws(setup) -> dict[str, str]:
+def of_laws(setup: Any) -> dict[str, str]:
     """Return the class of every law under its kind, and the name it is chosen by, or where it is from."""
-    attributes = {}
+    attributes: dict[str, str] = {}
     for kind in LAWS:
         law = getattr(setup, kind)
         attributes |= {kind: type(law).__name__, f"{kind}_law": law_name(kind, law)}

@@ -1,6 +1,6 @@
 """The state as xarray Datasets with units, after the CF conventions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -27,7 +27,7 @@ ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
 FIELDS = {field.name: field for field in NODE_FIELDS}
 
 
-def particles_dataset(particles, lower_left, setup, time: float) -> xr.Dataset:
+def particles_dataset(particles: Any, lower_left: Sequence[float], setup: Any, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
     data, order = {}, np.argsort(particles.identity)
     for variable in particles.variables:
@@ -46,7 +46,9 @@ def particles_dataset(particles, lower_left, setup, time: float) -> xr.Dataset:
     return xr.Dataset(data, {"particle": _numbers(particles.identity[order])}, attributes)
 
 
-def columns_dataset(profile, particles, coefficient_of_consolidation, setup, time: float) -> xr.Dataset:
+def columns_dataset(
+    profile: np.ndarray, particles: Any, coefficient_of_consolidation: np.ndarray, setup: Any, time: float
+) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
@@ -81,7 +83,7 @@ def _numbers(identity):
     return xr.Variable("particle", identity, described("-", "number of the particle, in order of release"))
 
 
-def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
+def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment: Mapping[str, Any]) -> xr.Dataset:
     """Return what is shown over ``y`` and ``x``, closed nodes missing, with all parameters.
 
     Parameters
@@ -133,7 +135,7 @@ def _axes(grid):
     return axes
 
 
-def stack(maps: Sequence[xr.Dataset], dimension: str, labels, **words) -> xr.Dataset:
+def stack(maps: Sequence[xr.Dataset], dimension: str, labels: Iterable[Any], **words: str) -> xr.Dataset:
     """Stack maps of several moments or runs side by side along a new dimension.
 
     Parameters of which all have the same values over nodes have them once. Attributes that are not the same for all

@@ -1,9 +1,11 @@
 """Measures of an event: how far, how large, how deep, how fast."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..core.errors import InputError
 from .attributes import described
@@ -12,9 +14,9 @@ ELEVATION, RELEASE = "topographic__elevation", "debris_flow__release_depth"
 DEPOSIT = "debris_flow__deposit_depth"
 
 
-def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | None = None, inside=None,
-             front_fraction: float = 0.99, flow_threshold: float = 0.0, erosion_threshold: float = 0.01,
-             deposit_threshold: float = 0.1) -> xr.Dataset:  # fmt: skip
+def measures(flow: Any, before: xr.Dataset | None = None, *, distance: Callable | None = None,
+             inside: ArrayLike | None = None, front_fraction: float = 0.99, flow_threshold: float = 0.0,
+             erosion_threshold: float = 0.01, deposit_threshold: float = 0.1) -> xr.Dataset:  # fmt: skip
     """Measure an event: run-out, travel angle, areas, volumes and peaks.
 
     Parameters
@@ -97,7 +99,7 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     return xr.Dataset({name: ((), value, described(unit, words)) for name, (value, unit, words) in found.items()})
 
 
-def quantile(values, weights, fraction: float) -> float:
+def quantile(values: np.ndarray, weights: np.ndarray, fraction: float) -> float:
     """Return the value that a fraction of the weights does not exceed.
 
     Parameters

@@ -2,8 +2,8 @@
 
 import dataclasses
 import json
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,9 @@ from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
 from ..record.attributes import legal
 from .digest import digest, state_of, text_of
+
+UNSET: Any = None
+"""Default of what `Setup` builds by itself, of any type."""
 
 
 class NodeArray(NamedTuple):
@@ -57,13 +60,27 @@ class Setup:
     (True, False)
     """
 
-    flow: FlowLaw = None
-    friction: FrictionLaw = None
-    erosion: ErosionLaw = None
-    column: ColumnLaw = None
-    material: Material = None
-    numerics: Numerics = None
+    flow: FlowLaw = UNSET
+    friction: FrictionLaw = UNSET
+    erosion: ErosionLaw = UNSET
+    column: ColumnLaw = UNSET
+    material: Material = UNSET
+    numerics: Numerics = UNSET
     inflow: tuple[Hydrograph, ...] = ()
+
+    if TYPE_CHECKING:  # what is given is not yet what the attributes are
+
+        def __init__(
+            self,
+            *,
+            flow: Any = None,
+            friction: Any = None,
+            erosion: Any = None,
+            column: Any = None,
+            material: Material | Mapping[str, Any] | None = None,
+            numerics: Numerics | Mapping[str, Any] | None = None,
+            inflow: Hydrograph | Mapping[str, Any] | Sequence[Hydrograph | Mapping[str, Any]] | None = None,
+        ) -> None: ...
 
     def __post_init__(self):
         built = {kind: build_law(kind, getattr(self, kind)) for kind in LAWS}
@@ -190,7 +207,7 @@ class Setup:
         return cls.from_mapping(mapping)
 
 
-def is_declared(obj) -> bool:
+def is_declared(obj: Any) -> bool:
     """Return whether the parameters of an object are all declared."""
     return dataclasses.is_dataclass(obj) and all("meaning" in field.metadata for field in dataclasses.fields(obj))
 

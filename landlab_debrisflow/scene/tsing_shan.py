@@ -25,19 +25,19 @@ CORRELATION_LENGTH = 15.0
 
 def tsing_shan_valley(
     *,
-    erodible_length=714.0,
-    slopes=(38.0, 28.0, 2.0),
-    transition_length=240.0,
-    runout_length=1400.0,
-    width=600.0,
-    channel_width=40.0,
-    channel_depth=12.0,
-    erodible_depth=12.0,
-    roughness=0.0,
-    seed=0,
-    spacing=5.0,
-    offset=(0.0, 0.0),
-):
+    erodible_length: float = 714.0,
+    slopes: tuple[float, float, float] = (38.0, 28.0, 2.0),
+    transition_length: float = 240.0,
+    runout_length: float = 1400.0,
+    width: float = 600.0,
+    channel_width: float = 40.0,
+    channel_depth: float = 12.0,
+    erodible_depth: float = 12.0,
+    roughness: float = 0.0,
+    seed: int = 0,
+    spacing: float = 5.0,
+    offset: tuple[float, float] = (0.0, 0.0),
+) -> RasterModelGrid:
     """Build a valley with the numbers of the Tsing Shan debris flow of 1990, whose own terrain is not public.
 
     A channel descends from west to east along the middle row, reaches 100 m elevation, and opens onto a

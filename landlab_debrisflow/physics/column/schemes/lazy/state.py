@@ -57,9 +57,8 @@ AT_LEVELS = (
 )  # fmt: skip
 IN_BANDS = ("unresolved_bands", "layer_bands")
 
-LAYOUT = np.dtype(
-    [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
-)
+MEMBERS = [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
+LAYOUT = np.dtype((np.record, MEMBERS))  # records, so that members are attributes in plain Python, too
 SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
 """Number of floats of a column in `ColumnState.memory`."""
 
