@@ -49,10 +49,10 @@ class Terrain:
         )
 
 
-def build(scene):
+def build(scene, particles=60):
     """Return a simulation that nothing was released in yet."""
     laws, hydrographs = SCENES[scene]
-    numerics = Numerics(particle_count=60)
+    numerics = Numerics(particle_count=particles)
     inflow = Inflow([Hydrograph(**each) for each in hydrographs], numerics)
     return Simulation(Setup(**laws), numerics, inflow)
 
@@ -76,8 +76,8 @@ def call(simulation, terrain, seconds, failing=None, changed=False):
     terrain.earlier += bed.taken
 
 
-def begun(scene, seconds=4.0):
-    simulation, terrain = build(scene), Terrain()
+def begun(scene, seconds=4.0, particles=60):
+    simulation, terrain = build(scene, particles), Terrain()
     failing = (abs(terrain.x - 30.0) < 9.0) & (abs(terrain.y - 48.0) < 9.0)
     if scene == "sleeps":
         failing |= (abs(terrain.x - 150.0) < 13.0) & (abs(terrain.y - 48.0) < 11.0)
