@@ -68,6 +68,33 @@ def test_imports_go_downward_only(module):
             assert len(one) < 2 or len(other) < 2 or one[0] == other[0], f"{module} knows another kind of law: {target}"
 
 
+def test_imports_have_no_circle():
+    known = {module: {t for name in imports(path) if (t := inner(name))} - {module} for module, path in MODULES.items()}
+    known = {m: {t if t in MODULES else f"{t}/__init__" for t in targets} for m, targets in known.items()}
+    while leaves := [module for module, targets in known.items() if not targets & known.keys()]:
+        for module in leaves:
+            del known[module]
+    assert known == {}, "these import each other"
+
+
+WHOLE = {"sim", "simulation"}
+"""Names of parameters that are the whole simulation."""
+
+ROOMS = {"model": 1, "grid": 6}
+"""Most functions of a room that may take it."""
+
+
+def test_few_functions_take_the_whole_simulation():
+    found = {}
+    for module, path in MODULES.items():
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef):
+                arguments = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
+                if WHOLE & {argument.arg for argument in arguments}:
+                    found.setdefault(layer(module), []).append(f"{module}.{node.name}")
+    assert {room: names for room, names in found.items() if len(names) > ROOMS.get(room, 0)} == {}
+
+
 def test_the_layers_are_all_known():
     folders = {layer(module) for module in MODULES} - {"top"}
     assert folders == set(LEVEL)

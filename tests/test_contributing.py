@@ -16,15 +16,18 @@ from validation.grids import COARSE
 
 CONTRIBUTING = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```", CONTRIBUTING, re.DOTALL)
-LAW, TEST, REGISTER = BLOCKS
+LAW, TEST, ARMOURED, ARMOURED_TEST, REGISTER = BLOCKS
 TESTS = re.findall(r"^def (test_\w+)", TEST, re.MULTILINE)
+(ARMOURED_NAME,) = re.findall(r"^def (test_\w+)", ARMOURED_TEST, re.MULTILINE)
 
 
 @pytest.fixture
 def outside(tmp_path, monkeypatch):
     """Write the blocks into files named as CONTRIBUTING names them, and import them from there."""
     monkeypatch.syspath_prepend(tmp_path)
-    files = {"excess_shear": LAW, "test_excess_shear": TEST}
+    files = {
+        "excess_shear": LAW, "test_excess_shear": TEST, "armoured": ARMOURED, "test_armoured": ARMOURED_TEST
+    }  # fmt: skip
     for name, text in files.items():
         assert f"`{name}.py`" in CONTRIBUTING
         (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
@@ -46,6 +49,21 @@ def test_its_test_can_fail(outside, monkeypatch):
     for name in ("test_by_hand", "test_soil_that_resists_stays"):
         with pytest.raises(AssertionError):
             getattr(test, name)()
+
+
+def test_a_law_that_remembers_passes_its_test(outside, monkeypatch):
+    shown = getattr(outside[3], ARMOURED_NAME)
+    shown()
+    monkeypatch.setattr(outside[2].Armoured, "entrainment_rate", lambda self, state, out: out.fill(0.01))
+    with pytest.raises(AssertionError):
+        shown()
+
+
+def test_a_variable_that_there_is_already_is_refused(outside, slope, monkeypatch):
+    law = outside[2].Armoured
+    monkeypatch.setattr(law, "variables", (law.variables[0]._replace(name="volume"),))
+    with pytest.raises(ParameterError, match="Armoured: particles already have a variable 'volume'"):
+        DebrisFlow(slope, erosion=law())
 
 
 def test_it_is_written_down_in_the_maps(outside, slope):

@@ -9,6 +9,7 @@ from .particles import Particles
 from .phases.exchange import Exchange
 from .release.origins import Origins
 from .rest import Bodies
+from .state_dataset import from_dataset, to_dataset
 from .step_control import StepControl
 from .stopped import Stopped
 
@@ -52,6 +53,20 @@ class State:
         other = object.__new__(State)
         vars(other).update({name: _copied(value) for name, value in vars(self).items()})
         return other
+
+    def to_dataset(self):
+        """Return the state as an xarray Dataset, without the CPU time it took; `from_dataset` reads it."""
+        return to_dataset(self)
+
+    def from_dataset(self, dataset) -> "State":
+        """Return the state that `to_dataset` wrote, of a run with the setup of this one, which is not changed.
+
+        Raises
+        ------
+        KeyError
+            If the dataset lacks a variable that particles of this setup have.
+        """
+        return from_dataset(dataset, self)
 
 
 def _copied(value):

@@ -62,6 +62,31 @@ class Bed:
             other.pressure_ratio = other.pore_pressure.ratio
         return other
 
+    @classmethod
+    def from_arrays(cls, elevation, spacing, soil=None, pressure_ratio=0.0, **others) -> "Bed":
+        """Return a bed whose outermost nodes are open and all others core, from arrays alone.
+
+        Parameters
+        ----------
+        elevation : ndarray, shape (rows, columns)
+            [m], changed in place if it is contiguous.
+        spacing : tuple of float
+            Node spacing (dx, dy) [m].
+        soil : ndarray, shape (rows, columns), optional
+            Erodible depth [m], likewise.
+        pressure_ratio : float
+            Excess pore pressure of the bed over its liquefaction value [-].
+        **others
+            As for the class.
+        """
+        core = np.zeros(elevation.shape, bool)
+        core[1:-1, 1:-1] = True
+        nodes = Nodes(core.ravel(), elevation.shape[1], *map(float, spacing))
+        eroded = others.pop("eroded_depth", np.zeros(elevation.size))
+        soil = None if soil is None else soil.reshape(-1)
+        surface = Surface(elevation, spacing)
+        return cls(nodes, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
+
     def erode(self, x, y, spread, wanted):
         """Take soil for particles that ask for it; those on one node share what is left there.
 

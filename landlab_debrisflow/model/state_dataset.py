@@ -1,0 +1,110 @@
+"""The state of a run as an xarray Dataset: every particle variable with unit and dimensions, and all that is beside."""
+
+import numpy as np
+import xarray as xr
+
+from ..spatial.cross_summation import Partners
+from .time_step import StepLimits
+
+BESIDE = {
+    "control": ("step", "speed"),
+    "bodies": ("at_rest", "steps", "known"),
+    "exchange": ("age", "steps"),
+    "counters": ("steps", "smallest_step", "particle_steps", "sleeping_steps"),
+    "stopped": ("volume", "first", "last"),
+    "outflow": ("solid",),
+    "inflow": ("rows_entered",),
+}
+"""Numbers that parts of the state consist of, by part; they are scalars named ``part_number``."""
+
+ORIGINS = {
+    "_x": "released", "_y": "released", "_volume": "released",
+    "_owner": "released_part", "_node": "released_part", "_part": "released_part",
+}  # fmt: skip
+"""Dimension of the arrays of `Origins`."""
+
+
+def to_dataset(state) -> xr.Dataset:
+    """Return all of a `State` but the CPU time it took; see `from_dataset`."""
+    p, data = state.particles, {}
+    for variable in p.variables:
+        words = {"units": variable.unit, "long_name": variable.long_name}
+        data[variable.name] = (_dimensions(variable), getattr(p, variable.name).copy(), words)
+    data |= {"awake": p.awake, "ever": p.ever, "time": state.time, "outdated": state.outdated}
+    data["settled_solid"] = state.settled_solid
+    data |= {f"{part}_{name}": getattr(getattr(state, part), name) for part, names in BESIDE.items() for name in names}
+    if state.limits is not None:
+        data |= {f"limits_{name}": value for name, value in state.limits._asdict().items()}
+    data["stopped_where"] = ("map_axis", np.array(state.stopped.where))
+    data["inflow_directions"] = (("source", "map_axis"), state.inflow.directions.copy())
+    data |= {f"bodies_{name}": ("body_number", getattr(state.bodies, name).copy()) for name in ("peak", "volume")}
+    data |= {f"origins{name}": (dim, getattr(state.origins, name)) for name, dim in ORIGINS.items()}
+    nodes, volumes = list(state.outflow._at), list(state.outflow._at.values())
+    data["outflow_node"] = ("exit_node", np.array(nodes, np.int64))
+    data["outflow_volume"] = ("exit_node", np.array(volumes, float))
+    if state.exchange.partners is not None:
+        of, count, index, weight = state.exchange.partners
+        filled = np.arange(index.shape[1]) < count[:, None]  # what lies beyond was never written
+        data["partners_of"], data["partners_count"] = ("grain", of), ("grain", count)
+        data["partners_index"] = (("grain", "partner"), np.where(filled, index, 0))
+        data["partners_weight"] = (("grain", "partner"), np.where(filled, weight, 0.0))
+        data["partners_generation"] = ("generation", np.array(state.exchange.generation, np.int64))
+    return xr.Dataset(data)
+
+
+def from_dataset(dataset: xr.Dataset, state):
+    """Return the state that was written by `to_dataset`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    state : State
+        Of a simulation with the same setup; it is not changed. What does not differ in a run is taken from it.
+
+    Returns
+    -------
+    State
+
+    Raises
+    ------
+    KeyError
+        If the dataset lacks a variable that particles of this setup have.
+    """
+    new, read = state.copy(), {name: data.values for name, data in dataset.variables.items()}
+    p = new.particles
+    for variable in p.variables:
+        setattr(p, variable.name, np.array(read[variable.name], variable.dtype, order="C"))
+    p.awake, p.ever = int(read["awake"]), int(read["ever"])
+    new.time, new.outdated = float(read["time"]), bool(read["outdated"])
+    new.settled_solid = float(read["settled_solid"])
+    for part, names in BESIDE.items():
+        for name in names:
+            value, here = read[f"{part}_{name}"], getattr(new, part)
+            setattr(here, name, type(getattr(here, name))(value))
+    new.limits = None
+    if "limits_energy" in read:
+        kinds = StepLimits.__annotations__
+        new.limits = StepLimits(*(kinds[name](read[f"limits_{name}"]) for name in StepLimits._fields))
+    new.stopped.where = tuple(map(float, read["stopped_where"]))
+    new.inflow.directions = np.array(read["inflow_directions"])
+    new.bodies.peak, new.bodies.volume = np.array(read["bodies_peak"]), np.array(read["bodies_volume"])
+    for name in ORIGINS:
+        setattr(new.origins, name, np.array(read[f"origins{name}"]))
+    nodes = new.origins._node
+    new.origins.span = (int(nodes.min()), int(nodes.max())) if nodes.size else ()
+    volumes = zip(read["outflow_node"].tolist(), read["outflow_volume"].tolist(), strict=True)
+    new.outflow._at = dict(volumes)
+    new.exchange.partners = new.exchange.generation = None
+    if "partners_of" in read:
+        new.exchange.partners = Partners(*(np.array(read[f"partners_{name}"]) for name in Partners._fields))
+        new.exchange.generation = tuple(read["partners_generation"].tolist())
+    return new
+
+
+def _dimensions(variable) -> tuple[str, ...]:
+    """Return the names of the dimensions of a variable's array."""
+    if variable.components:
+        return {3: "axis", 6: "surface_term"}.get(variable.components, f"{variable.name}_component"), "particle"
+    if variable.per_level:
+        return "particle", "level"
+    return ("particle",) if variable.width is None else ("particle", f"{variable.name}_place")
