@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
+from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
 from ..spatial.transfer import REACH
 from . import checks, doubts, looks
 from .budget import Ledger
@@ -134,9 +134,9 @@ class Calls:
         sim.inflow.aim(bed.surface)
         check_strips(grid, sim.inflow)
         sim.set_bed(bed, ground.status, ground.parameters, changed)
-        names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
+        names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
         shown = {name: grid.at_node[OUTPUT_PREFIX + name] for name in names}
-        self._footprint = Footprint(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)
+        self._footprint = PeakMaps(bed.nodes, ground.status, shown, sim.numerics.arrival_depth, sim.time)
         soil = None if ground.soil is None else Journal([ground.soil], grid.number_of_node_columns)
         self.ledger.watch_soil(bed.nodes.core, soil)
         if failing.size:
