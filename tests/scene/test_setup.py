@@ -173,6 +173,7 @@ def test_equal_setups_have_the_same_digest():
     assert Setup(erosion=Circular()).digest() == Setup(erosion=Circular()).digest() != Setup(erosion=Rate(1)).digest()
 
 
+@pytest.mark.slow
 def test_a_digest_is_the_same_in_every_process():
     expected = [setup.digest() for setup in variants()]
     code = "from tests.scene.test_setup import variants; print(*(setup.digest() for setup in variants()))"
