@@ -136,7 +136,7 @@ class DebrisFlow(Component):
     @classproperty
     @classmethod
     def input_var_names(cls) -> tuple[str, ...]:
-        """Names of the fields that are read if they are there, sorted; `wrap_as_bmi` lets these be set, no others.
+        """Names of the optional input fields, sorted: the fields that `wrap_as_bmi` lets a caller set.
 
         Landlab's own list leaves out all that is optional.
         """
@@ -249,7 +249,7 @@ class DebrisFlow(Component):
 
     @property
     def budget_by_phase(self) -> dict[str, dict[str, float]]:
-        """The same for ``"solid"`` and ``"water"`` [m3]: grains, and what is between them, water if saturated.
+        """Volume budget so far of ``"solid"`` and ``"water"`` [m3]: grains, and pore fluid (water if saturated).
 
         What of the released, inflowing and eroded volume is of which phase follows from the porosities.
         """
@@ -262,7 +262,7 @@ class DebrisFlow(Component):
 
     @property
     def diagnostics(self):
-        """What the run took so far: number of steps, smallest one [s], share of particles asleep, CPU seconds by stage.
+        """Cost of the run so far: number of steps, smallest step [s], share of particles asleep, CPU seconds by stage.
 
         A `model.diagnostics.Diagnostics`, of all calls of this component.
         """
@@ -276,7 +276,7 @@ class DebrisFlow(Component):
 
     @property
     def columns(self) -> xr.Dataset:
-        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
+        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), column states."""
         sim = self._simulation
         c_v = sim.phases.coefficient_of_consolidation(sim.particles, slice(None))
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self._setup, self.elapsed_time)

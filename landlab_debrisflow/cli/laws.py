@@ -1,4 +1,4 @@
-"""What the declarations say of laws and parameters, for the command line and for ``docs/laws.md``.
+"""Reference of laws and parameters, made of their declarations for the command line and ``docs/laws.md``.
 
 The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula, after a colon what that is;
 a section ``References`` is its source.
@@ -32,7 +32,7 @@ HEADINGS = ("parameter", "unit", "default", "allowed", "in space", "meaning")
 
 
 class Entry(typing.NamedTuple):
-    """What a declared class says of itself."""
+    """Declaration of one class in words."""
 
     title: str  # "friction: voellmy", or the keyword of what is no law
     cls: type
@@ -44,12 +44,12 @@ class Entry(typing.NamedTuple):
 
 
 def law_entries(kind: str) -> list[Entry]:
-    """Return what the laws of a kind say of themselves, the default first."""
+    """Return the entries of the laws of a kind, the default first."""
     return [_entry(f"{kind}: {name}", law, has_formula=True) for name, law in LAWS[kind].items()]
 
 
 def other_entries() -> list[Entry]:
-    """Return the same of the other keywords whose parameters are declared."""
+    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow."""
     others = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
     return [_entry(keyword, cls, has_formula=False) for keyword, cls in others.items()]
 

@@ -1,4 +1,4 @@
-"""What `solve_column` is given, checked: a refusal says which argument, got, allowed and what to do."""
+"""Arguments of `solve_column`, checked: a refusal names the argument, the value given, the values allowed, a remedy."""
 
 import dataclasses
 from numbers import Real
@@ -34,11 +34,11 @@ class History:
         self.value = self._read(given(0.0), " at t = 0 s") if self.varies else self._read(given)
 
     def spread(self, count: int) -> None:
-        """Make it one per column."""
+        """Repeat a single value for every column, in place."""
         self.value = np.array(np.broadcast_to(self.value, (count,)))
 
     def at(self, time: float) -> np.ndarray:
-        """Return it at a time [s], shape (column,)."""
+        """Return the values at a time [s], shape (column,)."""
         if not self.varies:
             return self.value
         value, count = self._read(self.given(time), f" at t = {time:g} s"), self.value.size
@@ -69,7 +69,7 @@ def numbers(name: str, argument: dataclasses.Field, value, when="", each="column
 
 
 def _array(value):
-    """Return real numbers as an array of floats, or None if they are none."""
+    """Return real numbers as an array of floats; None for anything else."""
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different lengths
@@ -87,7 +87,7 @@ def _contacts(value, when="") -> np.ndarray:
 
 
 class Inputs(NamedTuple):
-    """What `solve_column` was given, checked and spread over n columns."""
+    """Arguments of `solve_column`, checked and spread over n columns."""
 
     times: np.ndarray  # of output [s]
     law: Any  # a ColumnLaw
@@ -167,7 +167,7 @@ def _times(times) -> np.ndarray:
 
 
 def _agree(given, histories) -> None:
-    """Refuse what does not go together."""
+    """Refuse arguments that contradict each other."""
     loading, ratio = histories["loading"].value, given["basal_pressure_ratio"]
     if loading.any() != loading.all():
         refuse(f"loading must be 0 in all columns or > 0 in all, got {loading}; solve the two kinds one by one")

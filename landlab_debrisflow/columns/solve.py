@@ -145,7 +145,7 @@ def solve_column(
 
 
 class _History:
-    """Columns under way; the volume is over 1 m2 at time 0, so that it grows by erosion only."""
+    """Columns under way; their volumes are over 1 m2 at time 0, so that only erosion makes them grow."""
 
     def __init__(self, inputs: Inputs):
         self.inputs, self.time = inputs, 0.0

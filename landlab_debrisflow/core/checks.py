@@ -1,4 +1,4 @@
-"""Refuse values: the one place that compares with an allowed interval and words what is wrong with it."""
+"""Refusal of values: the one place that compares with an allowed interval and words the error."""
 
 import numpy as np
 

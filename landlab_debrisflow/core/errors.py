@@ -1,4 +1,4 @@
-"""The errors a user can meet. Each says what, where, got, allowed and what to do."""
+"""Errors raised for a user's input or a failing run: each names place, value given, values allowed and remedy."""
 
 
 class ParameterError(ValueError):

@@ -1,4 +1,4 @@
-"""The one place that names numba's decorators, so that every kernel is compiled alike.
+"""Decorators of numba, named here only, so that every kernel is compiled alike.
 
 Kernels are cached on disk, release the interpreter lock (members of an ensemble and ranges of
 cells run in threads) and may reorder sums, but never assume that numbers are finite: a NaN must

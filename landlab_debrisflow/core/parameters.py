@@ -115,7 +115,7 @@ def parameter(
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def declared(cls: type[T]) -> type[T]:
-    """Make a frozen, keyword-only dataclass whose parameters are checked when it is built.
+    """Make a frozen, keyword-only dataclass that checks its parameters when an instance is built.
 
     A method ``_agree`` of the class is called last, for what concerns several parameters at once. The docstring gets a
     section ``Parameters`` from the declarations.
@@ -172,7 +172,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
 
 
 def _checked_on_nodes(name: str, value: Any, meta):
-    """Return the name of a field or an array of values as `NodeValues`; what they are is looked at with the grid."""
+    """Return the name of a field, or an array of values as `NodeValues`; both are compared with the grid later."""
     if isinstance(value, NodeValues) or (isinstance(value, str) and number_in(value) is None):
         return value
     try:
@@ -223,7 +223,7 @@ def on_nodes(obj, fields: Mapping[str, Any]):
 
 @functools.cache
 def _struct(names: tuple[str, ...], constants: tuple[tuple[str, float], ...]) -> type:
-    """Return the type of named tuples with some names and constants; the same one for the same, also in a pickle."""
+    """Return the type of named tuples with some names and constants: one type per signature, in a pickle, too."""
     cls = namedtuple("Parameters", names)
     return type("Parameters", (cls,), {
         "__doc__": "Parameters of a law in SI units, of which each is an ndarray, shape (n,) or (1,).",

@@ -62,7 +62,7 @@ def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.nda
 
 
 def constant_local_peclet(xi, peclet: float) -> np.ndarray:
-    """Return the steady pressure in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
+    """Return the steady pressure [Pa] in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
 
     ``Pe (1 - xi) dp/dxi = d2p/dxi2`` between 1 at the base and 0 at the surface.
 

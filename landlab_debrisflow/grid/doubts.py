@@ -49,7 +49,7 @@ def _values(grid, law, field):
 
 
 def _odd(field, values) -> str:
-    """Return the doubt about values of a parameter, none of them 0, or an empty text."""
+    """Return the doubt about the non-zero values of a parameter, or an empty text."""
     unit, least, most = field.metadata.get("unit"), values.min(), values.max()
     if unit == "deg" and field.metadata["bounds"][0] == 0.0 and most < LEAST_ANGLE and np.any(values % 1.0):
         return f"is {most:g} degrees at most: was it meant in radians? {most:g} rad are {np.degrees(most):.3g} deg"

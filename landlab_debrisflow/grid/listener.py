@@ -51,7 +51,7 @@ class CallListener:
             self._reports.tell(stop_at_rest)
 
     def _look(self, observers) -> None:
-        """Show the flow to observers; a failing one does not keep the others from observing."""
+        """Show the flow to all observers, even if one of them fails."""
         if not observers:
             return
         with self._writer.present():

@@ -75,7 +75,7 @@ class Outputs:
 
     @contextmanager
     def shown(self):
-        """Put the outputs into the fields of the grid; if the block raises, put the former ones back."""
+        """Put the outputs into the fields of the grid; if the block raises, put the former values back."""
         before = _holders.get(self._grid, lambda: None)()
         self.show()
         try:

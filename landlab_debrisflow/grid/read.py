@@ -123,11 +123,11 @@ class GridReader:
         return soil._replace(drained=None if drained is None else drained > 0.0)
 
     def _field(self, name):
-        """Return the values of a field, sharing its memory, or None if the grid does not have it."""
+        """Return the values of a field, sharing its memory, or None if the grid has no such field."""
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
     def _warn(self, release, soil, new_event, warned) -> tuple:
-        """Log what is odd about the release, unless that has been logged before; return the kinds of doubt logged."""
+        """Log doubts about the release that were not logged before; return the kinds of doubt logged."""
         logged = ()
         for doubt in () if "depth" in warned else doubts.about_release(self._grid, release.nodes, release.depth):
             log.warning("%s", doubt)

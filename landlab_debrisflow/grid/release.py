@@ -55,7 +55,7 @@ def read_release(grid, soil) -> Release:
 
 
 def take_off(release: Release, elevation, soil) -> None:
-    """Take a release off elevation and soil [m], and set the fields that asked for it to 0 there, all in place.
+    """Take a release off elevation and soil [m] and set the fields that demanded it to 0 there, in place.
 
     Parameters
     ----------

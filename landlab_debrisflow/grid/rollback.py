@@ -81,7 +81,7 @@ class Rollback:
 
     @contextmanager
     def around_call(self):
-        """Run a call as a block that changes all or nothing; give the interrupted call that goes on in it, or None.
+        """Run a call as a block with undo; yield the interrupted call that this one continues, or None.
 
         Raises
         ------
@@ -96,7 +96,7 @@ class Rollback:
 
     @contextmanager
     def all_or_nothing(self):
-        """Undo the block if it raises anything; give the interrupted call that goes on in it, or None."""
+        """Undo the block if it raises; yield the interrupted call that this one continues, or None."""
         writer, earlier = self._writer, self.interrupted
         if earlier is not None and earlier.fingerprint != self._fingerprint():
             earlier = None
@@ -123,7 +123,7 @@ class Rollback:
             writer.rows = None
 
     def break_off(self, end: float) -> None:
-        """Close a call that should go on until `end` [s], and keep what is needed to go on as if it had not ended."""
+        """Close a call that should run until `end` [s], and keep the moment from which a later call can continue it."""
         writer = self._writer
         with self._interruption.deferred():
             moment = Moment(writer, writer.rows.renewed(writer.changed_arrays))

@@ -65,7 +65,7 @@ class Simulation:
 
     @property
     def inflow(self) -> Inflow:
-        """What has flowed in, and what will."""
+        """Inflow so far and to come."""
         return self.state.inflow
 
     @property
@@ -75,7 +75,7 @@ class Simulation:
 
     @property
     def diagnostics(self) -> Diagnostics:
-        """What the run took so far."""
+        """Cost of the run so far."""
         return self.state.counters.diagnostics
 
     def set_bed(self, bed: Bed, status, parameters, changed: bool = True) -> None:
@@ -106,7 +106,7 @@ class Simulation:
         load_bed(self.particles, bed.pore_pressure, material, self.time)
 
     def begin(self, bed: Bed, given, listener) -> None:
-        """Put the simulation on a bed and make particles of what fails.
+        """Put the simulation on a bed and make particles of the release.
 
         Parameters
         ----------
@@ -131,7 +131,7 @@ class Simulation:
         return self.advance(end, stop_at_rest, listener)
 
     def extent(self) -> tuple[float, float]:
-        """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
+        """Return least and largest y of the ground that a step may change [m]; the first is larger if there is none."""
         return extent(self.particles, self.state.origins, self.inflow, self.bed.nodes)
 
     def release(self, nodes, depth) -> None:
@@ -187,7 +187,7 @@ class Simulation:
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves, and nothing will flow in."""
+        """Whether the flow is at rest and no inflow is to come."""
         return self.idle and self.inflow.over
 
     def start(self, end: float) -> None:
@@ -197,7 +197,7 @@ class Simulation:
             self._find_limits()
 
     def advance(self, end: float, stop_at_rest: bool = False, listener=None) -> bool:
-        """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
+        """Advance until exactly `end` [s], until rest, or until the listener interrupts.
 
         Parameters
         ----------
@@ -268,7 +268,7 @@ class Simulation:
             self._refresh()
 
     def _pass_time(self, end: float) -> None:
-        """Let time pass for what is at rest: its pore pressure still drains."""
+        """Let time pass for a flow at rest: its pore pressure still drains."""
         p = self.particles
         if p.count:
             p.entrained_volume[: p.awake], p.entrained_ratio[: p.awake] = 0.0, 0.0
@@ -290,7 +290,7 @@ class Simulation:
         )
 
     def set_free(self) -> None:
-        """Let what was arrested move again."""
+        """Set arrested particles free."""
         self.state.bodies.set_free(self.particles)
 
     def resting_depth(self):

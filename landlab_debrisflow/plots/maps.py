@@ -46,7 +46,7 @@ def draw_maps(
     margin: float = 50.0,
     extent: tuple[float, float, float, float] | None = None,
 ) -> Figure:
-    """Draw layers as rows and runs as columns, all over the same hillshade.
+    """Draw layers as rows and runs as columns, over one hillshade.
 
     Parameters
     ----------

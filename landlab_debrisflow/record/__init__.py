@@ -1,1 +1,1 @@
-"""What watches and writes. Reads the model, is never imported by it."""
+"""Datasets, files, observers and measures. Reads the model, is never imported by it."""

@@ -1,4 +1,4 @@
-"""What files say beside the numbers: under names that CF allows, in values that NetCDF can hold.
+"""Attributes of files beside the numbers: names that CF allows, values that NetCDF can hold.
 
 A quantity stands under its name, in letters, digits and underscores, and its unit, if it has one, under the name with
 ``_units`` behind it. What is not set (None) is left out.
@@ -31,7 +31,7 @@ LARGEST_INTEGER = 2**63 - 1
 
 
 def heading() -> dict[str, str]:
-    """Return what stands in every file: conventions, and what wrote it."""
+    """Return the attributes of every file: conventions, software and its version."""
     return {"Conventions": "CF-1.10", "source": f"landlab_debrisflow {__version__}", "version": __version__}
 
 
@@ -54,7 +54,7 @@ def described(unit: str, long_name: str) -> dict[str, str]:
 
 
 def quantity(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
-    """Return the attributes of a quantity; none for what is not set or cannot be written.
+    """Return the attributes of a quantity; an empty mapping for a value that is not set or cannot be written.
 
     Examples
     --------
@@ -71,12 +71,12 @@ def quantity(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
 
 
 def legal(name: str) -> str:
-    """Return a name in letters, digits and underscores; others become ``u`` and their number in Unicode."""
+    """Return a name in letters, digits and underscores; other characters become ``u`` and their number in Unicode."""
     return re.sub("[^A-Za-z0-9_]", lambda other: f"u{ord(other[0]):x}", name)
 
 
 def plain(value: Any) -> str | int | float | tuple[float, ...] | None:
-    """Return a value as number, text or tuple of numbers, which files give back equal; None if it is no such thing."""
+    """Return a value as number, text or tuple of numbers, which files give back equal; None for another type."""
     if isinstance(value, str):
         return str(value)
     if isinstance(value, NodeValues):

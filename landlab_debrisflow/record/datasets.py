@@ -82,7 +82,7 @@ def _numbers(identity):
 
 
 def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
-    """Return what is shown over ``y`` and ``x``, closed nodes missing, with all parameters.
+    """Return the output fields over ``y`` and ``x``, NaN at closed nodes, with all parameters.
 
     Parameters
     ----------

@@ -134,7 +134,7 @@ def _cell(maps) -> float:
 
 
 class _Region:
-    """Values of maps at the nodes that are measured; what is missing there counts as nothing."""
+    """Values of maps at the nodes to be measured; missing values count as 0."""
 
     def __init__(self, maps, inside):
         self._maps, self._shape = maps, (maps.sizes["y"], maps.sizes["x"])

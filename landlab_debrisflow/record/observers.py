@@ -1,4 +1,4 @@
-"""Observers: what watches a run. They are given to `DebrisFlow` and never imported by the model.
+"""Observers of a run, given to `DebrisFlow` and never imported by the model.
 
 An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, called at the end of every step that
 crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers change nothing: steps
@@ -32,7 +32,7 @@ from .files import check_writable, write_dataset
 
 
 class Progress:
-    """One line on the terminal that follows the event; nothing where there is no terminal.
+    """One line on the terminal that follows the event, silent without a terminal.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class Snapshots:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """All snapshots so far over ``time`` [s]; attributes that are not the same for all are left out.
+        """All snapshots so far over ``time`` [s], with the attributes that all of them have in common.
 
         Raises
         ------
@@ -191,7 +191,7 @@ class Series:
         self._values: list[dict[str, np.ndarray]] = []
 
     def observe(self, flow: Any) -> None:
-        """Measure, and interpolate what is wanted between the last time and now."""
+        """Measure, and interpolate to the wanted times between the last step and now."""
         now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
         then, earlier = self._before or (now, values)
         if {k: v.shape for k, v in values.items()} != {k: v.shape for k, v in earlier.items()}:
@@ -208,7 +208,7 @@ class Series:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how."""
+        """The measures at the wanted times that have passed, over ``time`` [s]."""
         first = self._values[0] if self._values else {}
         data = {
             name: (("time", *(f"{name}_{k}" for k in range(value.ndim))), np.stack([v[name] for v in self._values]))

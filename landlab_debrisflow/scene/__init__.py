@@ -1,1 +1,1 @@
-"""What is simulated, as values."""
+"""Setup of a run as a value, and ready-made terrains."""

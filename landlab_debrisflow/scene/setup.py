@@ -1,4 +1,4 @@
-"""What is simulated and how, as one value: laws, material, numerics, inflow."""
+"""Setup of a run as one value: laws, material, numerics, inflow."""
 
 import dataclasses
 import json
@@ -30,7 +30,7 @@ class NodeArray(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Setup:
-    """One law of each kind, the material, the numerics and what flows in: all of a run but the grid.
+    """One law of each kind, the material, the numerics and the inflow: a whole run but for its grid.
 
     It is compared, hashed and pickled as a value, and its attributes are the keywords of `DebrisFlow`, so that
     ``DebrisFlow(grid, **vars(setup))`` runs it.
@@ -106,7 +106,7 @@ class Setup:
         return cls(**mapping)
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return all values, defaults included, as numbers, words, lists and mappings; what is not set is left out.
+        """Return all values, defaults included, as numbers, words, lists and mappings, without the unset ones.
 
         Returns
         -------
@@ -137,7 +137,7 @@ class Setup:
         return mapping | {"inflow": [values_of("inflow", hydrograph) for hydrograph in self.inflow]}
 
     def digest(self) -> str:
-        """Return 32 hexadecimal digits that are the same for equal setups in every process, and else differ.
+        """Return 32 hexadecimal digits, equal in every process for equal setups and different otherwise.
 
         Of a law that is not declared they tell class, state and how it prints.
         """
@@ -147,7 +147,7 @@ class Setup:
     # ---- in a Dataset ----
 
     def node_arrays(self) -> dict[str, NodeArray]:
-        """Return what is given at every node, by the name of a variable, such as ``friction__cohesion``."""
+        """Return the parameters given at every node, by the name of a variable, such as ``friction__cohesion``."""
         return {
             _variable(kind, field.name): NodeArray(value.values, field.metadata["unit"], field.metadata["meaning"])
             for kind in LAWS if is_declared(law := getattr(self, kind))
@@ -200,7 +200,7 @@ def _variable(kind: str, name: str) -> str:
 
 
 def _hydrographs(inflow) -> tuple[Hydrograph, ...]:
-    """Return what stands for an inflow: none, a Hydrograph, a mapping, or several of them."""
+    """Return the hydrographs of an inflow given as None, a Hydrograph, a mapping, or several of them."""
     if inflow is None:
         return ()
     if isinstance(inflow, Hydrograph | Mapping):

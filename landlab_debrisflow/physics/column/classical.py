@@ -1,4 +1,4 @@
-"""Columns that spread what they erode over their whole depth: the model before the ALE one."""
+"""Columns without advection by erosion: entrained soil spreads over the whole depth, as before the ALE model."""
 
 from typing import ClassVar
 

@@ -39,7 +39,7 @@ class HerschelBulkley:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa], and what of tau_b exceeds it over speed [Pa s m-1]."""
+        """Write the yield stress [Pa], and the excess of tau_b over it divided by speed [Pa s m-1]."""
         here = state.parameters
         strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
         velocity, rate = shearing(state)

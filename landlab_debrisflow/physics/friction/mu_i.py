@@ -48,7 +48,7 @@ class MuI:
             )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write static friction [Pa], and what the inertial number adds over speed [Pa s m-1]."""
+        """Write static friction [Pa], and the friction added by the inertial number over speed [Pa s m-1]."""
         here, stress = state.parameters, state.stress.effective_normal
         static = np.tan(here.static_friction_angle)
         np.multiply(static, stress, out=yield_stress)

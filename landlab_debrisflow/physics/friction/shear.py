@@ -1,4 +1,4 @@
-"""What laws share: cohesion and friction, the velocity that shears a flow, and where formulas that divide by it end.
+"""Terms shared by friction laws: cohesion and friction, velocity of shear, lower bounds of divisors.
 
 A basal slip ratio s leaves (1 - s) v of the mean velocity to the shear: v_b = s v slides, as a block does.
 """
@@ -22,6 +22,6 @@ def strength(cohesion, friction_angle, state: BasalState, out) -> None:
 
 
 def shearing(state: BasalState):
-    """Return the velocity (1 - s) v of the mean [m s-1], and that over thickness [s-1], each (n,) and > 0."""
+    """Return the velocity of shear (1 - s) v [m s-1] and its ratio to thickness [s-1], each (n,) and > 0."""
     velocity = np.maximum((1.0 - state.material.basal_slip_ratio) * state.speed, SLOWEST)
     return velocity, velocity / np.maximum(state.thickness, THINNEST)

@@ -1,4 +1,4 @@
-"""Columns whose base the bed prescribes: kept as pressures at levels, updated once for some steps.
+"""Columns over a prescribed base: kept as pressures at levels, updated once for several steps.
 
 A column diffuses, is stretched (`remap`), and diffuses again. How much of the diffusion comes last follows
 from how much of the stretching is left by the end, half where little diffuses; it is joined to the first
