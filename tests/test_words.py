@@ -1,6 +1,7 @@
 """First lines of docstrings name their subject with a noun, public names are imported from where they are public."""
 
 import ast
+import importlib
 import re
 from pathlib import Path
 
@@ -9,6 +10,13 @@ import pytest
 import landlab_debrisflow
 
 PACKAGE = Path(landlab_debrisflow.__file__).parent
+ROOT = Path(__file__).parents[1]
+SHOWN = [
+    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md")), *(ROOT / "notebooks").glob("*.ipynb"),
+    *(ROOT / "examples").glob("*.py"),
+]  # fmt: skip
+PUBLIC = {"exact", "laws", "plots", "record", "scene"}
+"""Modules of the package that are public, beside the package itself."""
 ANYWHERE = r"\b(?:what|who|whom|those|such(?! as)|likewise|others|nobody|somebody|everybody|the latter|the former)\b"
 """Words that lean on a sentence the reader does not see, wherever they stand."""
 CLAUSE = r"(?:^|[:;,.(] )(?:and |or |but )?"
@@ -63,3 +71,25 @@ def test_a_pronoun_is_seen(line):
 )
 def test_a_noun_is_let_through(line):
     assert not PRONOUN.search(line)
+
+
+def imported(text):
+    """Return modules of the package and the names that are imported from them in code shown in a text."""
+    one_line = re.findall(r"from (landlab_debrisflow[\w.]*) import ((?:\w+(?: as \w+)?(?:, )?)+)", text)
+    assert len(one_line) == len(re.findall(r"(?:from|import) landlab_debrisflow\b", text)), "write: from ... import ..."
+    return [(module, re.findall(r"(\w+)(?: as \w+)?", names)) for module, names in one_line]
+
+
+@pytest.mark.parametrize("path", SHOWN, ids=lambda path: path.name)
+def test_what_is_shown_imports_public_names(path):
+    for module, names in imported(path.read_text(encoding="utf-8")):
+        assert module.removeprefix("landlab_debrisflow").removeprefix(".") in {"", *PUBLIC}
+        assert [name for name in names if name not in importlib.import_module(module).__all__] == []
+
+
+@pytest.mark.parametrize("module", PUBLIC)
+def test_public_modules_list_their_names(module):
+    public = importlib.import_module(f"landlab_debrisflow.{module}")
+    assert len(set(public.__all__)) == len(public.__all__)
+    assert [name for name in public.__all__ if not hasattr(public, name)] == []
+    assert f"`{module}`" in landlab_debrisflow.__doc__

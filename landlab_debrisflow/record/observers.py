@@ -15,12 +15,11 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
-from rich.console import Console
 
 from ..core.checks import require
 from ..core.errors import InputError
@@ -29,6 +28,9 @@ from ..model.schedule import EVERY_STEP
 from .attributes import described
 from .datasets import stack
 from .files import check_writable, write_dataset
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 
 class Progress:
@@ -49,7 +51,9 @@ class Progress:
         If the interval is not > 0.
     """
 
-    def __init__(self, interval: float = 1.0, label: str = "debris flow", console: Console | None = None):
+    def __init__(self, interval: float = 1.0, label: str = "debris flow", console: "Console | None" = None):
+        from rich.console import Console  # takes 30 ms, which an import of the package need not
+
         self.interval = _positive(interval, type(self).__name__)
         self._label, self._console = label, console or Console(stderr=True)
 
