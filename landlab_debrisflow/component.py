@@ -17,7 +17,7 @@ from .model.numerics import Numerics
 from .model.simulation import Simulation
 from .physics.material import Material
 from .record import summary
-from .record.attributes import of_moment
+from .record.attributes import moment_attributes
 from .record.citation import PAPER
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
 from .scene.setup import Setup
@@ -113,8 +113,8 @@ class DebrisFlow(Component):
         with no_new_fields(grid):
             super().__init__(grid)
             checks.check_boundaries(grid)
-            odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
-            odd += doubts.about_names(grid, setup)
+            found = [*doubts.coordinate_doubts(grid), *doubts.elevation_doubts(grid)]
+            found += doubts.name_doubts(grid, setup)
             entering = Inflow(setup.inflow, setup.numerics, grid.xy_of_lower_left)
             if continues is not None:
                 if not isinstance(continues, DebrisFlow):
@@ -124,7 +124,7 @@ class DebrisFlow(Component):
                 checks.check_continued(continues, grid, entering)
             self._simulation = Simulation(setup, setup.numerics, entering)
             self._call = GridCall(self, None if continues is None else continues._call)
-        for doubt in (*odd, *doubts.about_parameters(grid, setup)):
+        for doubt in (*found, *doubts.parameter_doubts(grid, setup)):
             log.warning("%s", doubt)
 
     def __repr__(self):
@@ -202,8 +202,8 @@ class DebrisFlow(Component):
             If something still moves.
         """
         if not self.at_rest:
-            what = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
-            raise checks.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
+            reason = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
+            raise checks.InputError(f"settle() lays down mass at rest, but {reason}; run_until_rest() first")
         self._call.settle()
 
     def new_event(self) -> None:
@@ -289,5 +289,5 @@ class DebrisFlow(Component):
         them, and where something was left before they were closed.
         """
         shown = self._call.maps()
-        moment = of_moment(self.elapsed_time, self._simulation.particles, self.budget)
+        moment = moment_attributes(self.elapsed_time, self._simulation.particles, self.budget)
         return maps_dataset(self.grid, shown, self._setup, moment)

@@ -13,7 +13,7 @@ from ..core.parameters import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.contracts import BaseContact
-from .declarations import CHOICES, NUMBERS, OTHERS
+from .declarations import CHOICES, NUMBERS, SINGLE_NUMBERS
 
 ALLOWED = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE, BaseContact.DRAINED
 BASE = {contact.name.lower(): contact for contact in ALLOWED}
@@ -50,12 +50,12 @@ class History:
     def _read(self, value, when=""):
         if self.name == "base":
             return _contacts(value, when)
-        return numbers(self.name, NUMBERS[self.name], value, when)
+        return checked_numbers(self.name, NUMBERS[self.name], value, when)
 
 
-def numbers(name: str, argument: dataclasses.Field, value, when="", each="column") -> np.ndarray:
+def checked_numbers(name: str, argument: dataclasses.Field, value, when="", each="column") -> np.ndarray:
     """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
-    array, meta = _array(value), argument.metadata
+    array, meta = _float_array(value), argument.metadata
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
         refuse(f"{name} must be one number or one per {each}, got {got}{when}; {meta['remedy']}")
@@ -68,7 +68,7 @@ def numbers(name: str, argument: dataclasses.Field, value, when="", each="column
     return array
 
 
-def _array(value):
+def _float_array(value):
     """Return real numbers as an array of floats; None for anything else."""
     try:
         array = np.asarray(value)
@@ -126,17 +126,17 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     for name, argument in CHOICES.items():
         given[name] = checked("solve_column", name, argument, given[name])
     for name in ("initial_layer_fraction", "step"):
-        if given[name] is not None and numbers(name, OTHERS[name], given[name]).ndim:
+        if given[name] is not None and checked_numbers(name, SINGLE_NUMBERS[name], given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
     absent = [name for name in ("initial_pressure", "basal_pressure_ratio") if given[name] is None]
     histories = {name: History(name, given[name]) for name in NUMBERS if name not in absent}
     histories["base"] = History("base", given["base"])
-    _agree(given, histories)
-    law, profile = _law(given, histories), _profile_given(given)
+    _refuse_contradictions(given, histories)
+    law, profile = _checked_law(given, histories), _given_profile(given)
     shapes = {name: history.value.shape for name, history in histories.items()}
     if profile is not None:
         shapes["initial"] = profile.shape[:-1]
-    count = _count({name: shape for name, shape in shapes.items() if shape})
+    count = _column_count({name: shape for name, shape in shapes.items() if shape})
     for history in histories.values():
         history.spread(count)
     value = {name: history.value for name, history in histories.items()}
@@ -148,7 +148,7 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     )  # fmt: skip
     bed = inputs.bed_pressure(0.0, inputs.thickness)
     if profile is None:
-        profile = _start(given, inputs, value.get("initial_pressure", bed))
+        profile = _profile_of_word(given, inputs, value.get("initial_pressure", bed))
     profile = np.array(np.broadcast_to(profile, (count, given["levels"])))
     scale = np.maximum(np.abs(bed), np.abs(profile).max(axis=1))
     return inputs._replace(profile=profile, pressure_scale=np.where(scale > 0.0, scale, 1.0))
@@ -156,9 +156,9 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
 
 def _times(times) -> np.ndarray:
     if times is None:
-        remedy = OTHERS["times"].metadata["remedy"]
+        remedy = SINGLE_NUMBERS["times"].metadata["remedy"]
         refuse(f"times is missing: give the times of output [s], increasing and >= 0; {remedy}")
-    times = np.atleast_1d(numbers("times", OTHERS["times"], times, each="output"))
+    times = np.atleast_1d(checked_numbers("times", SINGLE_NUMBERS["times"], times, each="output"))
     bad = np.flatnonzero(np.diff(times) <= 0.0)
     if bad.size:
         one, other = times[bad[0] : bad[0] + 2]
@@ -166,7 +166,7 @@ def _times(times) -> np.ndarray:
     return times
 
 
-def _agree(given, histories) -> None:
+def _refuse_contradictions(given, histories) -> None:
     """Refuse arguments that contradict each other."""
     loading, ratio = histories["loading"].value, given["basal_pressure_ratio"]
     if loading.any() != loading.all():
@@ -178,9 +178,9 @@ def _agree(given, histories) -> None:
         "source_includes_erosion=True": given["source_includes_erosion"] is True,
         "law='constant_ratio'": given["law"] == "constant_ratio",
     }
-    for what, asked in needs.items():
+    for argument, asked in needs.items():
         if asked and not loading.any():
-            refuse(f"{what} needs loading > 0 Pa m-1, got loading=0; give loading=rho' g cos(theta)")
+            refuse(f"{argument} needs loading > 0 Pa m-1, got loading=0; give loading=rho' g cos(theta)")
     if ratio is not None and not (isinstance(given["basal_pressure"], Real) and given["basal_pressure"] == 1.0):
         refuse(
             f"basal_pressure must be left out where basal_pressure_ratio is given, got {given['basal_pressure']!r}; "
@@ -194,7 +194,7 @@ def _agree(given, histories) -> None:
         refuse(f"tolerance is for advance='lazy' only, got {given['tolerance']!r} with 'every_step'; leave it None")
 
 
-def _law(given, histories):
+def _checked_law(given, histories):
     """Return the law, with its own checks of its parameters."""
     names = ("levels", "scheme", "bed_contact", "loading_source", "source_includes_erosion")
     parameters = {name: given[name] for name in names}
@@ -206,7 +206,7 @@ def _law(given, histories):
     return law if histories["loading"].value.any() else dataclasses.replace(law, loading_source="none")
 
 
-def _count(shapes) -> int:
+def _column_count(shapes) -> int:
     """Return the number of columns."""
     counts = {shape[0] for shape in shapes.values()} - {1}
     if len(counts) > 1:
@@ -215,7 +215,7 @@ def _count(shapes) -> int:
     return counts.pop() if counts else 1
 
 
-def _profile_given(given):
+def _given_profile(given):
     """Return `initial` if it is an array, else None."""
     initial, levels = given["initial"], given["levels"]
     if isinstance(initial, str):
@@ -230,7 +230,7 @@ def _profile_given(given):
             f"initial_pressure must be left None where initial is {word}, got {given['initial_pressure']!r}; "
             "it is for 'linear', 'uniform' and 'basal_layer'"
         )
-    array = np.zeros(levels) if isinstance(initial, str) else _array(initial)
+    array = np.zeros(levels) if isinstance(initial, str) else _float_array(initial)
     if array is None or array.ndim not in (1, 2) or array.shape[-1] != levels or array.size == 0:
         got = repr(initial) if array is None else f"shape {array.shape}"
         refuse(
@@ -248,7 +248,7 @@ def _profile_given(given):
     return array
 
 
-def _start(given, inputs, pressure) -> np.ndarray:
+def _profile_of_word(given, inputs, pressure) -> np.ndarray:
     """Return the profile a word means, with `pressure` at the base [Pa]."""
     levels, shape = given["levels"], given["initial"]
     if inputs.loading[0] > 0.0:

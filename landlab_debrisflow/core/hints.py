@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import Any
 
 
-def plain(value: Any):
+def python_value(value: Any):
     """Return the Python value of a scalar of numpy, or of an array without dimensions; anything else as it is."""
     return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
 

@@ -29,7 +29,7 @@ import numpy as np
 from .checks import in_range
 from .docstrings import with_parameters
 from .errors import ParameterError
-from .hints import did_you_mean, give_number, number_in, plain, same_word
+from .hints import did_you_mean, give_number, number_in, python_value, same_word
 
 T = TypeVar("T")
 
@@ -151,7 +151,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
         If the value is not of that type or not allowed.
     """
     meta, name = field.metadata, f"{owner}: {name}"
-    kind, value = meta["kind"], plain(value)
+    kind, value = meta["kind"], python_value(value)
     if value is None and field.default is None:
         return None
     if kind is tuple:
@@ -243,7 +243,7 @@ def _checked_list(name: str, value: Any, meta):
     if isinstance(value, str | Mapping) or not hasattr(value, "__iter__"):
         hint = give_number(value) if isinstance(value, str) else ""
         raise ParameterError(f"{name} must be a number or a list of numbers [{meta['unit']}], got {value!r}{hint}")
-    return tuple(_checked_number(f"{name}[{k}]", plain(number), meta) for k, number in enumerate(value))
+    return tuple(_checked_number(f"{name}[{k}]", python_value(number), meta) for k, number in enumerate(value))
 
 
 def _checked_number(name: str, value: Any, meta):

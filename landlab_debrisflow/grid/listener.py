@@ -31,13 +31,13 @@ class CallListener:
         """The first step is about to be made; `idle`: nothing moves yet."""
         self._writer.keep_rows()
         if not idle:
-            self._look(due_at_start(self._flow._observers))
+            self._show(due_at_start(self._flow._observers))
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """A step from `began` to `time` [s] was made; `idle`: nothing moves any more."""
         self._writer.follow_step()
         observers = self._flow._observers
-        self._look(observers if idle else due_after_step(observers, began, time))
+        self._show(observers if idle else due_after_step(observers, began, time))
 
     def interrupted(self) -> bool:
         """Return whether the run is to end before the next step."""
@@ -48,9 +48,9 @@ class CallListener:
         sim = self._writer.simulation
         with self._interruption.deferred():
             self._writer.close(settle=sim.at_rest and sim.numerics.settle)
-            self._reports.tell(stop_at_rest)
+            self._reports.log_messages(stop_at_rest)
 
-    def _look(self, observers) -> None:
+    def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
         if not observers:
             return

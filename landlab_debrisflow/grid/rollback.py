@@ -90,12 +90,12 @@ class Rollback:
         KeyboardInterrupt, or what an observer raised
             After the block.
         """
-        with self._interruption, self._outputs.shown(), self.all_or_nothing() as earlier:
+        with self._interruption, self._outputs.shown(), self.undo_on_failure() as earlier:
             yield earlier
         self._interruption.raise_cause(self._writer.simulation.time, done=self.interrupted is None)
 
     @contextmanager
-    def all_or_nothing(self):
+    def undo_on_failure(self):
         """Undo the block if it raises; yield the interrupted call that this one continues, or None."""
         writer, earlier = self._writer, self.interrupted
         if earlier is not None and earlier.fingerprint != self._fingerprint():

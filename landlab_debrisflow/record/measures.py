@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from ..core.errors import InputError
-from .attributes import described
+from .attributes import variable_attributes
 
 ELEVATION, RELEASE = "topographic__elevation", "debris_flow__release_depth"
 DEPOSIT = "debris_flow__deposit_depth"
@@ -85,16 +85,19 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     >>> round(float(found.travel_angle), 2)  # 10 m down in 20 m
     26.57
     """
-    _check(front_fraction, flow_threshold, erosion_threshold, deposit_threshold)
+    thresholds = flow_threshold, erosion_threshold, deposit_threshold
+    _check(front_fraction, *thresholds)
     maps = flow if isinstance(flow, xr.Dataset) else flow.maps
     if DEPOSIT not in maps or set(maps[DEPOSIT].dims) != {"y", "x"}:
         raise InputError(
             f"measures: needs a DebrisFlow or its maps at one moment, got a Dataset over {dict(maps.sizes)}"
         )
-    found = _of_moment(maps) | _of_maps(_Region(maps, inside), flow_threshold, erosion_threshold, deposit_threshold)
+    found = _moment_measures(maps) | _map_measures(_Region(maps, inside), *thresholds)
     if before is not None or distance is not None:
-        found |= _of_way(_mass(flow, maps, before), before, distance, front_fraction)
-    return xr.Dataset({name: ((), value, described(unit, words)) for name, (value, unit, words) in found.items()})
+        found |= _travel_measures(_mass(flow, maps, before), before, distance, front_fraction)
+    return xr.Dataset(
+        {name: ((), value, variable_attributes(unit, words)) for name, (value, unit, words) in found.items()}
+    )
 
 
 def quantile(values, weights, fraction: float) -> float:
@@ -153,7 +156,7 @@ class _Region:
         return np.nan_to_num(self._maps[field].values[self._inside]) if field in self._maps else np.zeros(0)
 
 
-def _of_moment(maps):
+def _moment_measures(maps):
     """Return elapsed time and the terms of the budget, where maps know them."""
     found = {}
     if "elapsed_time" in maps.attrs:
@@ -164,7 +167,7 @@ def _of_moment(maps):
     return found
 
 
-def _of_maps(region, flow_threshold, erosion_threshold, deposit_threshold):
+def _map_measures(region, flow_threshold, erosion_threshold, deposit_threshold):
     """Return areas, volumes, depths and peaks."""
     depth, eroded, deposit = (region.at(name) for name in ("max_depth", "eroded_depth", "deposit_depth"))
     eroding, thick = _at_least(eroded, erosion_threshold), deposit[_at_least(deposit, deposit_threshold)]
@@ -177,24 +180,24 @@ def _of_maps(region, flow_threshold, erosion_threshold, deposit_threshold):
         "deposit_area": (thick.size * region.cell, "m2", "map area of the deposit"),
         "eroded_volume": (eroded.sum() * region.cell, "m3", "volume eroded, without the release"),
         "deposit_volume": (deposit.sum() * region.cell, "m3", "volume of the deposit"),
-        "max_depth": (_of(np.max, depth), "m", "largest depth of moving mass"),
-        "max_speed": (_of(np.max, region.at("max_speed")), "m s-1", "largest speed"),
+        "max_depth": (_reduce(np.max, depth), "m", "largest depth of moving mass"),
+        "max_speed": (_reduce(np.max, region.at("max_speed")), "m s-1", "largest speed"),
         "max_impact_pressure": (
-            _of(np.max, region.at("max_impact_pressure")), "Pa", "largest density times speed squared",
+            _reduce(np.max, region.at("max_impact_pressure")), "Pa", "largest density times speed squared",
         ),
-        "max_run_up": (_of(np.max, region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
-        "max_eroded_depth": (_of(np.max, eroded), "m", "deepest erosion"),
-        "max_deposit_depth": (_of(np.max, deposit), "m", "largest depth of the deposit"),
-        "mean_deposit_depth": (_of(np.mean, thick), "m", "mean depth over the area of the deposit"),
-        "median_deposit_depth": (_of(np.median, thick), "m", "median depth over the area of the deposit"),
-        "max_basal_peclet_number": (_of(np.max, peclet), "-", "largest basal Péclet number where eroded"),
+        "max_run_up": (_reduce(np.max, region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
+        "max_eroded_depth": (_reduce(np.max, eroded), "m", "deepest erosion"),
+        "max_deposit_depth": (_reduce(np.max, deposit), "m", "largest depth of the deposit"),
+        "mean_deposit_depth": (_reduce(np.mean, thick), "m", "mean depth over the area of the deposit"),
+        "median_deposit_depth": (_reduce(np.median, thick), "m", "median depth over the area of the deposit"),
+        "max_basal_peclet_number": (_reduce(np.max, peclet), "-", "largest basal Péclet number where eroded"),
         "median_basal_peclet_number": (
-            _of(np.median, peclet), "-", "median of the largest basal Péclet numbers where eroded",
+            _reduce(np.median, peclet), "-", "median of the largest basal Péclet numbers where eroded",
         ),
     }  # fmt: skip
 
 
-def _of(reduction, values):
+def _reduce(reduction, values):
     """Return a reduction of values, NaN if there are none."""
     return reduction(values) if values.size else np.nan
 
@@ -216,7 +219,7 @@ def _mass(flow, maps, before):
     return x[covered], y[covered], ground[ELEVATION].values[covered], deposit[covered] * _cell(maps)
 
 
-def _of_way(mass, before, distance, front_fraction):
+def _travel_measures(mass, before, distance, front_fraction):
     """Return how far the mass went, and with the ground before also the line from the crown to the front."""
     x, y, z, volume = mass
     released = None if before is None else np.nan_to_num(before[RELEASE].values)

@@ -25,7 +25,7 @@ from ..core.checks import require
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..model.schedule import EVERY_STEP
-from .attributes import described
+from .attributes import variable_attributes
 from .datasets import stack
 from .files import check_writable, write_dataset
 
@@ -129,7 +129,7 @@ class Snapshots:
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
         # elapsed time has no date to count from, so to CF it is a quantity, no time axis
-        time = described("s", "elapsed time")
+        time = variable_attributes("s", "elapsed time")
         series, last = stack(self._maps, "time", self._times, **time), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
 

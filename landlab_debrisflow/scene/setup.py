@@ -16,7 +16,7 @@ from ..model.numerics import Numerics
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
-from ..record.attributes import legal
+from ..record.attributes import legal_name
 from .digest import digest, state_of, text_of
 
 
@@ -196,7 +196,7 @@ def is_declared(obj) -> bool:
 
 
 def _variable(kind: str, name: str) -> str:
-    return legal(f"{kind}__{name}")
+    return legal_name(f"{kind}__{name}")
 
 
 def _hydrographs(inflow) -> tuple[Hydrograph, ...]:
