@@ -1,6 +1,6 @@
 """Reference of laws and parameters, made of their declarations for the command line and ``docs/laws.md``.
 
-The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula, after a colon what that is;
+The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula and, after a colon, its meaning;
 a section ``References`` is its source.
 """
 
@@ -38,10 +38,10 @@ HEADINGS = ("parameter", "unit", "default", "allowed", "in space", "meaning")
 class Entry(typing.NamedTuple):
     """Declaration of one class in words."""
 
-    title: str  # "friction: voellmy", or the keyword of what is no law
+    title: str  # "friction: voellmy", or a keyword that is no law
     cls: type
-    formula: str  # "" for what is no law
-    summary: str  # what it is, in a line; may be empty for a law
+    formula: str  # of a law, else ""
+    summary: str  # meaning in a line; may be empty for a law
     details: str  # further paragraphs
     source: str  # "" if there is none
     rows: list  # of its parameters, one str for each of HEADINGS

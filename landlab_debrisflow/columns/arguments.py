@@ -95,7 +95,7 @@ class Inputs(NamedTuple):
     thickness: np.ndarray  # (n,), at time 0 [m]
     coefficient_of_consolidation: np.ndarray  # (n,) [m2 s-1]
     loading: np.ndarray  # (n,), all 0 or all > 0 [Pa m-1]
-    pressure_scale: np.ndarray  # (n,), what a law may call liquefaction pressure without loading [Pa]
+    pressure_scale: np.ndarray  # (n,), stands for the liquefaction pressure where there is no loading [Pa]
     entrainment_rate: History  # [m s-1]
     divergence_rate: History  # [s-1]
     porosity_source: History  # [Pa s-1]

@@ -94,7 +94,7 @@ def parameter(
     timed : bool
         Whether a function of time will do for a number.
     remedy : str
-        What to do about a number that is refused.
+        Advice that ends the refusal of a number.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def parameter(
 def declared(cls: type[T]) -> type[T]:
     """Make a frozen, keyword-only dataclass that checks its parameters when an instance is built.
 
-    A method ``_agree`` of the class is called last, for what concerns several parameters at once. The docstring gets a
+    A method ``_agree`` of the class is called last, to check parameters against each other. The docstring gets a
     section ``Parameters`` from the declarations.
     """
 

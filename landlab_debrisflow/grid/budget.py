@@ -50,7 +50,7 @@ class VolumeBudget:
     def continue_from(self, earlier: "VolumeBudget", volumes: ModelVolumes, material) -> None:
         """Begin with the terms of an earlier budget whose component has no particles left.
 
-        Phases of volumes are those they had then, of another material perhaps.
+        Volumes keep the split into grains and fluid of the earlier component, whose material may have been another one.
         """
         whole, solid = earlier.terms(volumes), earlier.terms_by_phase(volumes, material)["solid"]
         self._earlier = {name: (whole[name], solid[name]) for name in CARRIED_OVER}

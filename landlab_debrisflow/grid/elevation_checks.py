@@ -1,7 +1,7 @@
 """Refusals of elevations that no ground has: voids of a DEM filled with a number, and other units.
 
-Refused is only what cannot be meant, whatever the datum: slopes of any length, pits and cliffs of some hundred metres
-are ground. Everything here is a matter of differences between neighbours, so a DEM may lie at any height.
+Slopes of any length, pits and cliffs of some hundred metres are ground and pass. Only differences between neighbours
+count, so a DEM may lie at any height, whatever the datum.
 """
 
 import numpy as np
@@ -17,17 +17,17 @@ HIGHEST_CLIFF = 1500.0
 """Nothing that falls more steeply than `STEEPEST` is higher on Earth: Mount Thor has 1250 m [m]."""
 
 STEEPEST = 10.0
-"""Slope between two nodes that rasters of ground do not have over such heights [-]."""
+"""Least slope between two nodes at which a height is taken for a fault of the DEM [-]."""
 
 SUSPECT = (0.0, -1.0, -99.0, -999.0)
 """Elevations that exist, but are also used to fill voids."""
 
 HOLE, SHAFT = 50.0, 300.0
-"""Least height of the walls all round a void filled with one of those, and with any other number [m]."""
+"""Least height of the walls all round a void filled with a number of `SUSPECT`, and with any other [m]."""
 
 
 MOST_VALUES = 20
-"""Of elevations below high walls that are looked at: a filled void has one."""
+"""Most elevations below high walls that are examined: a filled void has one."""
 
 
 def check_elevation(grid, elevation) -> None:
@@ -36,7 +36,7 @@ def check_elevation(grid, elevation) -> None:
     Raises
     ------
     InputError
-        With the value, how many nodes have it, the first of them, and what to do.
+        With the value, the number of nodes that have it, the first node, and a remedy.
     """
     used = grid.status_at_node != CLOSED
     check_finite(

@@ -86,7 +86,7 @@ class GridReader:
         warned : tuple of str
             Kinds of doubt not to be logged again.
         with_release : bool
-            Whether to read what fails.
+            Whether to read the release.
 
         Raises
         ------

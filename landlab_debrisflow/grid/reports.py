@@ -7,7 +7,7 @@ import numpy as np
 log = logging.getLogger("landlab_debrisflow")
 
 NOTABLE = 0.01
-"""Part of what an event released, took in and eroded from which on its outflow is told [-]."""
+"""Least outflow to be reported, over the volume that an event released, took in and eroded [-]."""
 
 
 class Reports:

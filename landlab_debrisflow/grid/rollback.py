@@ -1,8 +1,8 @@
 """Undo of a call, and the way back into one that was interrupted.
 
 A call that fails leaves grid and model as they were. One that is interrupted ends like any other: fields and model show
-the present. But the state between its two steps is kept, and if nobody has changed the grid the next call goes on from
-there, so that in the end nothing tells that there was an interruption.
+the present. But the state between its two steps is kept, and if the grid was not changed since, the next call goes on
+from there, so that in the end nothing tells that there was an interruption.
 """
 
 from contextlib import contextmanager
@@ -87,7 +87,7 @@ class Rollback:
         ------
         InputError
             If another call runs.
-        KeyboardInterrupt, or what an observer raised
+        KeyboardInterrupt, or the exception of an observer
             After the block.
         """
         with self._interruption, self._outputs.shown(), self.undo_on_failure() as earlier:

@@ -2,7 +2,7 @@
 
 A law is a frozen dataclass made by `core.parameters.declared` with one array method. It reads the
 arrays it is given, writes only those named ``out`` (or named in the docstring), and is composed with
-others in Python: no law knows another.
+the laws of other kinds in Python: no law knows another.
 """
 
 from enum import IntEnum
@@ -155,7 +155,7 @@ class MixtureState(NamedTuple):
     cross_term: Array  # (n,) as that of `spatial.cross_summation.Across`, of the step before [-]
     mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
     material: Any  # physics.material.Material
-    written: Any  # `MixtureSums` of those that are moved, without ghosts
+    written: Any  # `MixtureSums` of the moving particles, without ghosts
 
 
 class MixtureSums(NamedTuple):
@@ -193,8 +193,8 @@ class FlowLaw(Protocol):
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
         """Write the sums over neighbours (`spatial.summation.Sums`) of particles in cells that are awake.
 
-        That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
-        rate at which converging flow thickens. A law with two phases also writes ``state.mixture.written`` and returns
+        The sums are thickness, smoothing length and gradient term, the acceleration by the flow's own pressure, and the
+        convergence. A law with two phases also writes ``state.mixture.written`` and returns
         the cells of grains and of water.
         """
 
@@ -202,10 +202,10 @@ class FlowLaw(Protocol):
 class Phases(Protocol):
     """Stages of a step that depend on the number of phases (model/phases).
 
-    `particles` are all, `exchange` is what grains and water know of each other from step to step.
+    `particles` are all particles, `exchange` is the state of the exchange between grains and water.
     """
 
-    variables: tuple  # of Variable, beside those that every particle has
+    variables: tuple  # of Variable, beyond the variables of every particle
     phase_fractions: tuple  # phase and volume fraction of each kind of particle that a volume is divided into
     solid_fraction: float  # part of the soil that becomes the eroding particle's own: grains of two phases, all of one
     sleeps: bool  # whether particles that lie still may be left alone

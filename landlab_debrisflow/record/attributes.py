@@ -1,7 +1,7 @@
 """Attributes of files beside the numbers: names that CF allows, values that NetCDF can hold.
 
 A quantity stands under its name, in letters, digits and underscores, and its unit, if it has one, under the name with
-``_units`` behind it. What is not set (None) is left out.
+``_units`` behind it. Parameters that are not set (None) are left out.
 """
 
 import dataclasses
@@ -18,16 +18,16 @@ from ..core.version import __version__
 from ..physics.registry import LAWS, law_name
 
 OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
-"""How the names begin of what is true at one moment of one run only."""
+"""Beginnings of the names of attributes that hold at one moment of one run only."""
 
 CF_UNITS = {"-": "1", "deg": "degree"}
-"""Units of the package that files call otherwise."""
+"""Names in files of units that have another name in the package."""
 
 NO_FILL = {"_FillValue": None}
 """Encoding of coordinates, which are missing nowhere."""
 
 LARGEST_INTEGER = 2**63 - 1
-"""That a file can hold."""
+"""Largest integer that a file can hold."""
 
 
 def file_attributes() -> dict[str, str]:
@@ -125,7 +125,7 @@ def node_parameters(
 ) -> Iterator[tuple[str, np.ndarray, dict[str, str]]]:
     """Yield name, values over `count` nodes and attributes of every parameter that is given at all of them.
 
-    `fields` are those of the grid at its nodes, of which a parameter may have given the name.
+    `fields` are the fields of the grid at nodes, by name: a parameter may be given as such a name.
     """
     for name, value, declaration in parameters_of(obj):
         if isinstance(value, str) and declaration.get("varies") and value in fields:

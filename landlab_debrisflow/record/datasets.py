@@ -22,7 +22,7 @@ from .attributes import (  # fmt: skip
 )
 
 ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
-"""Maps that tell of closed nodes, too: what ran against their faces, 0 if nothing did."""
+"""Maps with values at closed nodes, too: peaks of the flow against their faces, 0 without any."""
 
 FIELDS = {field.name: field for field in NODE_FIELDS}
 
@@ -143,9 +143,8 @@ def _axes(grid):
 def stack(maps: Sequence[xr.Dataset], dimension: str, labels, **words) -> xr.Dataset:
     """Stack maps of several moments or runs side by side along a new dimension.
 
-    Parameters of which all have the same values over nodes have them once. Attributes that are not the same for all
-    are left out, as are those that are true of one moment only; variables that one has and another has not are missing
-    there.
+    A parameter over nodes that is equal in all maps is kept once, without the new dimension. Attributes are kept if
+    they are equal in all maps and hold at more than one moment. A variable that some maps lack is NaN there.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
         by default in plan from the centre of the release, weighted with its thickness.
     inside : array_like of bool, shape (rows, columns) or (nodes,), optional
         Nodes to which areas, depths, peaks and the volumes of erosion and deposit are limited. Budget and run-out
-        are always those of the whole event.
+        always belong to the whole event.
     front_fraction : float
         Part of the volume that lies behind the front [-], in (0, 1]: a stray particle is no front.
     flow_threshold, erosion_threshold, deposit_threshold : float
@@ -157,7 +157,7 @@ class _Region:
 
 
 def _moment_measures(maps):
-    """Return elapsed time and the terms of the budget, where maps know them."""
+    """Return elapsed time [s] and terms of the budget [m3] in maps, as (value, unit, meaning) by name."""
     found = {}
     if "elapsed_time" in maps.attrs:
         found["elapsed_time"] = float(maps.attrs["elapsed_time"]), "s", "elapsed time"
@@ -168,7 +168,7 @@ def _moment_measures(maps):
 
 
 def _map_measures(region, flow_threshold, erosion_threshold, deposit_threshold):
-    """Return areas, volumes, depths and peaks."""
+    """Return areas [m2], volumes [m3], depths [m] and peaks as (value, unit, meaning) by name."""
     depth, eroded, deposit = (region.at(name) for name in ("max_depth", "eroded_depth", "deposit_depth"))
     eroding, thick = _at_least(eroded, erosion_threshold), deposit[_at_least(deposit, deposit_threshold)]
     peclet = region.at("max_basal_peclet_number")
@@ -198,7 +198,7 @@ def _map_measures(region, flow_threshold, erosion_threshold, deposit_threshold):
 
 
 def _reduce(reduction, values):
-    """Return a reduction of values, NaN if there are none."""
+    """Return a reduction of values, in their unit; NaN for an empty array."""
     return reduction(values) if values.size else np.nan
 
 
@@ -220,7 +220,7 @@ def _mass(flow, maps, before):
 
 
 def _travel_measures(mass, before, distance, front_fraction):
-    """Return how far the mass went, and with the ground before also the line from the crown to the front."""
+    """Return run-out [m] and, with the ground before, travel angle [deg], as (value, unit, meaning) by name."""
     x, y, z, volume = mass
     released = None if before is None else np.nan_to_num(before[RELEASE].values)
     if released is not None and not released.any():

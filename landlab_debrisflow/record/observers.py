@@ -4,7 +4,7 @@ An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, ca
 crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers change nothing: steps
 are as long as without them, so a look comes a little after the multiple, and its time is `flow.elapsed_time`.
 A step that crosses several multiples is looked at once. With ``interval = EVERY_STEP`` an observer looks before the
-first step of a call and after every step. What it sees is the grid as it would be if the call ended there, except
+first step of a call and after every step. It sees the grid as if the call ended there, except
 that nothing settles; it may not run the flow itself.
 
 An observer that raises ends the call after that step, with everything computed kept: call again to go on. The other
@@ -41,7 +41,7 @@ class Progress:
     interval : float
         Event time between updates [s].
     label : str
-        What to put in front of the line.
+        Beginning of the line.
     console : rich.console.Console, optional
         Where to write; standard error by default, so that a redirected result stays clean.
 

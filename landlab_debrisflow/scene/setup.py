@@ -85,7 +85,7 @@ class Setup:
         Parameters
         ----------
         mapping : mapping
-            By the names of the attributes; what is left out has its default.
+            Values by the names of the attributes; missing ones have their defaults.
 
         Returns
         -------
@@ -111,9 +111,9 @@ class Setup:
         Returns
         -------
         dict
-            `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared is
-            there with its class and how it prints, and one whose class has no name in `LAWS` with its class: from those
-            no setup can be built.
+            `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared
+            appears as its class and its `repr`, a declared law without a name in `LAWS` as its class: from such a
+            mapping no setup can be built.
         """
         return self._mapping(lambda kind, name, array: array.values.tolist())
 

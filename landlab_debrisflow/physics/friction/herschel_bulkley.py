@@ -8,10 +8,10 @@ from ..contracts import BasalState
 from .shear import shearing, strength
 
 STEPS = 2
-"""Of Halley's method; they leave 2e-5 and only rounding, for every index from 0.1 to 2."""
+"""Number of steps of Halley's method: the first leaves an error of 2e-5, the second only rounding."""
 
 NO_STRESS = 1e-37
-"""What has a logarithm in single precision and changes nothing [Pa]."""
+"""Stress that has a logarithm in single precision but is negligible [Pa]."""
 
 
 @declared

@@ -8,11 +8,12 @@ import numpy as np
 from ..contracts import BasalState
 
 SLOWEST = 1e-9
-"""Three centimetres a year [m s-1]: below, drag is that at this speed. The drag per speed of what has a yield stress,
-or thins under shear, goes to infinity at rest; held there, a body that starts finds its speed in a few kicks."""
+"""Three centimetres a year [m s-1]: at lower speeds the drag is that at this speed. The drag per speed of a fluid with
+a yield stress, or one that thins under shear, goes to infinity at rest; with this bound a body that starts finds its
+speed in a few kicks."""
 
 THINNEST = 1e-6
-"""A grain of clay [m]: what is thinner shears like this. No rate of shear is divided by nothing."""
+"""A grain of clay [m]: least thickness in a rate of shear, so that none divides by 0."""
 
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:

@@ -41,7 +41,7 @@ def boundary_layer(distance, growth, diffusion):
 
 @inner
 def layer_content(growth, diffusion):
-    """Return the integral of the layer over distance [-]: entrained with the soil and diffused in."""
+    """Return the integral of the layer over distance [-]: the part carried in by soil and the part diffused in."""
     if growth <= 0.0:
         return 2.0 * math.sqrt(diffusion) / ROOT_PI
     if diffusion <= 0.0:
@@ -63,7 +63,7 @@ def is_resolved(cells, growth, diffusion):
 def basal_filling(cells, growth, diffusion):
     """Return the fraction of the half cell of the base level that the layer fills [-].
 
-    That is its integral less the part that the levels above have of it.
+    The filling is the integral of the layer less the part already seen by the levels above.
     """
     if diffusion <= 0.0:
         return min(2.0 * cells * growth, 1.0)
