@@ -6,7 +6,7 @@ from copy import copy
 import numpy as np
 
 from ..model.deposit import extent
-from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
+from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
 from .fields import NODE_FIELDS, OUTPUT_PREFIX
@@ -65,9 +65,9 @@ class FieldWriter:
         """Prepare maps and accounts of a call, after the simulation was put on its bed."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         bed = state.bed = sim.bed
-        names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
+        names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
         fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = Footprint(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
+        state.peak_maps = PeakMaps(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
         soil = None if bed.soil is None else RowBackup([bed.soil], bed.nodes.columns)
         state.budget.measure_erosion(bed.nodes.core, soil)
         self.keep_rows()

@@ -44,20 +44,19 @@ class Simulation:
     state : State
         All that changes in a run but the bed: to go back is to put a copy of it here.
     phases : Phases
-    bed, status, walls, friction, erosion, columns
+    bed, status, walls, friction, erosion, columns, courant_number
         What `set_bed` was given, and how the stages of a step want it.
     """
 
     def __init__(self, physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, flow, column = physics, numerics, physics.flow, physics.column
-        self.courant_number = numerics.courant_number * viscous_share(numerics.shock_viscosity)
         self.phases = OnePhaseDynamics(physics.material)
         if physics.two_phases:
             self.phases = TwoPhaseDynamics(flow, physics.material, column.stores_pressure)
         laws = (flow, physics.friction, physics.erosion, column, self.phases)
         particles = Particles(column.levels, particle_variables(column, laws))
         self.state = State(particles, inflow or Inflow())
-        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = None
+        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = self.courant_number = None
 
     @property
     def particles(self) -> Particles:
@@ -93,6 +92,7 @@ class Simulation:
             Whether the terrain differs from what the last call left.
         """
         material, spacing = self.physics.material, min(bed.nodes.dx, bed.nodes.dy)
+        self.courant_number = self.numerics.courant_number * viscous_share(self.numerics.shock_viscosity)
         self.bed, self.status = bed, status
         self.walls = Walls(bed.nodes, status) if np.any(status == CLOSED) else None
         self.friction, self.erosion = (
