@@ -20,7 +20,7 @@ PUBLIC = {"exact", "laws", "plots", "record", "scene"}
 ANYWHERE = r"\b(?:what|who|whom|those|such(?! as)|likewise|others|nobody|somebody|everybody|the latter|the former)\b"
 """Words that lean on a sentence the reader does not see, wherever they stand."""
 CLAUSE = r"(?:^|[:;,.(] )(?:and |or |but )?"
-SUBJECT = CLAUSE + r"(?!(?-i:None))(?:it|they|this|these|that|all|none|nothing|something)\b(?! \w+s\b)"
+SUBJECT = CLAUSE + r"(?!(?-i:None))(?:it|they|this|these|that|all|none|nothing|something)\b(?! \w+s\b| \[)"
 """A pronoun that begins a clause: in "these columns" the subject is a noun."""
 OBJECT = r"^\w+ (?:it|them|all of it|this|that of|the same)\b(?=$|[.,;:]| at | one )"
 """A verb at the beginning whose only object is a pronoun."""
