@@ -18,7 +18,7 @@ from landlab_debrisflow.grid import grid_bed, read, write
 from landlab_debrisflow.model import activity, peak_maps, simulation, step
 from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.scene import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
 from landlab_debrisflow.spatial.summation import Moving, Sums, _pack, copy_neighbourhood, sum_over_neighbours
 from landlab_debrisflow.terrain import bed

@@ -65,7 +65,7 @@ def growing_column(xi: ArrayLike, time: float, peclet: float, start: float = 0.0
 
 
 def constant_local_peclet(xi: ArrayLike, peclet: float) -> np.ndarray:
-    """Return the steady pressure in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
+    """Return the steady pressure [Pa] in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
 
     ``Pe (1 - xi) dp/dxi = d2p/dxi2`` between 1 at the base and 0 at the surface.
 

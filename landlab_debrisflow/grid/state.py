@@ -1,4 +1,4 @@
-"""State of the border: all that it remembers of one component, so that undo is one assignment."""
+"""State of the border: its whole memory of one component, so that undo is one assignment."""
 
 from copy import copy
 from dataclasses import dataclass, replace
@@ -27,6 +27,6 @@ class GridState:
     peak_maps: PeakMaps | None = None  # of the call that runs
 
     def copy(self) -> "GridState":
-        """Return a copy that shares arrays over nodes with this one, except those that a running call accounts in."""
+        """Return a copy that shares arrays over nodes, except the accounts of a running call."""
         running = {} if self.bed is None else {"bed": self.bed.copy(), "peak_maps": copy(self.peak_maps)}
         return replace(self, grid_bed=self.grid_bed.copy(), budget=self.budget.copy(), **running)

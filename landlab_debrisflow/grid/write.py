@@ -43,7 +43,7 @@ class FieldWriter:
 
     @property
     def changed_arrays(self) -> list:
-        """Arrays over nodes that a call changes in place: fields, and what the border remembers of them."""
+        """Arrays over nodes that a call changes in place: fields, and the memory of the border."""
         at, state = self._grid.at_node, self.state
         fields = [np.asarray(at[field.name]) for field in NODE_FIELDS if "out" in field.intent and field.name in at]
         return [*fields, state.settled, *state.grid_bed.arrays]
@@ -62,7 +62,7 @@ class FieldWriter:
     # ---- in a call ----
 
     def begin(self) -> None:
-        """Prepare the maps and accounts of a call whose simulation has been put on its bed."""
+        """Prepare maps and accounts of a call, after the simulation was put on its bed."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         bed = state.bed = sim.bed
         names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
@@ -134,7 +134,7 @@ class FieldWriter:
     # ---- the end of a call ----
 
     def close(self, settle: bool = False) -> None:
-        """Write the present for good and note the terrain, to see in the next call what others have changed."""
+        """Write the present for good and note the terrain, so that the next call sees changes made in between."""
         state = self.state
         with self._interruption.deferred():
             if settle:

@@ -1,4 +1,4 @@
-"""What the flow shows on the nodes: now, and at its peak. The maps are made of this.
+"""Peak maps: the flow at nodes, now and at its peak. Fields and Datasets are made of this.
 
 Peaks count where the flow is deeper than what counts as arrival: a node has arrival time, peak depth, peak speed and
 all the others, or none. The last 1e-32 m3 of a tent moves at full speed, too. Two of the peaks are what obstacles are
@@ -127,7 +127,7 @@ class PeakMaps:
 def _weight_by_volume(
     walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values
 ):
-    """Write what is to be averaged over the volume at the nodes, times volume."""
+    """Write the quantities to be averaged over the volume at nodes, times volume."""
     for i in range(volume.size):
         m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
@@ -144,7 +144,7 @@ def _weight_by_volume(
 
 @kernel
 def _record_walls(at, sums, least, columns, status, max_impact, max_run_up):
-    """Keep the peaks of closed nodes beside those with more than the `least` volume [m3]."""
+    """Record the peaks at closed nodes beside nodes with more than the `least` volume [m3]."""
     rows = status.size // columns
     for k in range(at.size):
         n = at[k]

@@ -32,7 +32,7 @@ def due_at_start(observers) -> list:
 
 
 def due_after_step(observers, began: float, time: float) -> list:
-    """Return the observers of whose interval a step from `began` to `time` [s] crosses a multiple.
+    """Return the observers of whose interval a multiple lies in a step from `began` to `time` [s].
 
     Rounding lets no multiple be missed or crossed twice.
 

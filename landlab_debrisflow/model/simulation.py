@@ -65,7 +65,7 @@ class Simulation:
 
     @property
     def inflow(self) -> Inflow:
-        """What has flowed in, and what will."""
+        """Inflow so far and to come."""
         return self.state.inflow
 
     @property
@@ -75,7 +75,7 @@ class Simulation:
 
     @property
     def diagnostics(self) -> Diagnostics:
-        """What the run took so far."""
+        """Cost of the run so far."""
         return self.state.counters.diagnostics
 
     def set_bed(self, bed: Bed, status, parameters, changed: bool = True) -> None:
@@ -173,7 +173,7 @@ class Simulation:
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves, and nothing will flow in."""
+        """Whether the flow is at rest and no inflow is to come."""
         return self.idle and self.inflow.over
 
     def start(self, end: float) -> None:
@@ -183,7 +183,7 @@ class Simulation:
             self._find_limits()
 
     def advance(self, end: float, stop_at_rest: bool = False, listener: RunListener | None = None) -> bool:
-        """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
+        """Advance until exactly `end` [s], until rest, or until the listener interrupts.
 
         Parameters
         ----------
@@ -253,7 +253,7 @@ class Simulation:
             self._refresh()
 
     def _pass_time(self, end: float) -> None:
-        """Let time pass for what is at rest: its pore pressure still drains."""
+        """Let time pass for a flow at rest: its pore pressure still drains."""
         p = self.particles
         if p.count:
             p.entrained_volume[: p.awake], p.entrained_ratio[: p.awake] = 0.0, 0.0
@@ -275,7 +275,7 @@ class Simulation:
         )
 
     def set_free(self) -> None:
-        """Let what was arrested move again."""
+        """Set arrested particles free."""
         self.state.bodies.set_free(self.particles)
 
     def resting_depth(self):

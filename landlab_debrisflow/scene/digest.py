@@ -1,4 +1,4 @@
-"""A digest of values: the same in every process, whatever the seed of hashes and the addresses of objects."""
+"""Digest of values, equal in every process, whatever the seed of hashes and the addresses of objects."""
 
 import dataclasses
 import re

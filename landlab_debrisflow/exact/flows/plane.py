@@ -8,7 +8,7 @@ GRAVITY = 9.81
 
 
 def plane_gravity(slope: float, friction: float, gravity: float) -> tuple[float, float]:
-    """Return gravity across a plane, and along it less the friction of what slides down [m s-2]."""
+    """Return gravity across a plane, and gravity along it less the friction of a downward slide [m s-2]."""
     return gravity * np.cos(slope), gravity * (np.sin(slope) - friction * np.cos(slope))
 
 

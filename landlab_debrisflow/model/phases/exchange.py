@@ -8,7 +8,7 @@ from ..kinematics import along_bed
 
 
 class Exchange:
-    """What grains and water know of each other from step to step; in a flow of one phase it stays empty.
+    """State of the exchange between grains and water from step to step; empty in a flow of one phase.
 
     Attributes
     ----------

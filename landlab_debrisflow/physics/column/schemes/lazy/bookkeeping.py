@@ -81,7 +81,7 @@ def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
 
 @kernel
 def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess_allowed):
-    """Add one step of the flow to the account of columns, write their basal pressure and list those that are due.
+    """Add one step of the flow to the account of columns, write their basal pressure and list the columns that are due.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _is_due_at_levels(column, volume, load, pressure, stride):
 
 @kernel
 def set_contact(columns, selected, forcing, scheme, closing):
-    """Put columns at levels on the base of this step, but for those over an impermeable one.
+    """Set the base contact of columns at levels for this step; list the columns that get an impermeable base.
 
     Parameters
     ----------

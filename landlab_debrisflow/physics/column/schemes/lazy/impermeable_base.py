@@ -199,7 +199,7 @@ def _expand_base(profile, column, i, modes):
 
 @kernel
 def clip_modes(columns, selected, forcing, modes):
-    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count what that takes off.
+    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count the pressure removed.
 
     Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
