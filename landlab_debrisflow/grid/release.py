@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import InputError
-from .checks import CLOSED, where
+from ..spatial.raster import CLOSED
+from .checks import where
 from .fills import is_fill, replace_them
 
 RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id"

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..model.peak_maps import Footprint
+from ..model.peak_maps import PeakMaps
 from ..terrain.bed import Bed
 from .budget import VolumeBudget
 from .grid_bed import GridBed
@@ -24,7 +24,7 @@ class GridState:
     written: slice  # nodes that calls may have written so far
     warned: tuple = ()  # kinds of doubt that have been logged
     bed: Bed | None = None  # of the call that runs
-    peak_maps: Footprint | None = None  # of the call that runs
+    peak_maps: PeakMaps | None = None  # of the call that runs
 
     def copy(self) -> "GridState":
         """Return a copy that shares arrays over nodes with this one, except those that a running call accounts in."""

@@ -5,7 +5,7 @@ from copy import copy
 
 import numpy as np
 
-from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
+from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
 from .fields import NODE_FIELDS, OUTPUT_PREFIX
@@ -64,11 +64,11 @@ class FieldWriter:
         """Prepare the maps and accounts of a call whose simulation has been put on its bed."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         bed = state.bed = sim.bed
-        names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
+        names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
         fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = Footprint(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
-        soil = None if bed.soil is None else RowBackup([bed.soil], bed.nodes.columns)
-        state.budget.measure_erosion(bed.nodes.core, soil)
+        state.peak_maps = PeakMaps(bed.raster, fields, sim.numerics.arrival_depth, sim.time)
+        soil = None if bed.soil is None else RowBackup([bed.soil], bed.raster.columns)
+        state.budget.measure_erosion(bed.raster.core, soil)
         self.keep_rows()
         self.record()
 
@@ -112,8 +112,8 @@ class FieldWriter:
     def _nodes_near(self):
         """Return the nodes at which maps of the present may differ from the fields."""
         p, bed = self.simulation.particles, self.simulation.bed
-        columns, count = bed.nodes.columns, bed.nodes.core.size
-        below, _ = bed.depth_of(p.x, p.y, p.spread, p.volume)
+        columns, count = bed.raster.columns, bed.raster.core.size
+        below, _ = bed.depth_of(p.x, p.y, p.half_width, p.volume)
         nodes = np.concatenate([below, self.state.peak_maps.under])
         nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # with closed ones at their faces
         return nodes[(nodes >= 0) & (nodes < count)]
@@ -151,10 +151,10 @@ class FieldWriter:
         sim.catch_up()
         self.record()
         state.budget.measure_erosion(None, None)  # the deposit becomes soil, too
-        elevation = RowBackup([state.bed.elevation], state.bed.nodes.columns)
+        elevation = RowBackup([state.bed.elevation], state.bed.raster.columns)
         self.keep_rows(elevation)
         nodes, depth = sim.settle()
-        state.budget.count_deposit(state.bed.nodes.core, elevation)
+        state.budget.count_deposit(state.bed.raster.core, elevation)
         state.settled[nodes] += depth
         state.peak_maps.clear()
 

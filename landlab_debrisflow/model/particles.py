@@ -53,8 +53,8 @@ class Particles:
         return SurfaceSample(*self.surface_values)
 
     @property
-    def spread(self):
-        """Half-width of the hats in which they show on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
+    def half_width(self):
+        """Half-width of their hat functions on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
         return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:

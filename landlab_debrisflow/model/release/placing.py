@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...spatial.cells import sort_into_cells
+from ...spatial.raster import nearest_line
 from ...spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
 from ...terrain.surface import Surface
 from .sites import Sites
@@ -204,7 +205,7 @@ def _on_the_map(x, y, sites: Sites):
     """Return coordinates from the lower left node [m], well inside the cell each particle stands in, and its depth."""
     placed = []
     for values, spacing, corner in ((x, sites.spacing[0], sites.corner[1]), (y, sites.spacing[1], sites.corner[0])):
-        node = np.floor(values / spacing + 0.5) + corner
+        node = nearest_line(values, spacing) + corner
         placed.append(np.clip(values + corner * spacing, (node - WITHIN) * spacing, (node + WITHIN) * spacing))
     return *placed, sites.at(x, y)[1]
 

@@ -7,8 +7,8 @@ import logging
 
 import numpy as np
 
+from ...spatial.raster import CLOSED
 from ...spatial.summation import SMOOTHING_RATIO
-from ..kinematics import CLOSED
 from .placing import THICKNESS_RANGE, place_particles
 from .sites import find_sites, share_particles, volume_below_lips
 
@@ -23,7 +23,7 @@ flow that would get as short as it is light, and ask for such steps. So it has t
 no say in the limits by growth and convergence."""
 
 
-def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -> slice:
+def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
     """Add particles for failing ground and return their places.
 
     Parameters
@@ -37,15 +37,13 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
         Vertical thickness that fails there [m].
     bed : Bed
         What is left.
-    status : ndarray, shape (nodes,)
-        Node statuses as Landlab numbers them.
     phases : Phases
     numerics : Numerics
     """
     material, whole = phases.material, _whole_volume(p, phases)
-    sites = find_sites(nodes, depth, bed.nodes)
-    _warn_of_pits(bed, status, sites, nodes, depth)
-    counts = share_particles(sites.volume, _particle_volume(whole, bed.nodes.area, nodes, depth, numerics))
+    sites = find_sites(nodes, depth, bed.raster)
+    _warn_of_pits(bed, sites, nodes, depth)
+    counts = share_particles(sites.volume, _particle_volume(whole, bed.raster.area, nodes, depth, numerics))
     placed = place_particles(sites, counts, bed.surface)
     below = bed.surface.sample(placed.x, placed.y)
     normal = placed.depth / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
@@ -86,8 +84,8 @@ def _usual_volume(volume) -> float:
     return (volume**2).sum() / volume.sum()
 
 
-def _warn_of_pits(bed, status, sites, nodes, depth) -> None:
-    volume = volume_below_lips(sites, nodes, depth, bed.elevation, status == CLOSED, bed.nodes)
+def _warn_of_pits(bed, sites, nodes, depth) -> None:
+    volume = volume_below_lips(sites, nodes, depth, bed.elevation, bed.raster.status == CLOSED, bed.raster)
     if volume > WORTH_SAYING * sites.volume.sum():
         log.warning(
             "%.3g of the %.3g m3 released lie below the lowest ground beside their scar: a pit that they cannot leave "
