@@ -197,7 +197,7 @@ STAGES = {
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
     "consolidate": (step, "consolidate"), "check": (step, "find_limits"),
     "wake those disturbed": (activity, "wake"), "fall asleep": (activity, "fall_asleep"),
-    "look for rest": (simulation.Simulation, "_look_for_rest"), "peak maps": (peak_maps.PeakMaps, "record"),
+    "look for rest": (simulation.Simulation, "_let_rest"), "peak maps": (peak_maps.PeakMaps, "record"),
     "keep rows": (write.FieldWriter, "keep_rows"), "settle and finish": (write.FieldWriter, "close"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""

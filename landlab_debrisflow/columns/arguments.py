@@ -15,12 +15,8 @@ from ..physics.column.initial import initial_profile
 from ..physics.contracts import BaseContact
 from .declarations import CHOICES, NUMBERS, OTHERS
 
-BASE = {
-    "by_erosion": BaseContact.BY_EROSION,
-    "prescribed": BaseContact.PRESCRIBED,
-    "impermeable": BaseContact.IMPERMEABLE,
-    "drained": BaseContact.DRAINED,
-}
+ALLOWED = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE, BaseContact.DRAINED
+BASE = {contact.name.lower(): contact for contact in ALLOWED}
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 
 

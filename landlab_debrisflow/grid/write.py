@@ -5,6 +5,7 @@ from copy import copy
 
 import numpy as np
 
+from ..model.deposit import extent
 from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
@@ -74,7 +75,8 @@ class FieldWriter:
 
     def keep_rows(self, *others: RowBackup) -> None:
         """Keep the rows that the next step may change, in further backups too."""
-        (south, north), dy = self.simulation.extent(), self._grid.dy
+        sim, dy = self.simulation, self._grid.dy
+        south, north = extent(sim.particles, sim.state.origins, sim.inflow, sim.bed.raster)
         for backup in (self.rows, self.state.budget, *others) if south <= north else ():
             backup.keep_rows(int(south / dy) - REACH, int(north / dy) + REACH + 2)
 

@@ -9,8 +9,8 @@ from landlab_debrisflow.model.inflow.hydrograph import Hydrograph
 from landlab_debrisflow.model.inflow.source import Inflow
 from landlab_debrisflow.model.numerics import Numerics
 from landlab_debrisflow.model.simulation import Simulation
-from landlab_debrisflow.physics.registry import build_physics
 from landlab_debrisflow.record.files import write_dataset
+from landlab_debrisflow.scene.setup import Setup
 from landlab_debrisflow.terrain.bed import Bed
 
 SHAPE, SPACING = (20, 60), (5.0, 5.0)
@@ -53,7 +53,7 @@ def build(scene):
     laws, hydrographs = SCENES[scene]
     numerics = Numerics(particle_count=60)
     inflow = Inflow([Hydrograph(**each) for each in hydrographs], numerics)
-    return Simulation(build_physics(**laws), numerics, inflow)
+    return Simulation(Setup(**laws), numerics, inflow)
 
 
 def call(simulation, terrain, seconds, failing=None, changed=False):
