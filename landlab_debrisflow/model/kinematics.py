@@ -186,8 +186,8 @@ def _is_blocked(here, node, columns, status):
 
 
 @kernel
-def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
-    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
+def follow_bed(sample, velocity, cosine, expected_elevation, gravity, dt):
+    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane, and write its cosine [-].
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the
     vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
@@ -198,7 +198,7 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     elevation, slope_x, slope_y = sample.elevation, sample.slope_x, sample.slope_y
     for i in range(cosine.size):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
-        cosine[i], z[i] = c, elevation[i]
+        cosine[i] = c
         nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
@@ -207,7 +207,7 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
         along2 = u * u + v * v + w * w
         factor = np.sqrt(speed2 / along2) if along2 > 1e-12 * speed2 else 0.0
         if i < expected_elevation.size and speed2 > 0.0:
-            missing = expected_elevation[i] - z[i] + 0.5 * dt * w * factor
+            missing = expected_elevation[i] - elevation[i] + 0.5 * dt * w * factor
             factor *= np.sqrt(max(0.0, 1.0 + 2.0 * gravity * missing / speed2))
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 

@@ -49,8 +49,11 @@ class Particles:
 
     @property
     def surface_sample(self) -> SurfaceSample:
-        """Elevation, slopes and curvatures of the bed below, each of shape (n,), as views of `surface_values`."""
-        return SurfaceSample(*self.surface_values)
+        """Elevation, slopes and curvatures of the bed below, each of shape (n,): the arrays themselves."""
+        return SurfaceSample(
+            elevation=self.z, slope_x=self.slope_x, slope_y=self.slope_y, curvature_xx=self.curvature_xx,
+            curvature_xy=self.curvature_xy, curvature_yy=self.curvature_yy,
+        )  # fmt: skip
 
     @property
     def half_width(self):

@@ -110,9 +110,9 @@ NO_DRIFT = np.empty(0)
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
     before = p.z.copy() if dt == 0.0 else None
-    sample = bed.surface.sample(p.x, p.y, p.surface_values)
+    sample = bed.surface.sample(p.x, p.y, p.surface_sample)
     expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
-    follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
+    follow_bed(sample, p.velocity, p.cos_slope, expected, gravity, dt)
     if dt == 0.0:  # nothing has moved but the bed: that is neither rise nor fall of the flow
         p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)

@@ -55,20 +55,19 @@ class Surface:
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
         v[0], v[-1] = 2.0 * v[1] - v[2], 2.0 * v[-2] - v[-3]
 
-    def sample(self, x, y, values=None) -> SurfaceSample:
+    def sample(self, x, y, sample: SurfaceSample | None = None) -> SurfaceSample:
         """Read elevation, slopes and curvatures of the surface at points.
 
         Parameters
         ----------
         x, y : ndarray, shape (n,)
             From the lower left node [m].
-        values : ndarray, shape (6, n), optional
-            Rows to write the sample into; by default new ones.
+        sample : SurfaceSample, optional
+            Written; by default a new one.
 
         Returns
         -------
         SurfaceSample
-            Views of the rows.
 
         Examples
         --------
@@ -79,7 +78,7 @@ class Surface:
         >>> sample.slope_x, sample.slope_y, sample.curvature_xy
         (array([2.5]), array([-5.]), array([-2.]))
         """
-        sample = SurfaceSample(*(np.empty((6, np.size(x))) if values is None else values))
+        sample = SurfaceSample(*np.empty((6, np.size(x)))) if sample is None else sample
         _sample(self.values, self.dx, self.dy, x, y, sample)
         return sample
 

@@ -213,7 +213,7 @@ class Inflow:
         if (which := self.prescribed(p)).size == 0:
             return
         speed, direction = self._motion(p.inflow_row[which], time)
-        fall = np.einsum("in,in->n", direction, p.surface_values[1:3, which])
+        fall = np.einsum("in,in->n", direction, np.array([p.slope_x[which], p.slope_y[which]]))
         p.velocity[:, which] = speed / np.sqrt(1.0 + fall**2) * np.array([*direction, fall])
 
     def prescribe_thickness(self, p, phase_fractions) -> None:
