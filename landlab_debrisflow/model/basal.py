@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.jit import kernel
+from ..core.structs import struct
 from ..physics.contracts import (
     BasalState,
     BasalStress,
@@ -28,6 +29,7 @@ NOT_ASKED = np.zeros(1)
 NO_VARIABLES = SimpleNamespace()
 
 
+@struct
 class BedLoad(NamedTuple):
     """Flow whose weight the bed bears, at n particles."""
 
@@ -36,6 +38,7 @@ class BedLoad(NamedTuple):
     pressure: np.ndarray  # (n,) basal excess pore pressure [Pa]
 
 
+@struct
 class Weighing(NamedTuple):
     """Constants by which a flow weighs on the bed."""
 

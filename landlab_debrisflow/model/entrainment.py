@@ -6,9 +6,11 @@ import numpy as np
 
 from ..core.arrays import value_at
 from ..core.jit import kernel
+from ..core.structs import struct
 from .basal import BasalLaw, basal_state
 
 
+@struct
 class Soil(NamedTuple):
     """Soil as a flow takes it up."""
 
@@ -19,6 +21,7 @@ class Soil(NamedTuple):
     bearing_density: float  # of the water in its pores [kg m-3]
 
 
+@struct
 class Layer(NamedTuple):
     """Flow over the bed, at n particles."""
 
@@ -29,6 +32,7 @@ class Layer(NamedTuple):
     coefficient_of_consolidation: np.ndarray  # (n,) or (1,) [m2 s-1]
 
 
+@struct
 class Mixture(NamedTuple):
     """Matter of n particles, changed in place."""
 
@@ -37,6 +41,7 @@ class Mixture(NamedTuple):
     density: np.ndarray  # (n,) [kg m-3]
 
 
+@struct
 class Erosion(NamedTuple):
     """Record of the erosion by n particles, written in place."""
 

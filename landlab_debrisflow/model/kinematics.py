@@ -11,9 +11,11 @@ import numpy as np
 
 from ..core.arrays import value_at
 from ..core.jit import inner, kernel
+from ..core.structs import struct
 from ..spatial.raster import CLOSED, CORE, nearest_node
 
 
+@struct
 class Resistance(NamedTuple):
     """Resistance of the base to the motion of n particles."""
 
@@ -60,7 +62,7 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
         [m s-2]
     """
     yield_stress, drag, mass, rest_speed = resistance
-    slope_x, slope_y = sample.slope_x, sample.slope_y
+    _, slope_x, slope_y, _, _, _ = sample
     for i in range(mass.size):
         ax, ay, az = along_bed(i, push, slope_x, slope_y, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
@@ -152,7 +154,7 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
     touched_wall : ndarray of int8, shape (m,)
         Set to 1 where a closed node stopped the particle; as long as there are particles to stop.
     """
-    slope_x, slope_y = sample.slope_x, sample.slope_y
+    _, slope_x, slope_y, _, _, _ = sample
     status, columns, rows, dx, dy = raster
     for i in range(touched_wall.size):
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
@@ -186,8 +188,8 @@ def _is_blocked(here, node, columns, status):
 
 
 @kernel
-def follow_bed(sample, velocity, cosine, expected_elevation, gravity, dt):
-    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane, and write its cosine [-].
+def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
+    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the
     vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
@@ -195,10 +197,10 @@ def follow_bed(sample, velocity, cosine, expected_elevation, gravity, dt):
     within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
     (`expected_elevation` is from `drift`; if it is empty nothing drifted).
     """
-    elevation, slope_x, slope_y = sample.elevation, sample.slope_x, sample.slope_y
+    elevation, slope_x, slope_y, _, _, _ = sample
     for i in range(cosine.size):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
-        cosine[i] = c
+        cosine[i], z[i] = c, elevation[i]
         nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
@@ -207,7 +209,7 @@ def follow_bed(sample, velocity, cosine, expected_elevation, gravity, dt):
         along2 = u * u + v * v + w * w
         factor = np.sqrt(speed2 / along2) if along2 > 1e-12 * speed2 else 0.0
         if i < expected_elevation.size and speed2 > 0.0:
-            missing = expected_elevation[i] - elevation[i] + 0.5 * dt * w * factor
+            missing = expected_elevation[i] - z[i] + 0.5 * dt * w * factor
             factor *= np.sqrt(max(0.0, 1.0 + 2.0 * gravity * missing / speed2))
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 

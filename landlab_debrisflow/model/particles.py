@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..terrain.surface import SurfaceSample
 from .variables import PARTICLE_VARIABLES
 
 
@@ -48,12 +47,9 @@ class Particles:
         return self.volume.size, self.ever
 
     @property
-    def surface_sample(self) -> SurfaceSample:
-        """Elevation, slopes and curvatures of the bed below, each of shape (n,): the arrays themselves."""
-        return SurfaceSample(
-            elevation=self.z, slope_x=self.slope_x, slope_y=self.slope_y, curvature_xx=self.curvature_xx,
-            curvature_xy=self.curvature_xy, curvature_yy=self.curvature_yy,
-        )  # fmt: skip
+    def surface_sample(self):
+        """Elevation, slopes and curvatures of the bed below, the arrays themselves in the order of `SurfaceSample`."""
+        return self.z, self.slope_x, self.slope_y, self.curvature_xx, self.curvature_xy, self.curvature_yy
 
     @property
     def half_width(self):

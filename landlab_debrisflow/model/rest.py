@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import inner, kernel
+from ..core.structs import struct
 from ..spatial.cells import sort_into_cells
 
 MOST_UNHELD = 0.5
@@ -22,6 +23,7 @@ UNKNOWN = -1
 """Number of the body of a new particle."""
 
 
+@struct
 class Members(NamedTuple):
     """Particles as members of bodies; the first ones are awake."""
 
@@ -33,6 +35,7 @@ class Members(NamedTuple):
     rest_speed: np.ndarray  # (n,) below which a particle that is being slowed comes to rest [m s-1]; written
 
 
+@struct
 class BodyEnergies(NamedTuple):
     """Kinetic energies of bodies."""
 
@@ -272,9 +275,7 @@ def _join(spheres, columns, order, start, window, parent):
     Parameters
     ----------
     spheres : Spheres
-    columns : int
-        Columns of the cell list.
-    order, start, window : ndarray of int
+    columns, order, start, window
         As in `spatial.cells.Cells`.
     parent : ndarray of int, shape (n,)
         Each particle itself, on entry.

@@ -89,7 +89,7 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
     awake = slice(p.awake)
     if p.entrained_volume[awake].any():  # the bed below has sunk: that is no fall of the flow
         p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
-    position = Position(x=p.x, y=p.y, z=p.z)
+    position = p.x, p.y, p.z
     exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
     if exit_node.size and exit_node.min() == NOWHERE:
         place = int(np.argmin(exit_node))
@@ -110,14 +110,15 @@ NO_DRIFT = np.empty(0)
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
     before = p.z.copy() if dt == 0.0 else None
-    sample = bed.surface.sample(p.x, p.y, p.surface_sample)
+    sample = np.empty(p.count), *p.surface_sample[1:]  # `follow_bed` moves z
+    bed.surface.sample_into(p.x, p.y, sample)
     expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
-    follow_bed(sample, p.velocity, p.cos_slope, expected, gravity, dt)
+    follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
     if dt == 0.0:  # nothing has moved but the bed: that is neither rise nor fall of the flow
         p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)
     p.nearest_node = bed.raster.nearest(p.x, p.y)
-    position = Position(x=p.x, y=p.y, z=p.z)
+    position = p.x, p.y, p.z
     count_still_steps(
         position, p.volume, p.smoothing_length, p.reference_position, p.reference_volume, p.still_steps
     )  # fmt: skip

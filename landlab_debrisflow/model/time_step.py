@@ -6,6 +6,7 @@ import numpy as np
 
 from ..core.arrays import value_at
 from ..core.jit import kernel
+from ..core.structs import struct
 
 TERRAIN_FRACTION = 0.5
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
@@ -50,6 +51,7 @@ class StepLimits(NamedTuple):
     broken: int  # place of a particle that is not finite, or -1
 
 
+@struct
 class Waves(NamedTuple):
     """Pressure waves and converging flow, at n particles."""
 
@@ -63,6 +65,7 @@ class Waves(NamedTuple):
     stiffness: np.ndarray  # (n,) or (1,) square of the celerity that is not by weight [m2 s-2]
 
 
+@struct
 class Motion(NamedTuple):
     """Motion of n particles."""
 
@@ -71,6 +74,7 @@ class Motion(NamedTuple):
     volume: np.ndarray  # (n,) that moves [m3]
 
 
+@struct
 class Growth(NamedTuple):
     """Growth of n particles by erosion."""
 

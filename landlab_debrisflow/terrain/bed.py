@@ -12,11 +12,13 @@ import numpy as np
 
 from ..core.arrays import value_at
 from ..core.jit import kernel
+from ..core.structs import struct
 from ..spatial.raster import CORE, FIXED_VALUE, Raster
 from ..spatial.transfer import MOST_NODES, hat_weights, scatter
 from .surface import Surface
 
 
+@struct
 class NodeAccounts(NamedTuple):
     """Accounts of soil at the nodes of a raster, changed in place."""
 
@@ -28,6 +30,7 @@ class NodeAccounts(NamedTuple):
     pressure_ratio: np.ndarray  # (nodes,) or (1,) pore pressure ratio of the soil [-]; is read only
 
 
+@struct
 class Demand(NamedTuple):
     """Demand for soil at the nodes of a raster: scratch of an erosion."""
 

@@ -14,10 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import kernel
+from ..core.structs import struct
 from ..spatial.raster import Raster
 from ..spatial.transfer import scatter
 
 
+@struct
 class BedResponse(NamedTuple):
     """Response of the pore pressure of the bed to a load."""
 
@@ -26,6 +28,7 @@ class BedResponse(NamedTuple):
     area: float  # map area of a node [m2]
 
 
+@struct
 class NodePressure(NamedTuple):
     """Pore pressure of the bed at the nodes of a raster, changed in place."""
 

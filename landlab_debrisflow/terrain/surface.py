@@ -55,15 +55,13 @@ class Surface:
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
         v[0], v[-1] = 2.0 * v[1] - v[2], 2.0 * v[-2] - v[-3]
 
-    def sample(self, x, y, sample: SurfaceSample | None = None) -> SurfaceSample:
+    def sample(self, x, y) -> SurfaceSample:
         """Read elevation, slopes and curvatures of the surface at points.
 
         Parameters
         ----------
         x, y : ndarray, shape (n,)
             From the lower left node [m].
-        sample : SurfaceSample, optional
-            Written; by default a new one.
 
         Returns
         -------
@@ -78,9 +76,13 @@ class Surface:
         >>> sample.slope_x, sample.slope_y, sample.curvature_xy
         (array([2.5]), array([-5.]), array([-2.]))
         """
-        sample = SurfaceSample(*np.empty((6, np.size(x)))) if sample is None else sample
+        sample = tuple(np.empty((6, np.size(x))))
+        self.sample_into(x, y, sample)
+        return SurfaceSample(*sample)
+
+    def sample_into(self, x, y, sample) -> None:
+        """Write what `sample` returns into a plain tuple of arrays, shape (n,)."""
         _sample(self.values, self.dx, self.dy, x, y, sample)
-        return sample
 
 
 def _fill(values, invalid):

@@ -44,7 +44,8 @@ def kick_both(
     momenta changes by dt (m_s a_s + m_w a_w - f). So v_s' is linear in the friction f, with a compliance G, and
     friction stops grains just where f G takes all their speed.
     """
-    n, slope_x, slope_y = phase.size, sample.slope_x, sample.slope_y
+    n = phase.size
+    _, slope_x, slope_y, _, _, _ = sample
     moves, received = np.empty((n, 6)), np.zeros((n, 3))  # velocity and acceleration without friction; what drag gives
     for i in range(n):
         moves[i, 0], moves[i, 1], moves[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]

@@ -3,7 +3,6 @@
 import numpy as np
 
 from ...physics.contracts import MIXTURE
-from ...terrain.surface import SurfaceSample
 from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
@@ -54,7 +53,7 @@ class OnePhaseDynamics:
         """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
         n = yield_stress.size
         thrust = np.ascontiguousarray(p.thrust[:, which])
-        sample = SurfaceSample(*(values[which] for values in p.surface_sample))
+        sample = tuple(values[which] for values in p.surface_sample)
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
         free = Resistance(yield_stress=none, drag=none, mass=mass, rest_speed=np.zeros(1))
         kick(pull, thrust, sample, p.cos_slope[which], free, self.material.gravity, 1.0)
