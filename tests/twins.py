@@ -77,7 +77,7 @@ def build(name, observers=(), **grid):
     return DebrisFlow(make(**grid), **(keywords | {"numerics": numerics}), observers=observers)
 
 
-SCRATCH = {"_touched", "_share", "_scratch", "_before", "cpu"}
+SCRATCH = {"_touched", "_granted", "_scratch", "_before", "cpu"}
 """Arrays that are written before they are read, and what it took on this machine."""
 
 HISTORY = {"interrupted", "interruption", "_interruption"}

@@ -51,9 +51,9 @@ def counting_nodes():
     touched, erode, scatter, cover = Touched(), bed._erode, peak_maps.scatter, row_backup.RowBackup.keep_rows
 
     def counted_erode(*arguments):
-        count = erode(*arguments)
+        count, *given = erode(*arguments)
         touched.eroded.append(int(count))
-        return count
+        return count, *given
 
     def counted_scatter(*arguments):
         nodes = scatter(*arguments)

@@ -9,10 +9,9 @@ from ..core.checks import in_range, require
 from ..core.errors import InputError, ParameterError
 from ..core.hints import did_you_mean, give_number, python_value
 from ..core.parameters import NodeValues
+from ..spatial.raster import CLOSED, FIXED_GRADIENT, LOOPED
 from .fields import NODE_FIELDS
 from .fill_values import LEAST_FILL, is_fill, replacement_remedy
-
-CORE, FIXED_GRADIENT, LOOPED, CLOSED = 0, 2, 3, 4  # node statuses of Landlab
 
 
 def check_duration(value, name: str = "dt") -> float:

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.ndimage import find_objects, label
 
 from ..core.parameters import NodeValues
-from .checks import CLOSED, where
+from ..spatial.raster import CLOSED
+from .checks import where
 from .fields import NODE_FIELDS
 from .fill_values import code_of, is_fill
 

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.ndimage import label
 
 from ..core.errors import InputError
-from .checks import CLOSED, check_finite, where
+from ..spatial.raster import CLOSED
+from .checks import check_finite, where
 from .fill_values import closing_call, code_of, is_fill
 
 Z = "topographic__elevation"

@@ -5,11 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..physics.material import Material
-from ..spatial.transfer import Nodes
+from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
 from ..terrain.bed_pressure import BedPressure
 from ..terrain.surface import Surface
-from .checks import CLOSED
 from .inflow_lines import check_strips
 from .release import take_off
 
@@ -84,18 +83,18 @@ class GridBed:
 
     def _bed(self, terrain, soil, time) -> Bed:
         material, pore_pressure = self.material, None
-        nodes = Nodes(terrain.core, terrain.shape[1], *terrain.spacing)
+        raster = Raster.from_status(terrain.status.reshape(terrain.shape), terrain.spacing)
         if soil.pressure is not None:
             drainage_time = np.inf if material.bed_drainage_time is None else material.bed_drainage_time
             loading = material.bed_loading_coefficient
-            pore_pressure = BedPressure(nodes, soil.pressure, loading, drainage_time, time)
+            pore_pressure = BedPressure(raster, soil.pressure, loading, drainage_time, time)
             ratio = pore_pressure.ratio
         elif soil.pressure_ratio is None:
             ratio = np.array([material.bed_pressure_ratio])
         else:
             ratio = np.array(soil.pressure_ratio, float)
         return Bed(
-            nodes, self.surface, terrain.elevation, soil.depth, self.eroded, ratio, soil.drained, pore_pressure,
+            raster, self.surface, terrain.elevation, soil.depth, self.eroded, ratio, soil.drained, pore_pressure,
             self.event_eroded,
         )  # fmt: skip
 

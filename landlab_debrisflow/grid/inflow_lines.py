@@ -4,9 +4,9 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..model.inflow.source import Inflow
-from .checks import CORE
+from ..spatial.raster import CLOSED, CORE, FIXED_VALUE, nearest_line
 
-STATUS_WORDS = {1: "open (fixed-value)", 4: "closed"}
+STATUS_WORDS = {FIXED_VALUE: "open (fixed-value)", CLOSED: "closed"}
 
 
 def check_lines(terrain, inflow: Inflow) -> None:
@@ -34,7 +34,7 @@ def _line(terrain, source):
 
 def _check_points(terrain, hydrograph, points, name, remedy):
     rows, columns = terrain.shape
-    column, row = (np.floor(p / d + 0.5).astype(int) for p, d in zip(points, terrain.spacing, strict=True))
+    column, row = (nearest_line(p, d).astype(int) for p, d in zip(points, terrain.spacing, strict=True))
     outside = (row < 0) | (row >= rows) | (column < 0) | (column >= columns)
     node = row.clip(0, rows - 1) * columns + column.clip(0, columns - 1)
     status = terrain.status[node]

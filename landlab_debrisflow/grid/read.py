@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.parameters import on_nodes
+from ..spatial.raster import CORE
 from . import checks, doubts, elevation_checks
 from .inflow_lines import check_lines
 from .release import NO_RELEASE, Release, read_release
@@ -32,7 +33,7 @@ class Terrain(NamedTuple):
     @property
     def core(self):
         """Nodes that may hold material, ndarray of bool, shape (nodes,)."""
-        return self.status == checks.CORE
+        return self.status == CORE
 
 
 class Soil(NamedTuple):

@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.errors import InputError
-from .checks import CLOSED, where
+from ..spatial.raster import CLOSED
+from .checks import where
 from .fill_values import is_fill, replacement_remedy
 
 RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id"

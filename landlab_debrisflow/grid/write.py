@@ -67,16 +67,16 @@ class FieldWriter:
         bed = state.bed = sim.bed
         names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
         fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = PeakMaps(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
-        soil = None if bed.soil is None else RowBackup([bed.soil], bed.nodes.columns)
-        state.budget.measure_erosion(bed.nodes.core, soil)
+        state.peak_maps = PeakMaps(bed.raster, fields, sim.numerics.arrival_depth, sim.time)
+        soil = None if bed.soil is None else RowBackup([bed.soil], bed.raster.columns)
+        state.budget.measure_erosion(bed.raster.core, soil)
         self.keep_rows()
         self.record()
 
     def keep_rows(self, *others: RowBackup) -> None:
         """Keep the rows that the next step may change, in further backups too."""
         sim, dy = self.simulation, self._grid.dy
-        south, north = extent(sim.particles, sim.state.origins, sim.inflow, sim.bed.nodes)
+        south, north = extent(sim.particles, sim.state.origins, sim.inflow, sim.bed.raster)
         for backup in (self.rows, self.state.budget, *others) if south <= north else ():
             backup.keep_rows(int(south / dy) - REACH, int(north / dy) + REACH + 2)
 
@@ -114,8 +114,8 @@ class FieldWriter:
     def _nodes_near(self):
         """Return the nodes at which maps of the present may differ from the fields."""
         p, bed = self.simulation.particles, self.simulation.bed
-        columns, count = bed.nodes.columns, bed.nodes.core.size
-        below, _ = bed.depth_of(p.x, p.y, p.spread, p.volume)
+        columns, count = bed.raster.columns, bed.raster.core.size
+        below, _ = bed.depth_of(p.x, p.y, p.half_width, p.volume)
         nodes = np.concatenate([below, self.state.peak_maps.under])
         nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # with closed ones at their faces
         return nodes[(nodes >= 0) & (nodes < count)]
@@ -153,10 +153,10 @@ class FieldWriter:
         sim.catch_up()
         self.record()
         state.budget.measure_erosion(None, None)  # the deposit becomes soil, too
-        elevation = RowBackup([state.bed.elevation], state.bed.nodes.columns)
+        elevation = RowBackup([state.bed.elevation], state.bed.raster.columns)
         self.keep_rows(elevation)
         nodes, depth = sim.settle()
-        state.budget.count_deposit(state.bed.nodes.core, elevation)
+        state.budget.count_deposit(state.bed.raster.core, elevation)
         state.settled[nodes] += depth
         state.peak_maps.clear()
 

@@ -62,7 +62,7 @@ def fall_asleep(p, time: float, columns: ColumnPhysics, friction: BasalLaw, exch
     columns : ColumnPhysics
     friction : BasalLaw
     exchange : Exchange
-    walls : Walls or None
+    walls : Raster or None
     """
     lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~p.summed[: p.awake]
     places = np.flatnonzero(lying)

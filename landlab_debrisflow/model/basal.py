@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.jit import kernel
+from ..core.structs import struct
 from ..physics.contracts import (
     BasalState,
     BasalStress,
@@ -26,6 +27,24 @@ NOT_ASKED = np.zeros(1)
 """What friction laws get for the depth eroded [m]: to look it up takes time."""
 
 NO_VARIABLES = SimpleNamespace()
+
+
+@struct
+class BedLoad(NamedTuple):
+    """Flow whose weight the bed bears, at n particles."""
+
+    thickness: np.ndarray  # (n,) slope-normal thickness [m]
+    density: np.ndarray  # (n,) [kg m-3]
+    pressure: np.ndarray  # (n,) basal excess pore pressure [Pa]
+
+
+@struct
+class Weighing(NamedTuple):
+    """Constants by which a flow weighs on the bed."""
+
+    gravity: float  # [m s-2]
+    bearing_density: float  # of which the pore water's own weight bears the flow [kg m-3]
+    least_radius: float  # of curvature of the bed [m]
 
 
 class BasalLaw(NamedTuple):
@@ -69,10 +88,13 @@ def basal_state(
     material = basal.material
     depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
-    speed, normal_gravity, effective = np.empty((3, depth.size))
-    press_on_bed(
-        which.start or 0, p.velocity, p.surface_sample, p.cos_slope, material.gravity, basal.spacing,
-        thickness, density, material.bearing_density, pressure, speed, normal_gravity, effective,
+    load = BedLoad(thickness=thickness, density=density, pressure=pressure)
+    weighing = Weighing(
+        gravity=material.gravity, bearing_density=material.bearing_density, least_radius=basal.spacing
+    )  # fmt: skip
+    first = which.start or 0
+    speed, normal_gravity, effective = press_on_bed(
+        first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
     )  # fmt: skip
     here = (values if values.size == 1 else values[p.nearest_node[which]] for values in basal.parameters)
     return BasalState(
@@ -97,28 +119,51 @@ def _variables(p, which: slice, basal: BasalLaw, asking: bool):
 
 
 @kernel
-def press_on_bed(
-    first, velocity, sample, cosine, gravity, tightest, thickness, density, bearing_density, pressure,
-    speed, normal_gravity, effective_normal_stress,
-):  # fmt: skip
-    """Write speed [m s-1], normal gravity with curvature [m s-2] and effective normal stress [Pa].
+def press_on_bed(first, velocity, sample, cosine, load, weighing):
+    """Return speed, normal gravity and effective normal stress at the base of particles.
 
-    They are those of particles from the place `first` on, of whom thickness [m], density [kg m-3] and excess
-    pore pressure [Pa] are given; the pore water's own weight bears `bearing_density` of the latter [kg m-3].
+    The centripetal part v.Hess(Z).v is capped at v^2 over the least radius: a raster knows none below its own spacing,
+    and noise must not press the flow to the ground.
 
-    The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
-    own spacing, and noise must not press the flow to the ground.
+    Parameters
+    ----------
+    first : int
+        Place of the first particle asked for.
+    velocity : ndarray, shape (3, all)
+        Of all particles [m s-1].
+    sample : SurfaceSample
+        Of the bed below all particles.
+    cosine : ndarray, shape (all,)
+        Cosine of the slope of the bed [-].
+    load : BedLoad
+        Of the n particles asked for.
+    weighing : Weighing
+
+    Returns
+    -------
+    speed : ndarray, shape (n,)
+        [m s-1]
+    normal_gravity : ndarray, shape (n,)
+        Slope-normal gravity with the centripetal part [m s-2].
+    effective_normal_stress : ndarray, shape (n,)
+        [Pa]
     """
-    for k in range(speed.size):
+    _, _, _, curvature_xx, curvature_xy, curvature_yy = sample
+    thickness, density, pressure = load
+    gravity, bearing_density, least_radius = weighing
+    n = thickness.size
+    speed, normal_gravity, effective_normal_stress = np.empty(n), np.empty(n), np.empty(n)
+    for k in range(n):
         i = first + k
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
-        bend = u * u * sample[3, i] + 2.0 * u * v * sample[4, i] + v * v * sample[5, i]
-        most = (u * u + v * v) / tightest
+        bend = u * u * curvature_xx[i] + 2.0 * u * v * curvature_xy[i] + v * v * curvature_yy[i]
+        most = (u * u + v * v) / least_radius
         bend = min(max(bend, -most), most)
         speed[k] = np.sqrt(u * u + v * v + w * w)
         normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
         stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
         effective_normal_stress[k] = max(0.0, stress)
+    return speed, normal_gravity, effective_normal_stress
 
 
 def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False):
@@ -141,7 +186,7 @@ def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, 
     friction : BasalLaw
     phases : Phases
     exchange : Exchange
-    walls : Walls or None
+    walls : Raster or None
     """
     yield_stress, drag = basal_resistance(p, which, friction, pressure, asking=True)
     return phases.held_at_rest(p, exchange, which, yield_stress, drag, walls)

@@ -26,6 +26,6 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     weight[p.phase == WATER] = 0.0
     force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)
     if dt is None:
-        bed.stand(p.x, p.y, p.spread, force, time)
+        bed.stand(p.x, p.y, p.half_width, force, time)
     else:
-        bed.carry(p.x, p.y, p.spread, force, time, dt)
+        bed.carry(p.x, p.y, p.half_width, force, time, dt)

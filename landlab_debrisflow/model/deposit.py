@@ -16,13 +16,13 @@ def resting_depth(p, origins, bed):
     still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
     if not still.any():
         return np.empty(0, np.int64), np.empty(0)
-    x, y, spread, volume, origin = p.x[still], p.y[still], p.spread[still], p.volume[still], p.origin[still]
-    back = origins.unmoved(origin, x, y, 0.5 * spread, bed.nodes.core)
-    nodes, depth = bed.depth_of(x, y, spread, (1.0 - back) * volume)
+    x, y, half_width, volume, origin = p.x[still], p.y[still], p.half_width[still], p.volume[still], p.origin[still]
+    back = origins.unmoved(origin, x, y, 0.5 * half_width, bed.raster.core)
+    nodes, depth = bed.depth_of(x, y, half_width, (1.0 - back) * volume)
     returning = back > 0.0
     old, given = origins.returned(origin[returning], (back * volume)[returning])
     every, place = np.unique(np.concatenate([nodes, old]), return_inverse=True)
-    return every, np.bincount(place, np.concatenate([depth, given / bed.nodes.area]), every.size)
+    return every, np.bincount(place, np.concatenate([depth, given / bed.raster.area]), every.size)
 
 
 def extent(p, origins, inflow, raster) -> tuple[float, float]:

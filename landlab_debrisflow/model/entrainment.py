@@ -1,9 +1,53 @@
 """Entrainment: the soil that a flow asks of the bed, takes, and mixes in."""
 
+from typing import NamedTuple
+
 import numpy as np
 
+from ..core.arrays import value_at
 from ..core.jit import kernel
+from ..core.structs import struct
 from .basal import BasalLaw, basal_state
+
+
+@struct
+class Soil(NamedTuple):
+    """Soil as a flow takes it up."""
+
+    solid_fraction: float  # part of its volume that a particle of grains keeps [-]
+    slip_ratio: float  # velocity at which it enters, over that of the flow [-]
+    porosity: float  # [-]
+    solid_density: float  # of its grains [kg m-3]
+    bearing_density: float  # of the water in its pores [kg m-3]
+
+
+@struct
+class Layer(NamedTuple):
+    """Flow over the bed, at n particles."""
+
+    depth: np.ndarray  # (n,) vertical depth [m]
+    thickness: np.ndarray  # (n,) slope-normal thickness [m]
+    share: np.ndarray  # (n,) part of it that is of the particle's own phase [-]
+    cosine: np.ndarray  # (n,) of the slope of the bed [-]
+    coefficient_of_consolidation: np.ndarray  # (n,) or (1,) [m2 s-1]
+
+
+@struct
+class Mixture(NamedTuple):
+    """Matter of n particles, changed in place."""
+
+    volume: np.ndarray  # (n,) [m3]
+    porosity: np.ndarray  # (n,) [-]
+    density: np.ndarray  # (n,) [kg m-3]
+
+
+@struct
+class Erosion(NamedTuple):
+    """Record of the erosion by n particles, written in place."""
+
+    rate: np.ndarray  # (n,) per map area [m s-1]
+    first_time: np.ndarray  # (n,) of the first erosion, NaN before [s]
+    peclet_number: np.ndarray  # (n,) of the last erosion [-]
 
 
 def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float, dt: float):
@@ -27,55 +71,79 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
         Velocity after over velocity before [-].
     """
     awake, material = slice(p.awake), erosion.material
-    rate, demanded, velocity_ratio = np.zeros(p.awake), np.empty(p.awake), np.empty(p.awake)
+    rate, demanded = np.zeros(p.awake), np.empty(p.awake)
     eroded_depth = bed.eroded_in_event(p.nearest_node[awake])
     erosion.law.entrainment_rate(basal_state(p, awake, erosion, eroded_depth=eroded_depth), rate)
     rate[prescribed] = 0.0
     phases.limit_entrainment(exchange, rate)
     np.divide(rate * p.volume[awake], p.depth[awake] * p.share[awake], out=demanded)
     demanded *= dt
-    entrained, p.entrained_ratio[awake] = bed.erode(p.x[awake], p.y[awake], p.spread[awake], demanded)
+    entrained, p.entrained_ratio[awake] = bed.erode(p.x[awake], p.y[awake], p.half_width[awake], demanded)
     p.entrained_volume[awake] = entrained
-    _mix(
-        p.entrained_volume[awake], phases.solid_fraction, dt, time, phases.coefficient_of_consolidation(p, awake),
-        material.basal_slip_ratio, material.soil_porosity, material.solid_density, material.bearing_density, p.depth,
-        p.thickness, p.share, p.cos_slope, p.volume, p.porosity, p.density, p.entrainment_rate, p.first_erosion_time,
-        p.basal_peclet_number, velocity_ratio,
+    soil = Soil(
+        solid_fraction=phases.solid_fraction, slip_ratio=material.basal_slip_ratio, porosity=material.soil_porosity,
+        solid_density=material.solid_density, bearing_density=material.bearing_density,
     )  # fmt: skip
+    layer = Layer(
+        depth=p.depth, thickness=p.thickness, share=p.share, cosine=p.cos_slope,
+        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, awake),
+    )  # fmt: skip
+    mixture = Mixture(volume=p.volume, porosity=p.porosity, density=p.density)
+    erosion_record = Erosion(
+        rate=p.entrainment_rate, first_time=p.first_erosion_time, peclet_number=p.basal_peclet_number
+    )
+    velocity_ratio = _mix(p.entrained_volume[awake], soil, layer, mixture, erosion_record, time, dt)
     phases.share_entrained(p, exchange)
     return velocity_ratio
 
 
 @kernel
-def _mix(
-    entrained, solid_fraction, dt, time, coefficient_of_consolidation, slip_ratio, soil_porosity, solid_density,
-    bearing_density, depth, thickness, share, cosine, volume, porosity, density, entrainment_rate, first_erosion_time,
-    basal_peclet_number, velocity_ratio,
-):  # fmt: skip
-    """Add the entrained soil [m3], in place, and replace it by the volume that the particle's own phase takes.
+def _mix(entrained, soil, layer, mixture, erosion, time, dt):
+    """Add entrained soil to the matter of particles, in place.
 
     The soil enters with the basal velocity v_b = `slip_ratio` v, and the flow accelerates it to v:
     d(v)/dt = - (v - v_b) dm/dt / m, so v goes like m^(slip_ratio - 1), m being the mass.
+
+    Parameters
+    ----------
+    entrained : ndarray, shape (m,)
+        Soil taken by the m particles that are awake; becomes what their own phase keeps of it [m3].
+    soil : Soil
+    layer : Layer
+    mixture : Mixture
+    erosion : Erosion
+    time, dt : float
+        Beginning and length of the step [s].
+
+    Returns
+    -------
+    ndarray, shape (m,)
+        Velocity after over velocity before [-].
     """
+    solid_fraction, slip_ratio, soil_porosity, solid_density, bearing_density = soil
+    depth, thickness, share, cosine, coefficient_of_consolidation = layer
+    volume, porosity, density = mixture
+    erosion_rate, first_time, peclet_number = erosion
+    velocity_ratio = np.empty(entrained.size)
     for i in range(entrained.size):
         rate, before = entrained[i] * depth[i] * share[i] / (volume[i] * dt), volume[i]
-        entrainment_rate[i] = rate
+        erosion_rate[i] = rate
         velocity_ratio[i] = 1.0
         if entrained[i] > 0.0:
-            soil = entrained[i]
-            entrained[i] = solid_fraction * soil
+            taken = entrained[i]
+            entrained[i] = solid_fraction * taken
             volume[i] = before + entrained[i]
             velocity_ratio[i] = before / volume[i]
             if porosity[i] != soil_porosity:
-                whole, was = before / share[i], density[i]
-                porosity[i] = (porosity[i] * whole + soil_porosity * soil) / (whole + soil)
+                whole, old_density = before / share[i], density[i]
+                porosity[i] = (porosity[i] * whole + soil_porosity * taken) / (whole + taken)
                 density[i] = (1.0 - porosity[i]) * solid_density + porosity[i] * bearing_density
                 if solid_fraction == 1.0:
-                    velocity_ratio[i] *= was / density[i]
+                    velocity_ratio[i] *= old_density / density[i]
             if slip_ratio > 0.0:
                 velocity_ratio[i] **= 1.0 - slip_ratio
             # as `column.diagnostics.basal_peclet_number`, without its arrays: this is done in every step
-            coefficient = coefficient_of_consolidation[min(i, coefficient_of_consolidation.size - 1)]
-            basal_peclet_number[i] = rate * cosine[i] * thickness[i] / coefficient
-            if np.isnan(first_erosion_time[i]):
-                first_erosion_time[i] = time
+            peclet_number[i] = rate * cosine[i] * thickness[i] / value_at(coefficient_of_consolidation, i)
+            if np.isnan(first_time[i]):
+                first_time[i] = time
+    return velocity_ratio

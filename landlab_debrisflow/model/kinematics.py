@@ -5,29 +5,43 @@ velocity is then turned into the new tangent plane. Its length is kept, but for 
 drift leaves the tangent plane, and lands higher or lower than the kicks know.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from ..core.arrays import value_at
 from ..core.jit import inner, kernel
+from ..core.structs import struct
+from ..spatial.raster import CLOSED, CORE, nearest_node
+
+
+@struct
+class Resistance(NamedTuple):
+    """Resistance of the base to the motion of n particles."""
+
+    yield_stress: np.ndarray  # (n,) [Pa]
+    drag: np.ndarray  # (n,) [Pa s m-1]
+    mass: np.ndarray  # (n,) that is slowed, per area: density times slope-normal thickness [kg m-2]
+    rest_speed: np.ndarray  # (n,) or (1,) below which a particle that is being slowed comes to rest [m s-1]
+
 
 STILL = 1e-3
 """Displacement over smoothing length, and relative change of volume, below which the sums over
 neighbours need not be done again: their error is of this order."""
 
-CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are open boundaries
-
 
 @inner
-def along_bed(i, push, sample, cosine, gravity):
-    """Return the acceleration by gravity and thrust along the bed [m s-2]."""
+def along_bed(i, push, slope_x, slope_y, cosine, gravity):
+    """Return the acceleration of particle `i` along the bed, by gravity [m s-2] and `push`, shape (3, n) [m s-2]."""
     c = cosine[i]
-    nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
+    nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
     across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
     return push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
 
 
 @kernel
-def kick(velocity, push, sample, cosine, yield_stress, drag, mass, gravity, rest_speed, dt):
-    """Accelerate along the bed for `dt` seconds, friction included, in place.
+def kick(velocity, push, sample, cosine, resistance, gravity, dt):
+    """Accelerate particles along the bed for `dt` seconds, friction included, in place.
 
     Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
     the yield stress. The drag enters as v_new = (v + dt a) / (1 + dt d(|v|)), which for a drag
@@ -37,106 +51,130 @@ def kick(velocity, push, sample, cosine, yield_stress, drag, mass, gravity, rest
     ----------
     velocity, push : ndarray, shape (3, n)
         Velocity [m s-1] and acceleration by inner forces [m s-2].
-    sample : ndarray, shape (6, n)
-        As `Surface.sample` returns it.
-    cosine, yield_stress, drag, mass : ndarray, shape (n,)
-        cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
-        are particles to kick; the others may be longer.
-    rest_speed : ndarray, shape (n,) or (1,)
-        A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1]. If it
-        is infinite, whether or not.
+    sample : SurfaceSample
+        Of the bed below the particles.
+    cosine : ndarray, shape (n,)
+        Cosine of the slope of the bed [-].
+    resistance : Resistance
+        Its mass is as long as there are particles to kick; the other arrays may be longer. A particle that falls below
+        its speed of rest stays if friction can hold it there; if that speed is infinite, whether or not.
+    gravity : float
+        [m s-2]
     """
+    yield_stress, drag, mass, rest_speed = resistance
+    _, slope_x, slope_y, _, _, _ = sample
     for i in range(mass.size):
-        ax, ay, az = along_bed(i, push, sample, cosine, gravity)
+        ax, ay, az = along_bed(i, push, slope_x, slope_y, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
         if speed == 0.0:
             factor = 0.0
         else:
-            was = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
-            resistance = yield_stress[i] / mass[i]
-            left = speed - dt * resistance
-            if left < 0.0:  # not max(): a NaN must survive
-                left = 0.0
-            left /= 1.0 + dt * drag[i] / mass[i]
-            least = rest_speed[min(i, rest_speed.size - 1)]
-            held = left * left < was and ax * ax + ay * ay + az * az <= resistance * resistance
-            resting = left < least and (held or least == np.inf)
-            factor = 0.0 if resting else left / speed
+            before2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
+            deceleration = yield_stress[i] / mass[i]
+            slowed = speed - dt * deceleration
+            if slowed < 0.0:  # not max(): a NaN must survive
+                slowed = 0.0
+            slowed /= 1.0 + dt * drag[i] / mass[i]
+            least = value_at(rest_speed, i)
+            held = slowed * slowed < before2 and ax * ax + ay * ay + az * az <= deceleration * deceleration
+            resting = slowed < least and (held or least == np.inf)
+            factor = 0.0 if resting else slowed / speed
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
 
 
 @kernel
-def drift(x, y, z, velocity, velocity_ratio, dx, dy, columns, status, dt, expected_elevation, left, touched_wall):
-    """Move the particles, slowed by the soil they took up; nothing gets into closed nodes.
+def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, touched_wall):
+    """Move particles for `dt` seconds, slowed by the soil they took up; none gets into closed nodes.
 
     Parameters
     ----------
-    x, y : ndarray, shape (n,)
-        Changed in place [m].
+    position : Position
+        Of which x and y are changed in place; z is the elevation of the bed, as it is now, below the old ones.
     velocity : ndarray, shape (3, n)
-        Multiplied by `velocity_ratio`; the drift uses the mean of before and after, which keeps the pair
+        Multiplied by `velocity_ratio` [m s-1]; the drift uses the mean of before and after, which keeps the pair
         erosion-drift second-order.
-    z : ndarray, shape (n,)
-        Elevation of the bed, as it is now, where the particles are before [m].
-    velocity_ratio : ndarray, shape (n,)
-        Volume before over volume after entrainment [-], for the particles to move.
-    status : ndarray, shape (nodes,)
-        Status of the nodes.
+    velocity_ratio : ndarray, shape (m,)
+        Velocity after over velocity before entrainment [-], for the m particles to move.
+    raster : Raster
     expected_elevation : ndarray, shape (n,)
         Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
         `follow_bed`.
-    left : ndarray of int, shape (n,)
-        Written: the open node over which the particle left, -1 if it did not, -2 if its position is not a number.
     touched_wall : ndarray of int8, shape (n,)
         Set to 1 where a closed node stopped the particle.
+
+    Returns
+    -------
+    ndarray of int, shape (m,)
+        Open node over which a particle left, `NO_EXIT` if it did not, `NOWHERE` if its position is not a number.
     """
-    rows = status.size // columns
-    for i in range(left.size):
-        left[i] = -1
+    x, y, z = position
+    status, columns, rows, dx, dy = raster
+    exit_node = np.full(velocity_ratio.size, NO_EXIT)
+    for i in range(exit_node.size):
         expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
         step = 0.5 * dt * (1.0 + velocity_ratio[i])
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
             velocity[k, i] *= velocity_ratio[i]
-        if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):  # `stop_at_walls` looked from elsewhere
+        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
+        if _is_blocked(here, node, columns, status):  # `stop_at_walls` looked from elsewhere
             touched_wall[i] = 1
-            new_x, new_y, expected_elevation[i] = x[i], y[i], z[i]
+            new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
             velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
-        node = _nearest(new_x, new_y, dx, dy, columns, rows)
         x[i], y[i] = new_x, new_y
-        if node < 0 or status[node] != CORE:
-            left[i] = node if node >= 0 else -2
+        if node < 0:
+            exit_node[i] = NOWHERE
+        elif status[node] != CORE:
+            exit_node[i] = node
+    return exit_node
+
+
+NO_EXIT, NOWHERE = -1, -2
+"""Exit nodes, as `drift` returns them, of a particle that stays on the raster and of one whose position is not a
+number."""
 
 
 @kernel
-def stop_at_walls(count, x, y, velocity, sample, dx, dy, columns, status, dt, touched_wall):
-    """Take away, in place, the part of each velocity that would run into a closed node within `dt` seconds.
+def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
+    """Take away the part of each velocity that would run into a closed node within `dt` seconds, in place.
 
-    Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it
-    neither erodes nor counts as moving.
+    Done right after each kick: a particle pressed against a wall has no speed, so it neither erodes nor counts as
+    moving.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Map coordinates [m].
+    velocity : ndarray, shape (3, n)
+        Changed in place [m s-1].
+    sample : SurfaceSample
+        Of the bed below the particles.
+    raster : Raster
+    touched_wall : ndarray of int8, shape (m,)
+        Set to 1 where a closed node stopped the particle; as long as there are particles to stop.
     """
-    rows = status.size // columns
-    for i in range(count):
+    _, slope_x, slope_y, _, _, _ = sample
+    status, columns, rows, dx, dy = raster
+    for i in range(touched_wall.size):
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
-        if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):
+        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
+        if _is_blocked(here, node, columns, status):
             touched_wall[i] = 1
             # what is left is the projection on the direction along the wall: never faster
-            if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[0, i] + velocity[2, i] * sample[1, i]) / (1.0 + sample[1, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * sample[1, i]
-            elif status[_nearest(x[i], new_y, dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[1, i] + velocity[2, i] * sample[2, i]) / (1.0 + sample[2, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * sample[2, i]
+            if status[here // columns * columns + node % columns] != CLOSED:
+                along = (velocity[0, i] + velocity[2, i] * slope_x[i]) / (1.0 + slope_x[i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = along, 0.0, along * slope_x[i]
+            elif status[node // columns * columns + here % columns] != CLOSED:
+                along = (velocity[1, i] + velocity[2, i] * slope_y[i]) / (1.0 + slope_y[i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, along, along * slope_y[i]
             else:
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
 
 
 @inner
-def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
-    """Return whether the way leads into a closed node, or between two of them that touch at a corner."""
-    rows = status.size // columns
-    node, here = _nearest(new_x, new_y, dx, dy, columns, rows), _nearest(x, y, dx, dy, columns, rows)
+def _is_blocked(here, node, columns, status):
+    """Return whether the way between two nodes, -1 for none, leads into a closed one or between two that touch."""
     if node < 0 or here < 0:
         return False
     if status[node] == CLOSED:
@@ -144,24 +182,14 @@ def _blocked(x, y, new_x, new_y, dx, dy, columns, status):
     if node % columns == here % columns or node // columns == here // columns:
         return False
     return (
-        status[_nearest(new_x, y, dx, dy, columns, rows)] == CLOSED
-        and status[_nearest(x, new_y, dx, dy, columns, rows)] == CLOSED
+        status[here // columns * columns + node % columns] == CLOSED
+        and status[node // columns * columns + here % columns] == CLOSED
     )
-
-
-@inner
-def _nearest(x, y, dx, dy, columns, rows):
-    """Return the flat index of the nearest node, or -1 if the position is not a number."""
-    if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
-        return -1
-    r = min(max(int(np.floor(y / dy + 0.5)), 0), rows - 1)
-    c = min(max(int(np.floor(x / dx + 0.5)), 0), columns - 1)
-    return r * columns + c
 
 
 @kernel
 def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
-    """Write cos(theta) [-] and elevation [m], and turn each velocity into the tangent plane, in place.
+    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the
     vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
@@ -169,10 +197,11 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
     (`expected_elevation` is from `drift`; if it is empty nothing drifted).
     """
+    elevation, slope_x, slope_y, _, _, _ = sample
     for i in range(cosine.size):
-        c = 1.0 / np.sqrt(1.0 + sample[1, i] * sample[1, i] + sample[2, i] * sample[2, i])
-        cosine[i], z[i] = c, sample[0, i]
-        nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
+        c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
+        cosine[i], z[i] = c, elevation[i]
+        nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
         speed2 = u * u + v * v + w * w
@@ -186,16 +215,19 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
 
 
 @kernel
-def count_still_steps(x, y, z, volume, smoothing_length, reference_position, reference_volume, still_steps):
+def count_still_steps(position, volume, smoothing_length, reference_position, reference_volume, still_steps):
     """Count the steps since each particle moved or grew noticeably, in place.
 
     Parameters
     ----------
-    x, y, z, volume, smoothing_length : ndarray, shape (n,)
+    position : Position
+    volume, smoothing_length : ndarray, shape (n,)
+        [m3] and [m]
     reference_position, reference_volume : ndarray, shape (3, n) and (n,)
-        Where and how large it was when it last counted as changed [m, m3].
+        Position [m] and volume [m3] when it last counted as changed.
     still_steps : ndarray of int, shape (n,)
     """
+    x, y, z = position
     for i in range(x.size):
         at = reference_position[:, i]
         moved = (x[i] - at[0]) ** 2 + (y[i] - at[1]) ** 2 + (z[i] - at[2]) ** 2
@@ -209,7 +241,7 @@ def count_still_steps(x, y, z, volume, smoothing_length, reference_position, ref
 
 @kernel
 def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
-    """Reset the still steps of all particles within reach of removed ones, in place."""
+    """Let particles at x, y [m] that feel those that have gone within a support [m] count as changed, in place."""
     for k in range(gone_x.size):
         for i in range(x.size):
             reach = max(support[i], gone_support[k])

@@ -47,8 +47,13 @@ class Particles:
         return self.volume.size, self.ever
 
     @property
-    def spread(self):
-        """Half-width of the hats in which they show on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
+    def surface_sample(self):
+        """Elevation, slopes and curvatures of the bed below, the arrays themselves in the order of `SurfaceSample`."""
+        return self.z, self.slope_x, self.slope_y, self.curvature_xx, self.curvature_xy, self.curvature_yy
+
+    @property
+    def half_width(self):
+        """Half-width of their hat functions on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
         return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:

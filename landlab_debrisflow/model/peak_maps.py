@@ -1,8 +1,8 @@
-"""Peak maps: the flow at nodes, now and at its peak. Fields and Datasets are made of this.
+"""Fields of the flow on the nodes: now, and at its peak. The maps are made of them.
 
 Peaks count where the flow is deeper than what counts as arrival: a node has arrival time, peak depth, peak speed and
-all the others, or none. The last 1e-32 m3 of a tent moves at full speed, too. Two of the peaks are what obstacles are
-designed for.
+all the others, or none. The last 1e-32 m3 of a hat function moves at full speed, too. Two of the peaks are what
+obstacles are designed for.
 
 **Impact pressure** is the dynamic pressure density x speed^2, in the mean over the volume at a node: the flux of
 momentum through a square metre across the flow. The empirical factor on it (1.5 for Hungr et al., 1984; 3 to 5 for
@@ -17,22 +17,60 @@ velocity that is towards the face, on the map, and the run-up there. At a wall a
 the bore it sends back. A depth-integrated flow has no jet: one could splash to impact pressure / (2 density g).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..core.jit import kernel
 from ..physics.contracts import WATER
-from ..spatial.transfer import Nodes, scatter
-from .kinematics import CLOSED
+from ..spatial.raster import CLOSED, Raster
+from ..spatial.transfer import scatter
 from .particles import Particles
 
-CURRENT = ("depth", "speed", "basal_excess_pore_pressure", "basal_peclet_number")
 UPDATE_FRACTION = 0.5
-"""Part of a node spacing that matter or waves may cross between two updates: no node is passed unseen."""
+"""Part of a node spacing that matter or waves may cross between two updates of the maps: no node is passed unseen."""
 
-PEAKS = (
-    "max_depth", "max_speed", "max_basal_pressure_ratio", "max_basal_peclet_number", "arrival_time",
-    "max_impact_pressure", "max_run_up",
-)  # fmt: skip
+
+class CurrentFields(NamedTuple):
+    """Fields of the flow now, each of shape (nodes,)."""
+
+    depth: np.ndarray  # [m]
+    speed: np.ndarray  # [m s-1]
+    basal_excess_pore_pressure: np.ndarray  # [Pa]
+    basal_peclet_number: np.ndarray  # [-]
+
+
+class PeakFields(NamedTuple):
+    """Fields of the peaks of the flow, each of shape (nodes,)."""
+
+    max_depth: np.ndarray  # [m]
+    max_speed: np.ndarray  # [m s-1]
+    max_basal_pressure_ratio: np.ndarray  # [-]
+    max_basal_peclet_number: np.ndarray  # [-]
+    arrival_time: np.ndarray  # [s], -1 where nothing came
+    max_impact_pressure: np.ndarray  # [Pa]
+    max_run_up: np.ndarray  # [m]
+
+
+class Matter(NamedTuple):
+    """Matter of n particles, and its motion."""
+
+    volume: np.ndarray  # (n,) [m3]
+    density: np.ndarray  # (n,) [kg m-3]
+    phase: np.ndarray  # (n,)
+    velocity: np.ndarray  # (3, n) [m s-1]
+    run_up: np.ndarray  # (n,) height of the surface above the lowest bed it has come over [m]
+
+
+class Base(NamedTuple):
+    """Base of n particles."""
+
+    pressure: np.ndarray  # (n,) excess pore pressure [Pa]
+    liquefaction_pressure: np.ndarray  # (n,) [Pa]
+    peclet_number: np.ndarray  # (n,) [-]
+
+
+CURRENT, PEAKS = CurrentFields._fields, PeakFields._fields
 
 PHASES = ("solid_depth", "solid_speed", "water_speed")
 """Shown besides, of grains and water, if they move by themselves."""
@@ -46,14 +84,11 @@ FACES = 4
 
 
 class PeakMaps:
-    """Writes node arrays; only nodes under the flow, and closed ones beside them, are looked at.
+    """Maps of the flow now and of its peaks; only nodes under the flow, and closed ones beside them, are looked at.
 
     Parameters
     ----------
-    nodes : Nodes
-        The raster.
-    status : ndarray, shape (nodes,)
-        Node statuses as Landlab numbers them.
+    raster : Raster
     fields : mapping of str to ndarray, shape (nodes,)
         Arrays named as in `CURRENT` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1
         where nothing came.
@@ -63,54 +98,58 @@ class PeakMaps:
         Of the event, now [s].
     """
 
-    def __init__(self, nodes: Nodes, status, fields, arrival_depth: float, time: float):
-        self._nodes, self._status, self._arrival_depth = nodes, status, arrival_depth
-        self._walled = bool(np.any(status == CLOSED))
-        self._now, self._peaks = [fields[name] for name in CURRENT], [fields[name] for name in PEAKS]
+    def __init__(self, raster: Raster, fields, arrival_depth: float, time: float):
+        self._raster, self._arrival_depth = raster, arrival_depth
+        self._walled = bool(np.any(raster.status == CLOSED))
+        self._current = CurrentFields(**{name: fields[name] for name in CURRENT})
+        self._peaks = PeakFields(**{name: fields[name] for name in PEAKS})
         self._phases = [fields[name] for name in PHASES if name in fields]
-        self._sums = np.zeros((nodes.core.size, TOWARDS + FACES * self._walled))
-        self._scratch = np.empty(nodes.core.size, np.int64)
+        self._sums = np.zeros((raster.status.size, TOWARDS + FACES * self._walled))
+        self._scratch = np.empty(raster.status.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last update
-        self._passed, self._then = (
-            0.0,
-            time,
-        )  # way of the fastest since then [m]; when that was last counted [s]
+        self._passed, self._then = 0.0, time  # way of the fastest since then [m]; when it was last counted [s]
 
     @property
     def under(self):
-        """Nodes that showed the flow at the last update."""
+        """Nodes that showed the flow at the last update, ndarray of int."""
         return self._under
 
     def is_due(self, time: float, fastest: float) -> bool:
         """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last update."""
         self._passed += fastest * (time - self._then)
         self._then = time
-        return self._passed > UPDATE_FRACTION * min(self._nodes.dx, self._nodes.dy)
+        return self._passed > UPDATE_FRACTION * self._raster.spacing
 
     def record(self, particles: Particles, density, time: float) -> None:
         """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
-        for field in self._now + self._phases:
+        for field in (*self._current, *self._phases):
             field[self._under] = 0.0
         if p.count == 0:
             self._under = self._under[:0]
             return
-        values = np.empty((p.count, self._sums.shape[1]))
-        _weight_by_volume(
-            self._walled, p.volume, p.velocity, p.basal_excess_pore_pressure, p.liquefaction_pressure,
-            p.basal_peclet_number, np.broadcast_to(density, p.count), p.z, p.lowest_z, p.depth, p.phase, values,
+        matter = Matter(
+            volume=p.volume, density=np.broadcast_to(density, p.count), phase=p.phase, velocity=p.velocity,
+            run_up=p.z - p.lowest_z + p.depth,
         )  # fmt: skip
-        self._under = scatter(self._nodes, p.x, p.y, p.spread, values, self._sums, self._scratch).copy()
+        base = Base(
+            pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
+            peclet_number=p.basal_peclet_number,
+        )  # fmt: skip
+        values = np.empty((p.count, self._sums.shape[1]))
+        _weight_by_volume(matter, base, self._walled, values)
+        self._under = scatter(self._raster, p.x, p.y, p.half_width, values, self._sums, self._scratch).copy()
         if self._walled:
-            least = self._arrival_depth * self._nodes.area
-            _record_walls(self._under, self._sums, least, self._nodes.columns, self._status, *self._peaks[-2:])
+            least = self._arrival_depth * self._raster.area
+            _record_walls(self._under, self._sums, least, self._raster, self._peaks)
         self._show_phases(self._under)
-        _record(self._under, self._sums, self._nodes.area, time, self._arrival_depth, *self._now, *self._peaks)
+        area = self._raster.area
+        _record(self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 
     def _show_phases(self, at):
         for field in self._phases[:1]:
             whole, way, grains, grain_way = self._sums[at].T[[VOLUME, WAY, GRAINS, GRAIN_WAY]]
-            field[at] = grains / self._nodes.area
+            field[at] = grains / self._raster.area
             self._phases[1][at] = np.divide(grain_way, grains, out=np.zeros(at.size), where=grains > 0.0)
             water = whole - grains
             left = np.maximum(way - grain_way, 0.0)
@@ -118,24 +157,34 @@ class PeakMaps:
 
     def clear(self) -> None:
         """Take depth and speed off the nodes; pressure and Péclet number stay as they were last."""
-        for field in self._now[:2] + self._phases:
+        for field in (*self._current[:2], *self._phases):
             field[self._under] = 0.0
         self._under = self._under[:0]
 
 
 @kernel
-def _weight_by_volume(
-    walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values
-):
-    """Write the quantities to be averaged over the volume at nodes, times volume."""
+def _weight_by_volume(matter, base, walled, values):
+    """Write what is averaged over the volume at the nodes, times volume [m3].
+
+    Parameters
+    ----------
+    matter : Matter
+    base : Base
+    walled : bool
+        Whether there are closed nodes: then impact towards their faces is written, too.
+    values : ndarray, shape (n, k)
+        Written; in the order of `VOLUME` and those that follow.
+    """
+    volume, density, phase, velocity, run_up = matter
+    pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
         m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
         grains = m if phase[i] != WATER else 0.0  # it is they that have pore pressure
         to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
-        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction[i]
-        to[PECLET] = grains * peclet[i]
-        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
+        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
+        to[PECLET] = grains * peclet_number[i]
+        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * run_up[i]
         if walled:
             momentum = m * density[i]
             to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
@@ -143,11 +192,24 @@ def _weight_by_volume(
 
 
 @kernel
-def _record_walls(at, sums, least, columns, status, max_impact, max_run_up):
-    """Record the peaks at closed nodes beside nodes with more than the `least` volume [m3]."""
-    rows = status.size // columns
-    for k in range(at.size):
-        n = at[k]
+def _record_walls(nodes, sums, least, raster, peaks):
+    """Record impact pressure [Pa] and run-up [m] on closed nodes beside those with more than a least volume [m3].
+
+    Parameters
+    ----------
+    nodes : ndarray of int, shape (k,)
+        Nodes under the flow.
+    sums : ndarray, shape (nodes, m)
+        Values times volume, in the order of `VOLUME` and those that follow.
+    least : float
+        [m3]
+    raster : Raster
+    peaks : PeakFields
+    """
+    status, columns, rows, _, _ = raster
+    max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
+    for k in range(nodes.size):
+        n = nodes[k]
         if not sums[n, VOLUME] > least:
             continue
         r, c = n // columns, n % columns
@@ -165,12 +227,28 @@ def _record_walls(at, sums, least, columns, status, max_impact, max_run_up):
 
 
 @kernel
-def _record(
-    at, sums, area, time, arrival_depth, depth, speed, pressure, peclet,
-    max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up,
-):  # fmt: skip
-    for k in range(at.size):
-        n = at[k]
+def _record(nodes, sums, area, time, arrival_depth, current, peaks):
+    """Record the flow now and its peaks at nodes under it, and clear their sums.
+
+    Parameters
+    ----------
+    nodes : ndarray of int, shape (k,)
+        Nodes under the flow.
+    sums : ndarray, shape (nodes, m)
+        Values times volume, in the order of `VOLUME` and those that follow; 0 at these nodes on return.
+    area : float
+        Map area of a node [m2].
+    time : float
+        [s]
+    arrival_depth : float
+        Depth that counts as arrival, and for the peaks [m].
+    current : CurrentFields
+    peaks : PeakFields
+    """
+    depth, speed, pressure, peclet = current
+    max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks
+    for k in range(nodes.size):
+        n = nodes[k]
         volume = sums[n, VOLUME]
         depth[n], speed[n] = volume / area, sums[n, WAY] / volume
         if sums[n, GRAINS] > 0.0:

@@ -5,9 +5,12 @@ a negligible part of the most it had, and friction holds most of it. Where most 
 on a counter-slope. What is arrested stays until a body that moves touches it, or the ground is changed by others.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..core.jit import inner, kernel
+from ..core.structs import struct
 from ..spatial.cells import sort_into_cells
 
 MOST_UNHELD = 0.5
@@ -18,6 +21,36 @@ STEPS_BETWEEN_SEPARATIONS = 32
 
 UNKNOWN = -1
 """Number of the body of a new particle."""
+
+
+@struct
+class Members(NamedTuple):
+    """Particles as members of bodies; the first ones are awake."""
+
+    body: np.ndarray  # (n,) int, number of the body
+    volume: np.ndarray  # (n,) [m3]
+    velocity: np.ndarray  # (3, n) [m s-1]
+    summed: np.ndarray  # (n,) bool: something in reach has changed in the last step
+    arrested: np.ndarray  # (n,) not 0 if its body was arrested
+    rest_speed: np.ndarray  # (n,) below which a particle that is being slowed comes to rest [m s-1]; written
+
+
+@struct
+class BodyEnergies(NamedTuple):
+    """Kinetic energies of bodies."""
+
+    volume: np.ndarray  # (bodies,) [m3]
+    energy: np.ndarray  # (bodies,) now [m5 s-2]; 0 before, written
+    peak: np.ndarray  # (bodies,) the most so far [m5 s-2], written
+
+
+class Spheres(NamedTuple):
+    """Neighbourhoods of n particles."""
+
+    x: np.ndarray  # (n,) position [m]
+    y: np.ndarray
+    z: np.ndarray
+    support: np.ndarray  # (n,) radius within which each feels others [m]
 
 
 class Bodies:
@@ -97,13 +130,15 @@ class Bodies:
         self.at_rest = free == 0
         return energy <= rest_energy * self.peak if slow else None
 
-    def _measure(self, p, part):
-        """Return the kinetic energy of each body [m5 s-2], and the results of the kernel `_measure`."""
+    def _measure(self, p, rest_energy: float):
+        """Return the kinetic energy of each body, and what `_measure` returns; the energy now counts for the most."""
         energy = np.zeros(self.peak.size)
-        return energy, *_measure(
-            p.awake, p.summed, p.volume, p.velocity, p.body, p.arrested, part, self.volume, energy, self.peak,
-            p.rest_speed,
+        members = Members(
+            body=p.body, volume=p.volume, velocity=p.velocity, summed=p.summed, arrested=p.arrested,
+            rest_speed=p.rest_speed,
         )  # fmt: skip
+        bodies = BodyEnergies(volume=self.volume, energy=energy, peak=self.peak)
+        return energy, *_measure(p.awake, members, bodies, rest_energy)
 
     def arrest(self, p, slow, held, prescribed) -> None:
         """Stop slow bodies that friction mostly holds, except particles of prescribed motion.
@@ -134,13 +169,27 @@ class Bodies:
 
 
 @kernel
-def _measure(awake, summed, volume, velocity, body, arrested, part, whole, energy, peak, rest_speed):
-    """Measure every body; return how many particles that are free to move are in slow ones, and how many there are.
+def _measure(awake, members, bodies, rest_energy):
+    """Measure the kinetic energy of every body, and the speed at which its particles come to rest.
 
-    Also whether anything has changed in reach of one that is arrested. Written are the kinetic energy of each body, the
-    most it had, and for every particle the speed at which a body has the part `part` of that: below it, one that is
-    being slowed comes to rest if friction holds it [m s-1].
+    Parameters
+    ----------
+    awake : int
+        Number of particles that are awake.
+    members : Members
+    bodies : BodyEnergies
+    rest_energy : float
+        Kinetic energy of a slow body over the most it had [-].
+
+    Returns
+    -------
+    slow, free : int
+        Number of particles that are free to move, in slow bodies and in all.
+    touched : bool
+        Whether anything has changed in reach of a particle that is arrested.
     """
+    body, volume, velocity, summed, arrested, rest_speed = members
+    body_volume, energy, peak = bodies
     for i in range(awake):
         energy[body[i]] += volume[i] * (velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
     for b in range(energy.size):
@@ -149,8 +198,8 @@ def _measure(awake, summed, volume, velocity, body, arrested, part, whole, energ
     for i in range(volume.size):
         if arrested[i] == 0:
             b = body[i]
-            least = part * peak[b]
-            rest_speed[i] = np.sqrt(least / whole[b])
+            least = rest_energy * peak[b]
+            rest_speed[i] = np.sqrt(least / body_volume[b])
             free += 1
             if energy[b] <= least:
                 slow += 1
@@ -178,12 +227,14 @@ def find_bodies(x, y, z, support):
     """
     cells = sort_into_cells(x, y, support)
     parent = np.arange(x.size)
-    _join(x, y, z, support, cells.columns, cells.order, cells.start, cells.window, parent)
+    spheres = Spheres(x=x, y=y, z=z, support=support)
+    _join(spheres, cells.columns, cells.order, cells.start, cells.window, parent)
     return np.unique(parent, return_inverse=True)[1]
 
 
 @inner
 def _root(parent, i):
+    """Return the particle that stands for the body of particle `i`; shorten the way to it."""
     while parent[i] != i:
         parent[i] = parent[parent[i]]
         i = parent[i]
@@ -191,12 +242,18 @@ def _root(parent, i):
 
 
 @inner
-def _join_cells(x, y, z, support, order, first, last, start, stop, parent):
-    """Join interacting particles of two cells; return whether the first cell is then of one body."""
+def _join_cells(spheres, order, one, other, parent):
+    """Join particles of two cells that feel each other; return whether those of the first one are then of one body.
+
+    A cell is the first place and the one after the last in `order`, int, shape (n,); `parent`, int, shape (n,), leads
+    from each particle to the one that stands for its body.
+    """
+    x, y, z, support = spheres
+    first, last = one
     for k in range(first, last):
         i = order[k]
         root = _root(parent, i)
-        for s in range(start, stop):
+        for s in range(other[0], other[1]):
             j = order[s]
             if parent[j] == root:
                 continue
@@ -205,30 +262,39 @@ def _join_cells(x, y, z, support, order, first, last, start, stop, parent):
                 met = _root(parent, j)
                 parent[max(met, root)] = min(met, root)
                 root = min(met, root)
-    root, one = _root(parent, order[first]), True
+    root, whole = _root(parent, order[first]), True
     for k in range(first + 1, last):
-        one &= _root(parent, order[k]) == root
-    return one
+        whole &= _root(parent, order[k]) == root
+    return whole
 
 
 @kernel
-def _join(x, y, z, support, columns, order, start, window, parent):
-    """Join interacting particles: write a particle of its body, one per body, for each of them."""
-    one = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
+def _join(spheres, columns, order, start, window, parent):
+    """Join particles that feel each other: write a particle that stands for its body for each of them.
+
+    Parameters
+    ----------
+    spheres : Spheres
+    columns, order, start, window
+        As in `spatial.cells.Cells`.
+    parent : ndarray of int, shape (n,)
+        Each particle itself, on entry.
+    """
+    whole = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
     for cell in range(start.size - 1):
         row, column, w = cell // columns, cell % columns, window[cell]
-        first, last = start[cell], start[cell + 1]
-        if first == last:
+        here = start[cell], start[cell + 1]
+        if here[0] == here[1]:
             continue
-        one[cell] = _join_cells(x, y, z, support, order, first, last, first, last, parent)
+        whole[cell] = _join_cells(spheres, order, here, here, parent)
         for r in range(row, max(row - w, 0) - 1, -1):
             for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
                 other = r * columns + q
                 if other >= cell or start[other] == start[other + 1]:  # a pair is looked at once
                     continue
-                if one[cell] and one[other] and _root(parent, order[first]) == _root(parent, order[start[other]]):
+                first, second = order[here[0]], order[start[other]]
+                if whole[cell] and whole[other] and _root(parent, first) == _root(parent, second):
                     continue
-                joined = _join_cells(x, y, z, support, order, first, last, start[other], start[other + 1], parent)
-                one[cell] = joined
+                whole[cell] = _join_cells(spheres, order, here, (start[other], start[other + 1]), parent)
     for i in range(parent.size):
         parent[i] = _root(parent, i)

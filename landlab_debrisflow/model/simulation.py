@@ -4,6 +4,7 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
+from ..spatial.raster import CLOSED
 from ..terrain.bed import Bed
 from . import activity, step
 from .basal import BasalLaw, ColumnPhysics, held_at_rest, present_profiles
@@ -11,7 +12,6 @@ from .bed_load import load_bed
 from .deposit import resting_depth
 from .diagnostics import Diagnostics
 from .inflow.source import Inflow
-from .kinematics import CLOSED
 from .numerics import Numerics
 from .particles import Particles
 from .phases.one_phase import OnePhaseDynamics
@@ -23,7 +23,6 @@ from .schedule import RunListener
 from .state import State
 from .time_step import viscous_share
 from .variables import particle_variables
-from .walls import Walls
 
 FIRST_SWEEPS = 8
 """Passes that make thickness and smoothing length agree after a release."""
@@ -44,7 +43,7 @@ class Simulation:
     state : State
         All that changes in a run but the bed: to go back is to put a copy of it here.
     phases : Phases
-    bed, status, walls, friction, erosion, columns, courant_number
+    bed, walls, friction, erosion, columns, courant_number
         What `set_bed` was given, and how the stages of a step want it.
     """
 
@@ -56,7 +55,7 @@ class Simulation:
         laws = (flow, physics.friction, physics.erosion, column, self.phases)
         particles = Particles(column.levels, particle_variables(column, laws))
         self.state = State(particles, inflow or Inflow())
-        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = self.courant_number = None
+        self.bed = self.walls = self.friction = self.erosion = self.columns = self.courant_number = None
 
     @property
     def particles(self) -> Particles:
@@ -78,25 +77,22 @@ class Simulation:
         """Cost of the run so far."""
         return self.state.counters.diagnostics
 
-    def set_bed(self, bed: Bed, status, parameters, changed: bool = True) -> None:
+    def set_bed(self, bed: Bed, parameters, changed: bool = True) -> None:
         """Put the flow on a bed for the call that follows.
 
         Parameters
         ----------
         bed : Bed
-        status : ndarray, shape (nodes,)
-            Node statuses as Landlab numbers them.
         parameters : mapping of str to NamedTuple
             For friction and erosion those parameters of the law that may vary in space (`core.parameters.on_nodes`).
         changed : bool
             Whether the terrain differs from what the last call left.
         """
-        material, spacing = self.physics.material, min(bed.nodes.dx, bed.nodes.dy)
+        material, raster = self.physics.material, bed.raster
         self.courant_number = self.numerics.courant_number * viscous_share(self.numerics.shock_viscosity)
-        self.bed, self.status = bed, status
-        self.walls = Walls(bed.nodes, status) if np.any(status == CLOSED) else None
+        self.bed, self.walls = bed, raster if np.any(raster.status == CLOSED) else None
         self.friction, self.erosion = (
-            BasalLaw(law, parameters[kind], material, spacing, getattr(law, "variables", ()))
+            BasalLaw(law, parameters[kind], material, raster.spacing, getattr(law, "variables", ()))
             for kind, law in (("friction", self.physics.friction), ("erosion", self.physics.erosion))
         )
         water_to_buoyant = material.bearing_density / material.buoyant_density
@@ -108,7 +104,7 @@ class Simulation:
 
     def begin(self, bed: Bed, given, listener: RunListener) -> None:
         """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
-        self.set_bed(bed, given.terrain.status, given.parameters, given.terrain.changed)
+        self.set_bed(bed, given.parameters, given.terrain.changed)
         if given.release.nodes.size:
             self.release(given.release.nodes, given.release.depth)
         listener.begun()
@@ -132,7 +128,7 @@ class Simulation:
             Vertical thickness that fails there [m].
         """
         state, p, material, bed = self.state, self.particles, self.physics.material, self.bed
-        new = release_particles(p, state.origins, nodes, depth, bed, self.status, self.phases, self.numerics)
+        new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.numerics)
         self._refresh(FIRST_SWEEPS)
         load_bed(p, bed.pore_pressure, material, self.time)
         p.excess_pore_pressure[new] = initial_profile(

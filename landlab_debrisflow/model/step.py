@@ -10,14 +10,15 @@ import numpy as np
 from ..core.errors import SimulationError
 from ..physics.contracts import FlowState, MixtureState, MixtureSums, Position, Smoothing
 from ..spatial.cells import sort_into_cells
+from ..spatial.raster import Raster
 from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import activity
 from .basal import BasalLaw, ColumnPhysics, basal_resistance, column_forcing, column_state, present_profiles
 from .bed_load import load_bed
 from .entrainment import entrain
-from .kinematics import count_still_steps, disturb, drift, follow_bed, stop_at_walls
+from .kinematics import NOWHERE, count_still_steps, disturb, drift, follow_bed, stop_at_walls
 from .time_step import StepLimits, reduce_particles
-from .walls import Walls, ghost_particles
+from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
 """Steps after which what did not change (`kinematics.STILL`) is left out of the sums over neighbours: the
@@ -39,7 +40,7 @@ def advance(simulation, dt: float) -> None:
     prescribed = inflow.prescribed(p)
     velocity_ratio = entrain(p, exchange, bed, simulation.erosion, phases, prescribed, state.time, dt)
     clock.lap(ENTRAINMENT)
-    move(p, bed, simulation.status, velocity_ratio, state.outflow, phases, state.time, dt)
+    move(p, bed, velocity_ratio, state.outflow, phases, state.time, dt)
     inflow.enter(p, bed.surface, columns, end)
     sample_bed(p, bed, material.gravity, dt)
     clock.lap(DRIFT)
@@ -58,27 +59,21 @@ def advance(simulation, dt: float) -> None:
     clock.lap(LIMITS)
 
 
-def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Walls | None, dt: float) -> None:
+def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float) -> None:
     """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time)."""
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
-        raster = walls.nodes
-        stop_at_walls(
-            p.awake, p.x, p.y, p.velocity, p.surface_sample, raster.dx, raster.dy, raster.columns, walls.status,
-            2.0 * dt, p.touched_wall,
-        )  # fmt: skip
+        stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
 
 
-def move(p, bed, status, velocity_ratio, outflow, phases, time: float, dt: float) -> None:
+def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> None:
     """Drift along the bed; particles over an open boundary are taken out and counted.
 
     Parameters
     ----------
     p : Particles
     bed : Bed
-    status : ndarray, shape (nodes,)
-        Node statuses as Landlab numbers them.
     velocity_ratio : ndarray, shape (awake,)
         Velocity after over velocity before entrainment [-].
     outflow : Outflow
@@ -91,15 +86,12 @@ def move(p, bed, status, velocity_ratio, outflow, phases, time: float, dt: float
     SimulationError
         If a position is not a number.
     """
-    nodes, awake = bed.nodes, slice(p.awake)
-    exit_node = np.empty(p.awake, np.int64)
+    awake = slice(p.awake)
     if p.entrained_volume[awake].any():  # the bed below has sunk: that is no fall of the flow
-        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake])[0]
-    drift(
-        p.x, p.y, p.z, p.velocity, velocity_ratio, nodes.dx, nodes.dy, nodes.columns, status, dt,
-        p.expected_elevation, exit_node, p.touched_wall,
-    )  # fmt: skip
-    if exit_node.size and exit_node.min() < NOWHERE:
+        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
+    position = p.x, p.y, p.z
+    exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
+    if exit_node.size and exit_node.min() == NOWHERE:
         place = int(np.argmin(exit_node))
         raise SimulationError("velocity", int(p.identity[place]), time, float(p.velocity[:, place].sum()))
     gone = np.flatnonzero(exit_node >= 0)
@@ -112,28 +104,27 @@ def move(p, bed, status, velocity_ratio, outflow, phases, time: float, dt: float
         p.keep(stay)
 
 
-NOWHERE = -1
-"""What `drift` calls the node over which a particle left that did not leave; less for one that is not a number."""
-
 NO_DRIFT = np.empty(0)
 
 
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
     before = p.z.copy() if dt == 0.0 else None
-    p.surface_sample = bed.surface.sample(p.x, p.y)
+    sample = np.empty(p.count), *p.surface_sample[1:]  # `follow_bed` moves z
+    bed.surface.sample_into(p.x, p.y, sample)
     expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
-    follow_bed(p.surface_sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
+    follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
     if dt == 0.0:  # nothing has moved but the bed: that is neither rise nor fall of the flow
         p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)
-    p.nearest_node = bed.nodes.nearest(p.x, p.y)
+    p.nearest_node = bed.raster.nearest(p.x, p.y)
+    position = p.x, p.y, p.z
     count_still_steps(
-        p.x, p.y, p.z, p.volume, p.smoothing_length, p.reference_position, p.reference_volume, p.still_steps
-    )
+        position, p.volume, p.smoothing_length, p.reference_position, p.reference_volume, p.still_steps
+    )  # fmt: skip
 
 
-def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls: Walls | None, time: float) -> None:
+def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls: Raster | None, time: float) -> None:
     """Sum over neighbours: slope-normal thickness, which the smoothing length follows, and thrust.
 
     Parameters
@@ -144,7 +135,8 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
     numerics : Numerics
     columns : ColumnPhysics
     inflow : Inflow
-    walls : Walls or None
+    walls : Raster or None
+        None: no node is closed.
     time : float
         To which columns of particles that are disturbed in their sleep catch up [s].
     """

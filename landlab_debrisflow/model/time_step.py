@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.arrays import value_at
 from ..core.jit import kernel
+from ..core.structs import struct
 
 TERRAIN_FRACTION = 0.5
 """Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
@@ -49,6 +51,37 @@ class StepLimits(NamedTuple):
     broken: int  # place of a particle that is not finite, or -1
 
 
+@struct
+class Waves(NamedTuple):
+    """Pressure waves and converging flow, at n particles."""
+
+    summed: np.ndarray  # (n,) bool: not summed ones can wait, for nothing near them moves
+    light: np.ndarray  # (n,) bool: much smaller than most
+    cosine: np.ndarray  # (n,) of the slope of the bed [-]
+    thickness: np.ndarray  # (n,) slope-normal thickness [m]
+    own_thickness: np.ndarray  # (n,) that of the particle's own phase [m]
+    thickening: np.ndarray  # (n,) -h div v [m s-1]
+    smoothing_length: np.ndarray  # (n,) [m]
+    stiffness: np.ndarray  # (n,) or (1,) square of the celerity that is not by weight [m2 s-2]
+
+
+@struct
+class Motion(NamedTuple):
+    """Motion of n particles."""
+
+    velocity: np.ndarray  # (3, n) [m s-1]
+    thrust: np.ndarray  # (3, n) acceleration by pressure [m s-2]
+    volume: np.ndarray  # (n,) that moves [m3]
+
+
+@struct
+class Growth(NamedTuple):
+    """Growth of n particles by erosion."""
+
+    rate: np.ndarray  # (n,) of erosion, per map area [m s-1]
+    depth: np.ndarray  # (n,) of the flow [m]
+
+
 def reduce_particles(particles, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF):
     """Return the `StepLimits` of all particles that are awake.
 
@@ -69,12 +102,16 @@ def reduce_particles(particles, gravity: float, courant_number: float, node_spac
         What else but weight adds to the square of the celerity [m2 s-2].
     """
     p = particles
-    waves, growth, across, energy, fastest, broken = _reduce(
-        p.awake, p.summed, p.cos_slope, gravity, TERRAIN_FRACTION * node_spacing, p.velocity, p.thrust, p.thickness,
-        p.own_thickness, p.thickening, stiff, p.smoothing_length, p.volume, p.basal_excess_pore_pressure,
-        p.entrainment_rate, p.depth, p.light,
+    waves = Waves(
+        summed=p.summed, light=p.light, cosine=p.cos_slope, thickness=p.thickness, own_thickness=p.own_thickness,
+        thickening=p.thickening, smoothing_length=p.smoothing_length, stiffness=stiff,
     )  # fmt: skip
-    longest = min(courant_number / max(waves, 1e-300), GROWTH / max(growth, 1e-300), across)
+    motion = Motion(velocity=p.velocity, thrust=p.thrust, volume=p.volume)
+    growth = Growth(rate=p.entrainment_rate, depth=p.depth)
+    wave_rate, growth_rate, across, energy, fastest, broken = _reduce(
+        p.awake, waves, motion, growth, p.basal_excess_pore_pressure, gravity, TERRAIN_FRACTION * node_spacing
+    )
+    longest = min(courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300), across)
     return StepLimits(longest, energy, fastest, broken)
 
 
@@ -84,11 +121,38 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow thickens 
 
 
 @kernel
-def _reduce(
-    count, summed, cosine, gravity, way, velocity, thrust, thickness, own_thickness, thickening, stiff,
-    smoothing_length, volume, pressure, entrainment_rate, depth, light,
-):  # fmt: skip
-    waves, growth, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
+def _reduce(count, waves, motion, growth, pressure, gravity, way):
+    """Reduce the particles that are awake to what limits the next step.
+
+    Parameters
+    ----------
+    count : int
+        Particles that are awake.
+    waves : Waves
+    motion : Motion
+    growth : Growth
+    pressure : ndarray, shape (n,)
+        Basal excess pore pressure [Pa].
+    gravity : float
+        [m s-2]
+    way : float
+        Longest way of a particle in a step [m].
+
+    Returns
+    -------
+    wave_rate : float
+        Highest rate at which waves and converging flow cross a smoothing length [s-1].
+    growth_rate : float
+        Highest rate of growth [s-1].
+    across : float
+        Shortest time in which a particle may go that way [s].
+    energy, fastest, broken
+        As in `StepLimits`.
+    """
+    summed, light, cosine, thickness, own_thickness, thickening, smoothing_length, stiffness = waves
+    velocity, thrust, volume = motion
+    erosion_rate, depth = growth
+    wave_rate, growth_rate, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
     most = 0.0
     for i in range(count):
         most = max(most, velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
@@ -100,17 +164,17 @@ def _reduce(
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if summed[i]:
-            fastest_wave = np.sqrt(celerity * celerity + stiff[min(i, stiff.size - 1)])
+            fastest_wave = np.sqrt(celerity * celerity + value_at(stiffness, i))
             converging = max(thickening[i], 0.0) / own_thickness[i]
             if light[i]:
                 converging = min(converging, most / smoothing_length[i])
-            waves = max(waves, fastest_wave / smoothing_length[i] + converging)
+            wave_rate = max(wave_rate, fastest_wave / smoothing_length[i] + converging)
         # v dt + 1/2 a dt^2 within the way, also of those that wait: with the most that thrust and gravity, or friction,
         # can do, so that stopping is resolved to that way, too
         gain = gravity + np.sqrt(push2)
         across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
         if not light[i]:
-            growth = max(growth, entrainment_rate[i] / depth[i])
+            growth_rate = max(growth_rate, erosion_rate[i] / depth[i])
         energy += volume[i] * speed2
         fastest = max(fastest, speed + celerity)
-    return waves, growth, across, energy, fastest, broken
+    return wave_rate, growth_rate, across, energy, fastest, broken

@@ -47,10 +47,11 @@ PARTICLE_VARIABLES = (
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
     # what the stages of a step hand on to each other
     Variable("nearest_node", "-", "node nearest to it", "i8", 0, written=False, scratch=True),
-    Variable(
-        "surface_sample", "-", "the bed below, as `Surface.sample` returns it", written=False, scratch=True,
-        components=6,
-    ),
+    Variable("slope_x", "-", "slope dz/dx of the bed below", written=False, scratch=True),
+    Variable("slope_y", "-", "slope dz/dy of the bed below", written=False, scratch=True),
+    Variable("curvature_xx", "m-1", "second derivative d2z/dx2 of the bed below", written=False, scratch=True),
+    Variable("curvature_xy", "m-1", "second derivative d2z/dxdy of the bed below", written=False, scratch=True),
+    Variable("curvature_yy", "m-1", "second derivative d2z/dy2 of the bed below", written=False, scratch=True),
     Variable("cos_slope", "-", "cosine of the slope of the bed below", initial=1.0, written=False, scratch=True),
     Variable("expected_elevation", "m", "elevation at which the kicks leave it", written=False, scratch=True),
     Variable("summed", "-", "whether its sums over neighbours were done in this step", bool, False, written=False,

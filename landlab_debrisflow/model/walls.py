@@ -4,25 +4,16 @@ Without ghosts the sums over neighbours miss half of them at a wall: thickness c
 flow is pushed against it. The faces of closed nodes are the walls, so each ghost is in x, in y, or in both.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..core.jit import kernel
 from ..physics.contracts import FlowState, Position, Smoothing
+from ..spatial.raster import CLOSED, Raster, nearest_place
 from ..spatial.summation import SMOOTHING_RATIO
-from ..spatial.transfer import Nodes
-from .kinematics import CLOSED, stop_at_walls
+from .kinematics import stop_at_walls
 
 
-class Walls(NamedTuple):
-    """Closed nodes, of which there is at least one."""
-
-    nodes: Nodes
-    status: np.ndarray  # (nodes,) as Landlab numbers them
-
-
-def ghost_particles(state: FlowState, changed, walls: Walls, touched):
+def ghost_particles(state: FlowState, changed, walls: Raster, touched):
     """Append the ghosts of particles that walls within their support make: their mirror images.
 
     Parameters
@@ -30,7 +21,8 @@ def ghost_particles(state: FlowState, changed, walls: Walls, touched):
     state : FlowState
     changed : ndarray of bool, shape (n,)
         Which particles have changed.
-    walls : Walls
+    walls : Raster
+        With at least one closed node.
     touched : ndarray of int8, shape (n,)
         Set to 1 for those that move towards or along a wall within their own spacing of it, not away from it.
 
@@ -39,15 +31,12 @@ def ghost_particles(state: FlowState, changed, walls: Walls, touched):
     FlowState, ndarray
         The same with ghosts behind the n particles; the arrays given if there is none.
     """
-    nodes, status, position = walls.nodes, walls.status, state.position
-    support = 2.0 * state.smoothing.length
-    rows = status.size // nodes.columns
-    at = position.x, position.y, support, nodes.dx, nodes.dy, nodes.columns, rows, status
-    count = _find(*at, _NONE, _NOWHERE)
+    position, support = state.position, 2.0 * state.smoothing.length
+    count = _find(position.x, position.y, support, walls, _NONE, _NOWHERE)
     if count == 0:
         return state, changed
     source, wall = np.empty(count, np.int64), np.empty((2, count))
-    _find(*at, source, wall)
+    _find(position.x, position.y, support, walls, source, wall)
     x, y, velocity = position.x[source], position.y[source], state.velocity[:, source]
     gap, moving = wall - np.array([x, y]), velocity.copy()
     for axis, place in enumerate((x, y)):
@@ -75,18 +64,14 @@ def ghost_particles(state: FlowState, changed, walls: Walls, touched):
     return ghosts, both(changed)
 
 
-def bear(x, y, pull, sample, walls: Walls | None) -> None:
-    """Reduce the pull (3, n) on particles at rest by the reaction of walls, in place; `sample` (6, n) is their bed."""
+def bear(x, y, pull, sample, walls: Raster | None) -> None:
+    """Take away what walls bear of the pull on particles at rest, shape (3, n) [m s-2], in place."""
     if walls is None:
         return
-    nodes = walls.nodes
     size = np.sqrt((pull**2).sum(axis=0))
-    pull *= TOUCHING * min(nodes.dx, nodes.dy) / np.maximum(size, 1e-300)
-    stop_at_walls(
-        size.size, np.ascontiguousarray(x), np.ascontiguousarray(y), pull, sample, nodes.dx, nodes.dy, nodes.columns,
-        walls.status, 1.0, np.zeros(size.size, np.int8),
-    )  # fmt: skip
-    pull *= size / (TOUCHING * min(nodes.dx, nodes.dy))
+    pull *= TOUCHING * walls.spacing / np.maximum(size, 1e-300)
+    stop_at_walls(x, y, pull, sample, walls, 1.0, np.zeros(size.size, np.int8))
+    pull *= size / (TOUCHING * walls.spacing)
 
 
 TOUCHING = 1e-3
@@ -103,17 +88,19 @@ _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 
 @kernel
-def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
-    """Count the ghosts; write their particles and the walls in x and y [m], NaN for none, if there is room.
+def _find(x, y, support, raster, source, wall):
+    """Return the number of ghosts of particles at x, y with a support [m], and write them if there is room.
+
+    Written are the particle of each, shape (k,), and the coordinates of its walls, shape (2, k) [m], NaN for none.
 
     A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. In a
     corner a particle and its three ghosts in one place would sum to more than any smoothing length can make up for.
     """
+    status, columns, rows, dx, dy = raster
     found = 0
     wx, wy = np.empty(3), np.empty(3)
     for i in range(x.size):
-        r = min(max(int(np.floor(y[i] / dy + 0.5)), 0), rows - 1)
-        c = min(max(int(np.floor(x[i] / dx + 0.5)), 0), columns - 1)
+        r, c = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
         wx[0] = wy[0] = np.nan
         nx = ny = 1
         least = 0.25 * SPACING * support[i]

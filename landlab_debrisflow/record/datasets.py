@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 
 from ..grid.fields import NODE_FIELDS
-from ..model.kinematics import CLOSED
 from ..physics.column.diagnostics import consolidation_time, erosion_time
+from ..spatial.raster import CLOSED
 from .attributes import (  # fmt: skip
     NO_FILL,
     OF_A_MOMENT,

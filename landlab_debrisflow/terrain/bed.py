@@ -6,12 +6,37 @@ Values of the beginning are kept when a node is first lowered: a large raster co
 """
 
 from copy import copy
+from typing import NamedTuple
 
 import numpy as np
 
+from ..core.arrays import value_at
 from ..core.jit import kernel
-from ..spatial.transfer import MOST_NODES, Nodes, scatter, weigh
+from ..core.structs import struct
+from ..spatial.raster import CORE, FIXED_VALUE, Raster
+from ..spatial.transfer import MOST_NODES, hat_weights, scatter
 from .surface import Surface
+
+
+@struct
+class NodeAccounts(NamedTuple):
+    """Accounts of soil at the nodes of a raster, changed in place."""
+
+    soil: np.ndarray  # (nodes,) erodible depth [m]
+    elevation: np.ndarray  # (nodes,) [m]
+    eroded_depth: np.ndarray  # (nodes,) [m]
+    taken: np.ndarray  # (nodes,) depth eroded in this call [m]
+    before: np.ndarray  # (3, nodes) the first three at the beginning of the call, of nodes that were lowered [m]
+    pressure_ratio: np.ndarray  # (nodes,) or (1,) pore pressure ratio of the soil [-]; is read only
+
+
+@struct
+class Demand(NamedTuple):
+    """Demand for soil at the nodes of a raster: scratch of an erosion."""
+
+    volume: np.ndarray  # (nodes,) soil asked for [m3]; 0 before and after
+    granted: np.ndarray  # (nodes,) part of it that is there [-]
+    touched: np.ndarray  # (nodes,) int, the nodes with a demand
 
 
 class Bed:
@@ -19,8 +44,7 @@ class Bed:
 
     Parameters
     ----------
-    nodes : Nodes
-        The raster.
+    raster : Raster
     surface : Surface
         Kept in step with `elevation`.
     elevation : ndarray, shape (nodes,)
@@ -40,17 +64,17 @@ class Bed:
     """
 
     def __init__(
-        self, nodes: Nodes, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None,
+        self, raster: Raster, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None,
         pore_pressure=None, earlier=None,
     ):  # fmt: skip
-        self.nodes, self.surface, self.elevation, self.soil = nodes, surface, elevation, soil
+        self.raster, self.surface, self.elevation, self.soil = raster, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
         self.drained, self.pore_pressure = drained, pore_pressure
         self._earlier = earlier
         self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
         self.taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._demand = np.zeros((elevation.size, 1))
-        self._share = np.empty(elevation.size)
+        self._granted = np.empty(elevation.size)
         self._touched = np.empty(elevation.size, np.int64)
 
     def copy(self) -> "Bed":
@@ -79,52 +103,50 @@ class Bed:
         **others
             As for the class.
         """
-        core = np.zeros(elevation.shape, bool)
-        core[1:-1, 1:-1] = True
-        nodes = Nodes(core.ravel(), elevation.shape[1], *map(float, spacing))
+        status = np.full(elevation.shape, FIXED_VALUE)
+        status[1:-1, 1:-1] = CORE
         eroded = others.pop("eroded_depth", np.zeros(elevation.size))
         soil = None if soil is None else soil.reshape(-1)
-        surface = Surface(elevation, spacing)
-        return cls(nodes, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
+        raster, surface = Raster.from_status(status, spacing), Surface(elevation, spacing)
+        return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
-    def erode(self, x, y, spread, wanted):
+    def erode(self, x, y, half_width, demanded):
         """Take the demanded soil for particles; particles at one node divide the soil left there.
 
         Parameters
         ----------
-        x, y, spread : ndarray, shape (n,)
-            Position and tent half-width of each particle [m].
-        wanted : ndarray, shape (n,)
+        x, y, half_width : ndarray, shape (n,)
+            Position and half-width of each particle [m].
+        demanded : ndarray, shape (n,)
             Volume asked for [m3].
 
         Returns
         -------
-        granted : ndarray, shape (n,)
-            Volume given [m3], at most `wanted`.
+        entrained : ndarray, shape (n,)
+            Volume given [m3], at most `demanded`.
         ratio : ndarray, shape (n,)
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
-        granted, ratio = np.zeros(x.size), np.zeros(x.size)
         if self.soil is None:
-            return granted, ratio
-        nodes = self.nodes
-        count = _erode(
-            nodes.core, nodes.columns, nodes.dx, nodes.dy, x, y, spread, wanted, self._before, self.pressure_ratio,
-            self._demand[:, 0], self._share, self._touched, self.taken, self.soil, self.elevation,
-            self.eroded_depth, granted, ratio,
+            return np.zeros(x.size), np.zeros(x.size)
+        accounts = NodeAccounts(
+            soil=self.soil, elevation=self.elevation, eroded_depth=self.eroded_depth, taken=self.taken,
+            before=self._before, pressure_ratio=self.pressure_ratio,
         )  # fmt: skip
+        demand = Demand(volume=self._demand[:, 0], granted=self._granted, touched=self._touched)
+        count, entrained, ratio = _erode(self.raster, x, y, half_width, demanded, accounts, demand)
         at = self._touched[:count]
         self.surface.move_to(at, self.elevation[at])
-        return granted, ratio
+        return entrained, ratio
 
     def eroded_in_event(self, nodes):
         """Return the depth eroded at some nodes since the event began [m]."""
         return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
-    def depth_of(self, x, y, spread, volume):
+    def depth_of(self, x, y, half_width, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""
-        at = scatter(self.nodes, x, y, spread, volume[:, None], self._demand, self._touched).copy()
-        depth = self._demand[at, 0] / self.nodes.area
+        at = scatter(self.raster, x, y, half_width, volume[:, None], self._demand, self._touched).copy()
+        depth = self._demand[at, 0] / self.raster.area
         self._demand[at, 0] = 0.0
         return at, depth
 
@@ -137,38 +159,56 @@ class Bed:
 
 
 @kernel
-def _erode(
-    core, columns, dx, dy, x, y, spread, wanted, before, pressure_ratio, demand, share, touched, taken,
-    soil, elevation, eroded_depth, granted, ratio,
-):  # fmt: skip
-    """Add up the demand on every node, grant it as far as there is soil, lower the node; return the number of nodes."""
+def _erode(raster, x, y, half_width, demanded, accounts, demand):
+    """Add up the demand for soil at every node, grant it as far as there is soil, and lower the node.
+
+    Parameters
+    ----------
+    raster : Raster
+    x, y, half_width : ndarray, shape (n,)
+        Position and half-width of the hat functions [m].
+    demanded : ndarray, shape (n,)
+        Volume asked for [m3].
+    accounts : NodeAccounts
+    demand : Demand
+
+    Returns
+    -------
+    count : int
+        Number of nodes touched.
+    entrained, ratio : ndarray, shape (n,)
+        Volume given to each particle [m3] and its pore pressure ratio [-].
+    """
+    soil, elevation, eroded_depth, taken, before, pressure_ratio = accounts
+    volume, granted, touched = demand
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
-    found, area = 0, dx * dy
+    entrained, ratio = np.zeros(x.size), np.zeros(x.size)
+    found, area = 0, raster.dx * raster.dy
     for i in range(x.size):
-        if wanted[i] > 0.0:
-            for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
+        if demanded[i] > 0.0:
+            for k in range(hat_weights(raster, x[i], y[i], half_width[i], index, weight)):
                 node = index[k]
-                if demand[node] == 0.0:
+                if volume[node] == 0.0:
                     touched[found] = node
                     found += 1
-                demand[node] += weight[k] * wanted[i]
+                volume[node] += weight[k] * demanded[i]
     for k in range(found):
         node = touched[k]
         if taken[node] == 0.0:
             before[0, node], before[1, node], before[2, node] = soil[node], elevation[node], eroded_depth[node]
-        share[node] = min(1.0, (before[0, node] - taken[node]) * area / demand[node])
-        taken[node] = min(taken[node] + share[node] * demand[node] / area, before[0, node])
+        granted[node] = min(1.0, (before[0, node] - taken[node]) * area / volume[node])
+        taken[node] = min(taken[node] + granted[node] * volume[node] / area, before[0, node])
         soil[node] = before[0, node] - taken[node]
         elevation[node] = before[1, node] - taken[node]
         eroded_depth[node] = before[2, node] + taken[node]
-        demand[node] = 0.0
+        volume[node] = 0.0
     for i in range(x.size):
-        if wanted[i] > 0.0:
-            part, pressure = 0.0, 0.0
-            for k in range(weigh(core, columns, dx, dy, x[i], y[i], spread[i], index, weight)):
-                got = weight[k] * share[index[k]]
-                part += got
-                pressure += got * pressure_ratio[min(index[k], pressure_ratio.size - 1)]
-            granted[i] = wanted[i] * part
-            ratio[i] = pressure / part if part > 0.0 else 0.0
-    return found
+        if demanded[i] > 0.0:
+            fraction, pressure = 0.0, 0.0
+            for k in range(hat_weights(raster, x[i], y[i], half_width[i], index, weight)):
+                given = weight[k] * granted[index[k]]
+                fraction += given
+                pressure += given * value_at(pressure_ratio, index[k])
+            entrained[i] = demanded[i] * fraction
+            ratio[i] = pressure / fraction if fraction > 0.0 else 0.0
+    return found, entrained, ratio

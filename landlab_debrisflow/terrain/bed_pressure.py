@@ -9,11 +9,33 @@ Only nodes that the flow lies on, or has just left, are looked at; all others dr
 """
 
 from copy import copy
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.jit import kernel
-from ..spatial.transfer import Nodes, scatter
+from ..core.structs import struct
+from ..spatial.raster import Raster
+from ..spatial.transfer import scatter
+
+
+@struct
+class BedResponse(NamedTuple):
+    """Response of the pore pressure of the bed to a load."""
+
+    loading: float  # B [-]
+    drainage_time: float  # T [s]
+    area: float  # map area of a node [m2]
+
+
+@struct
+class NodePressure(NamedTuple):
+    """Pore pressure of the bed at the nodes of a raster, changed in place."""
+
+    pressure: np.ndarray  # (nodes,) excess pore pressure [Pa]
+    ratio: np.ndarray  # (nodes,) pressure over that at which the bed liquefies, r_b [-]
+    load: np.ndarray  # (nodes,) L [Pa]
+    age: np.ndarray  # (nodes,) time to which they were brought, since the start [s]
 
 
 class BedPressure:
@@ -21,8 +43,7 @@ class BedPressure:
 
     Parameters
     ----------
-    nodes : Nodes
-        The raster.
+    raster : Raster
     pressure : ndarray, shape (nodes,)
         Excess pore pressure now [Pa], >= 0, changed in place.
     loading : float
@@ -33,10 +54,10 @@ class BedPressure:
         Now [s].
     """
 
-    def __init__(self, nodes: Nodes, pressure, loading: float, drainage_time: float, time: float):
-        self._nodes, self._pressure, self._start = nodes, pressure, time
+    def __init__(self, raster: Raster, pressure, loading: float, drainage_time: float, time: float):
+        self._raster, self._pressure, self._start = raster, pressure, time
         self._loading, self._drainage_time = loading, drainage_time
-        count = nodes.core.size
+        count = raster.status.size
         self.ratio = np.zeros(count)  # r_b; 0 where there is no flow [-]
         self._load = np.zeros(count)  # [Pa]
         self._age = np.zeros(count)  # time to which `pressure` was brought, since the start [s]
@@ -49,29 +70,28 @@ class BedPressure:
         other.ratio, other._load, other._age = self.ratio.copy(), self._load.copy(), self._age.copy()
         return other
 
-    def carry(self, x, y, spread, force, time: float, dt: float) -> None:
+    def carry(self, x, y, half_width, force, time: float, dt: float) -> None:
         """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
 
         Parameters
         ----------
-        x, y, spread : ndarray, shape (n,)
-            Position and tent half-width of each particle [m].
+        x, y, half_width : ndarray, shape (n,)
+            Position and half-width of each particle [m].
         force : ndarray, shape (n, 2)
             What it presses on the bed with, slope-normal stress times map area: all, and less what pore water
             bears [N].
         """
-        self._bear(x, y, spread, force, time, dt, self._loading)
+        self._bear(x, y, half_width, force, time, dt, self._loading)
 
-    def stand(self, x, y, spread, force, time: float) -> None:
+    def stand(self, x, y, half_width, force, time: float) -> None:
         """Note the load on the bed at the start, which raises no pressure."""
-        self._bear(x, y, spread, force, time, 0.0, 0.0)
+        self._bear(x, y, half_width, force, time, 0.0, 0.0)
 
-    def _bear(self, x, y, spread, force, time, dt, loading):
-        at = scatter(self._nodes, x, y, spread, force, self._sums, self._scratch).copy()
-        _respond(
-            self._under, at, self._sums, self._nodes.area, loading, self._drainage_time, time - self._start, dt,
-            self._age, self._load, self._pressure, self.ratio,
-        )  # fmt: skip
+    def _bear(self, x, y, half_width, force, time, dt, loading):
+        at = scatter(self._raster, x, y, half_width, force, self._sums, self._scratch).copy()
+        response = BedResponse(loading=loading, drainage_time=self._drainage_time, area=self._raster.area)
+        nodes = NodePressure(pressure=self._pressure, ratio=self.ratio, load=self._load, age=self._age)
+        _respond(self._under, at, self._sums, response, nodes, time - self._start, dt)
         self._under = at
 
     def drain(self, time: float, nodes: slice) -> None:
@@ -95,20 +115,34 @@ class BedPressure:
 
 
 @kernel
-def _respond(left, at, sums, area, loading, drainage_time, age, dt, ages, load, pressure, ratio):
-    """Bring nodes the flow has `left`, if it has, and those it is `at` to the present; clear their sums."""
-    part = dt / drainage_time
-    kept = np.exp(-part)
-    gained = loading * (-np.expm1(-part) / part if part > 0.0 else 1.0)
-    for k in range(left.size + at.size):
-        n = left[k] if k < left.size else at[k - left.size]
+def _respond(left, reached, sums, response, nodes, age, dt):
+    """Bring the pore pressure of the bed to the present, and clear the sums.
+
+    Parameters
+    ----------
+    left, reached : ndarray of int, shape (k,)
+        Nodes with flow before the step, of which some may still have it, and nodes with flow now.
+    sums : ndarray, shape (nodes, 2)
+        Force on the bed, all and less what pore water bears [N]; 0 where there is no flow.
+    response : BedResponse
+    nodes : NodePressure
+    age, dt : float
+        Time since the start, and length of the step that ends now [s].
+    """
+    loading, drainage_time, area = response
+    pressure, ratio, load, ages = nodes
+    drained = dt / drainage_time
+    kept = np.exp(-drained)
+    gained = loading * (-np.expm1(-drained) / drained if drained > 0.0 else 1.0)
+    for k in range(left.size + reached.size):
+        n = left[k] if k < left.size else reached[k - left.size]
         if k < left.size and sums[n, 0] > 0.0:
             continue
         idle = age - dt - ages[n]  # under the same load since it was last looked at
         if idle > 0.0:
             pressure[n] *= np.exp(-idle / drainage_time)
-        now, liquefied = sums[n, 0] / area, sums[n, 1] / area
-        pressure[n] = max(0.0, pressure[n] * kept + gained * (now - load[n]))
-        load[n], ages[n] = now, age
+        new_load, liquefied = sums[n, 0] / area, sums[n, 1] / area
+        pressure[n] = max(0.0, pressure[n] * kept + gained * (new_load - load[n]))
+        load[n], ages[n] = new_load, age
         ratio[n] = min(1.0, pressure[n] / liquefied) if liquefied > 0.0 else 0.0
         sums[n, 0], sums[n, 1] = 0.0, 0.0

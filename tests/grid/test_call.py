@@ -100,6 +100,6 @@ def test_what_the_model_gets_of_statuses_is_its_own():
     flow = build("eroding")
     flow.run_one_step(1.0)
     flow.grid.status_at_node[flow.grid.x_of_node > 250.0] = flow.grid.BC_NODE_IS_CLOSED
-    assert not np.any(flow._simulation.status == 4)
+    assert not np.any(flow._simulation.bed.raster.status == 4)
     flow.run_one_step(1.0)
-    assert np.any(flow._simulation.status == 4)
+    assert np.any(flow._simulation.bed.raster.status == 4)

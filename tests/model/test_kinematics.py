@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.model.kinematics import kick
+from landlab_debrisflow.model.kinematics import Resistance, kick
+from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G = 9.81
 
@@ -17,13 +18,10 @@ def kicked(velocity, yield_stress, drag, mass, dt=0.1):
     kick(
         state,
         np.zeros((3, 1)),
-        ground,
+        SurfaceSample(*ground),
         one / np.sqrt(2.0),
-        yield_stress * one,
-        drag * one,
-        mass * one,
+        Resistance(yield_stress=yield_stress * one, drag=drag * one, mass=mass * one, rest_speed=np.zeros(1)),
         G,
-        np.zeros(1),
         dt,
     )
     return state[:, 0]

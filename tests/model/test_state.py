@@ -7,7 +7,6 @@ import xarray as xr
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.inflow.hydrograph import Hydrograph
 from landlab_debrisflow.model.inflow.source import Inflow
-from landlab_debrisflow.model.kinematics import CORE
 from landlab_debrisflow.model.numerics import Numerics
 from landlab_debrisflow.model.simulation import Simulation
 from landlab_debrisflow.record.files import write_dataset
@@ -59,14 +58,12 @@ def build(scene, particles=60):
 
 def call(simulation, terrain, seconds, failing=None, changed=False):
     """Do what a call does, on arrays: a bed, perhaps a release, and a run."""
-    status = np.full(SHAPE, 1)
-    status[1:-1, 1:-1] = CORE
     if failing is not None:
         terrain.elevation[failing] -= 1.0
     bed = terrain.bed()
     simulation.inflow.aim(bed.surface)
     laws = {"friction": simulation.physics.friction, "erosion": simulation.physics.erosion}
-    simulation.set_bed(bed, status.ravel(), {kind: on_nodes(law, {}) for kind, law in laws.items()}, changed)
+    simulation.set_bed(bed, {kind: on_nodes(law, {}) for kind, law in laws.items()}, changed)
     if failing is not None:
         nodes = np.flatnonzero(failing)
         simulation.release(nodes, np.ones(nodes.size))

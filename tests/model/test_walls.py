@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.model.kinematics import CLOSED
-from landlab_debrisflow.model.walls import Walls, ghost_particles
+from landlab_debrisflow.model.walls import ghost_particles
 from landlab_debrisflow.physics.contracts import FlowState, Position, Smoothing
 from landlab_debrisflow.physics.flow import OnePhase
 from landlab_debrisflow.spatial.cells import sort_into_cells
+from landlab_debrisflow.spatial.raster import CLOSED, Raster
 from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, Sums
-from landlab_debrisflow.spatial.transfer import Nodes
 
 ROWS, COLUMNS, D = 9, 11, 5.0
 WEST, SOUTH = 0.5 * D, 0.5 * D  # faces of the closed rim [m]
@@ -19,7 +18,7 @@ def raster(closed="rim"):
     status = np.zeros((ROWS, COLUMNS), np.int64)
     if closed == "rim":
         status[[0, -1]] = status[:, [0, -1]] = CLOSED
-    return Nodes((status == 0).ravel(), COLUMNS, D, D), status.ravel()
+    return Raster.from_status(status, (D, D))
 
 
 def state(x, y, velocity=None, longest=1e9):
@@ -36,14 +35,14 @@ def reflect(flow, changed=None):
     n = flow.position.x.size
     touched = np.zeros(n, np.int8)
     changed = np.ones(n, bool) if changed is None else changed
-    return *ghost_particles(flow, changed, Walls(*raster()), touched), touched
+    return *ghost_particles(flow, changed, raster(), touched), touched
 
 
 def test_away_from_walls_nothing_is_touched():
     flow, changed = state(np.array([20.0, 30.0]), np.array([20.0, 25.0])), np.ones(2, bool)
     for closed in ("rim", "nothing"):
         touched = np.zeros(2, np.int8)
-        same, also = ghost_particles(flow, changed, Walls(*raster(closed)), touched)
+        same, also = ghost_particles(flow, changed, raster(closed), touched)
         assert same is flow and also is changed and not touched.any()
 
 

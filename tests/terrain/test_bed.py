@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.spatial.transfer import Nodes
+from landlab_debrisflow.spatial.raster import CLOSED, CORE, Raster
 from landlab_debrisflow.terrain.bed import Bed
 from landlab_debrisflow.terrain.surface import Surface
 
@@ -12,13 +12,14 @@ AREA = DX * DY
 
 
 def make_bed(soil, ratio=None):
-    core = np.zeros(SHAPE, bool)
-    core[1:-1, 1:-1] = True
-    elevation = 100.0 + np.random.default_rng(1).normal(0.0, 1.0, core.size)
-    soil = None if soil is None else np.broadcast_to(np.asarray(soil, float), core.size).copy()
-    ratio = np.full(core.size, 0.65) if ratio is None else ratio
+    status = np.full(SHAPE, CLOSED)
+    status[1:-1, 1:-1] = CORE
+    size = status.size
+    elevation = 100.0 + np.random.default_rng(1).normal(0.0, 1.0, size)
+    soil = None if soil is None else np.broadcast_to(np.asarray(soil, float), size).copy()
+    ratio = np.full(size, 0.65) if ratio is None else ratio
     surface = Surface(elevation.reshape(SHAPE), (DX, DY))
-    return Bed(Nodes(core.ravel(), SHAPE[1], DX, DY), surface, elevation, soil, np.zeros(core.size), ratio)
+    return Bed(Raster.from_status(status, (DX, DY)), surface, elevation, soil, np.zeros(size), ratio)
 
 
 @pytest.fixture
@@ -84,7 +85,7 @@ def test_boundary_nodes_are_left_alone(crowd):
     before = bed.elevation.copy()
     bed.erode(*crowd, np.full(40, 0.1))
     bed.lay_down(*bed.depth_of(*crowd, np.full(40, 0.1)))
-    rim = ~bed.nodes.core
+    rim = ~bed.raster.core
     np.testing.assert_array_equal(bed.elevation[rim], before[rim])
     assert np.all(bed.soil[rim] == 1.0)
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from landlab_debrisflow.spatial.transfer import Nodes
+from landlab_debrisflow.spatial.raster import CLOSED, CORE, Raster
 from landlab_debrisflow.terrain.bed_pressure import BedPressure
 
 SHAPE, SPACING = (5, 6), 2.0
@@ -18,11 +18,11 @@ class OnOneNode:
     """A column of debris as large as a cell, on a node or away."""
 
     def __init__(self, loading=B, drainage_time=T, start=100.0, pressure=0.0):
-        core = np.zeros(SHAPE, bool)
-        core[1:-1, 1:-1] = True
-        nodes = Nodes(core.ravel(), SHAPE[1], SPACING, SPACING)
-        self.pressure = np.full(core.size, pressure)
-        self.bed = BedPressure(nodes, self.pressure, loading, drainage_time, start)
+        status = np.full(SHAPE, CLOSED)
+        status[1:-1, 1:-1] = CORE
+        raster = Raster.from_status(status, (SPACING, SPACING))
+        self.pressure = np.full(status.size, pressure)
+        self.bed = BedPressure(raster, self.pressure, loading, drainage_time, start)
         self.start = self.time = start
 
     def after(self, dt, load, node=HERE, stand=False):

@@ -111,13 +111,14 @@ def test_grains_pores_and_momentum_are_what_they_were_with_what_came_in(monkeypa
 def test_by_hand():
     """3 m3 of porosity .4 take up 1 m3 of porosity .2: n = .35 and rho = .65 * 2650 + .35 * 1000 = 2072.5 kg/m3."""
     one = np.ones(1)
-    volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(4)]
+    volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(3)]
     out[1][:] = np.nan
-    entrainment._mix(
-        1.0 * one, 1.0, 0.5, 7.0, 4e-4 * one, 0.5, 0.2, 2650.0, 1000.0, 2.0 * one, 1.6 * one, one, 0.8 * one,
-        volume, porosity, density, *out,
+    slowed = entrainment._mix(
+        1.0 * one, entrainment.Soil(1.0, 0.5, 0.2, 2650.0, 1000.0),
+        entrainment.Layer(2.0 * one, 1.6 * one, one, 0.8 * one, 4e-4 * one),
+        entrainment.Mixture(volume, porosity, density), entrainment.Erosion(*out), 7.0, 0.5,
     )  # fmt: skip
-    rate, first, peclet, dilution = (float(values[0]) for values in out)
+    rate, first, peclet, dilution = (float(values[0]) for values in (*out, slowed))
     assert (volume[0], porosity[0], density[0]) == pytest.approx((4.0, 0.35, 2072.5), rel=1e-15)
     assert dilution == pytest.approx(math.sqrt(3.0 * 1990.0 / (4.0 * 2072.5)), rel=1e-15)
     # 1 m3 in half a second from the 1.5 m2 that 3 m3, 2 m deep, cover; and times .8 * 1.6 m over c_v

@@ -141,8 +141,8 @@ def test_entrainment_itself_conserves_momentum_to_round_off(monkeypatch):
         taken.append(p.volume * p.velocity)
         return entrain(p, *rest)
 
-    def watched_move(p, bed, status, velocity_ratio, *rest):
-        move(p, bed, status, velocity_ratio, *rest)
+    def watched_move(p, bed, velocity_ratio, *rest):
+        move(p, bed, velocity_ratio, *rest)
         np.testing.assert_allclose(p.volume * p.velocity, taken.pop(), rtol=1e-14, atol=1e-300)
         assert np.all(velocity_ratio < 1.0)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ...physics.contracts import MIXTURE
-from ..kinematics import kick
+from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
 
@@ -44,17 +44,19 @@ class OnePhaseDynamics:
     def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `kinematics.kick`."""
         m = p.awake
-        mass, gravity = p.density[:m] * p.thickness[:m], self.material.gravity
-        kick(velocity, p.thrust, p.surface_sample, p.cos_slope, yield_stress, drag, mass, gravity, rest_speed, dt)
+        resistance = Resistance(
+            yield_stress=yield_stress, drag=drag, mass=p.density[:m] * p.thickness[:m], rest_speed=rest_speed
+        )
+        kick(velocity, p.thrust, p.surface_sample, p.cos_slope, resistance, self.material.gravity, dt)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
         """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
         n = yield_stress.size
         thrust = np.ascontiguousarray(p.thrust[:, which])
-        sample = np.ascontiguousarray(p.surface_sample[:, which])
+        sample = tuple(values[which] for values in p.surface_sample)
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
-        gravity = self.material.gravity
-        kick(pull, thrust, sample, p.cos_slope[which], none, none, mass, gravity, np.zeros(1), 1.0)
+        free = Resistance(yield_stress=none, drag=none, mass=mass, rest_speed=np.zeros(1))
+        kick(pull, thrust, sample, p.cos_slope[which], free, self.material.gravity, 1.0)
         bear(p.x[which], p.y[which], pull, sample, walls)
         return np.sqrt((pull**2).sum(axis=0)) <= yield_stress / mass
 

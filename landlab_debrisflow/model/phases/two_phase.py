@@ -12,7 +12,7 @@ from ...core.jit import kernel
 from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.cross_summation import find_partners
-from ..kinematics import kick
+from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
 from .exchange import kick_both, make_whole, share_soil
@@ -121,8 +121,8 @@ class TwoPhaseDynamics:
         bear(p.x, p.y, velocity, p.surface_sample, walls)
         left = _size(velocity)
         leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # along the wall friction holds it
-        gravity = self.material.gravity
-        kick(pull, p.thrust, p.surface_sample, p.cos_slope, none, none, none + 1.0, gravity, at_rest, 1.0)
+        free = Resistance(yield_stress=none, drag=none, mass=none + 1.0, rest_speed=at_rest)
+        kick(pull, p.thrust, p.surface_sample, p.cos_slope, free, self.material.gravity, 1.0)
         bear(p.x, p.y, pull, p.surface_sample, walls)
         seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
         return np.where(p.phase == WATER, seeping <= p.rest_speed * p.phase_drag, leaning | (left == 0.0))

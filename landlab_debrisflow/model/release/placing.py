@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...spatial.cells import sort_into_cells
+from ...spatial.raster import nearest_line
 from ...spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
 from ...terrain.surface import Surface
 from .sites import Sites
@@ -204,7 +205,7 @@ def _on_the_map(x, y, sites: Sites):
     """Return coordinates from the lower left node [m], well inside the cell each particle stands in, and its depth."""
     placed = []
     for values, spacing, corner in ((x, sites.spacing[0], sites.corner[1]), (y, sites.spacing[1], sites.corner[0])):
-        node = np.floor(values / spacing + 0.5) + corner
+        node = nearest_line(values, spacing) + corner
         placed.append(np.clip(values + corner * spacing, (node - WITHIN) * spacing, (node + WITHIN) * spacing))
     return *placed, sites.at(x, y)[1]
 
@@ -221,10 +222,10 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     per_particle[site] = volume
 
     def length_and_ground(px, py, of):
-        ground = surface.sample(px + x0, py + y0)
-        cosine = 1.0 / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        below = surface.sample(px + x0, py + y0)
+        cosine = 1.0 / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
         here = np.maximum(sites.at(px, py)[1], THICKNESS_RANGE * sites.thickest[of])  # as in a flow
-        return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, ground[0]
+        return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, below.elevation
 
     sample_length, _, sample_z = length_and_ground(samples.x, samples.y, samples.group)
     volumes = np.concatenate([volume, -samples.volume])

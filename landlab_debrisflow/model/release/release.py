@@ -7,8 +7,8 @@ import logging
 
 import numpy as np
 
+from ...spatial.raster import CLOSED
 from ...spatial.summation import SMOOTHING_RATIO
-from ..kinematics import CLOSED
 from .placing import THICKNESS_RANGE, place_particles
 from .sites import find_sites, share_particles, volume_below_lips
 
@@ -23,7 +23,7 @@ flow that would get as short as it is light, and ask for such steps. So it has t
 no say in the limits by growth and convergence."""
 
 
-def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -> slice:
+def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
     """Add particles for failing ground and return their places.
 
     Parameters
@@ -37,18 +37,16 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
         Vertical thickness that fails there [m].
     bed : Bed
         What is left.
-    status : ndarray, shape (nodes,)
-        Node statuses as Landlab numbers them.
     phases : Phases
     numerics : Numerics
     """
     material, whole = phases.material, _whole_volume(p, phases)
-    sites = find_sites(nodes, depth, bed.nodes)
-    _warn_of_pits(bed, status, sites, nodes, depth)
-    counts = share_particles(sites.volume, _particle_volume(whole, bed.nodes.area, nodes, depth, numerics))
+    sites = find_sites(nodes, depth, bed.raster)
+    _warn_of_pits(bed, sites, nodes, depth)
+    counts = share_particles(sites.volume, _particle_volume(whole, bed.raster.area, nodes, depth, numerics))
     placed = place_particles(sites, counts, bed.surface)
-    ground = bed.surface.sample(placed.x, placed.y)
-    normal = placed.depth / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+    below = bed.surface.sample(placed.x, placed.y)
+    normal = placed.depth / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
     thickest = np.zeros(sites.volume.size)
     np.maximum.at(thickest, placed.site, normal)
     least, first = THICKNESS_RANGE * thickest[placed.site], p.awake
@@ -57,11 +55,12 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
     origin = origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
     for phase, part in phases.phase_fractions:
         p.append(
-            placed.x.size, x=placed.x, y=placed.y, z=ground[0], phase=phase, share=part, volume=part * placed.volume,
-            released_volume=part * placed.volume, depth=placed.depth, thickness=normal, own_thickness=part * normal,
-            least_thickness=part * least, porosity=material.porosity, density=material.density, origin=origin,
+            placed.x.size, x=placed.x, y=placed.y, z=below.elevation, phase=phase, share=part,
+            volume=part * placed.volume, released_volume=part * placed.volume, depth=placed.depth, thickness=normal,
+            own_thickness=part * normal, least_thickness=part * least, porosity=material.porosity,
+            density=material.density, origin=origin, light=placed.volume < LIGHT * usual,
             smoothing_length=SMOOTHING_RATIO * np.sqrt(placed.volume / np.maximum(normal, least)),
-            light=placed.volume < LIGHT * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
+            usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
     return slice(first, p.awake)
 
@@ -85,8 +84,8 @@ def _usual_volume(volume) -> float:
     return (volume**2).sum() / volume.sum()
 
 
-def _warn_of_pits(bed, status, sites, nodes, depth) -> None:
-    volume = volume_below_lips(sites, nodes, depth, bed.elevation, status == CLOSED, bed.nodes)
+def _warn_of_pits(bed, sites, nodes, depth) -> None:
+    volume = volume_below_lips(sites, nodes, depth, bed.elevation, bed.raster.status == CLOSED, bed.raster)
     if volume > WORTH_SAYING * sites.volume.sum():
         log.warning(
             "%.3g of the %.3g m3 released lie below the lowest ground beside their scar: a pit that they cannot leave "

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy import ndimage
 
-from ...spatial.transfer import Nodes
+from ...spatial.raster import Raster, nearest_line
 
 NEIGHBOURS = tuple((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0))
 
@@ -25,12 +25,12 @@ class Sites(NamedTuple):
 
     def at(self, x, y):
         """Return the site of points (from the centre of the corner cell [m]), shape (n,), and the depth there [m]."""
-        rows = np.clip(np.floor(y / self.spacing[1] + 0.5).astype(int), 0, self.label.shape[0] - 1)
-        columns = np.clip(np.floor(x / self.spacing[0] + 0.5).astype(int), 0, self.label.shape[1] - 1)
+        rows = np.clip(nearest_line(y, self.spacing[1]).astype(int), 0, self.label.shape[0] - 1)
+        columns = np.clip(nearest_line(x, self.spacing[0]).astype(int), 0, self.label.shape[1] - 1)
         return self.label[rows, columns], self.depth[rows, columns]
 
 
-def find_sites(nodes, depth, raster: Nodes) -> Sites:
+def find_sites(nodes, depth, raster: Raster) -> Sites:
     """Tell the sites of a release apart.
 
     Parameters
@@ -39,7 +39,7 @@ def find_sites(nodes, depth, raster: Nodes) -> Sites:
         Where ground fails, sorted.
     depth : ndarray, shape (cells,)
         Vertical thickness that fails there, > 0 [m].
-    raster : Nodes
+    raster : Raster
 
     Returns
     -------
@@ -75,7 +75,7 @@ def share_particles(volume, particle_volume: float):
     return np.maximum(1, np.rint(volume / particle_volume)).astype(int)
 
 
-def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Nodes) -> float:
+def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Raster) -> float:
     """Return the volume of a release that lies below the lowest ground beside its site [m3].
 
     So much cannot leave the scar by itself: a depth that is the same everywhere digs a pit with a wall below it.
@@ -89,15 +89,14 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Nod
         Of the ground after the failure [m].
     closed : ndarray of bool, shape (nodes,)
         Nodes over which nothing can leave.
-    raster : Nodes
+    raster : Raster
     """
     lip = np.full(sites.volume.size, np.inf)
-    rows = elevation.size // raster.columns
     for down, along in NEIGHBOURS:
         r, c = sites.rows + down, sites.columns + along
         beside = sites.label[r, c] != sites.of_cell
         r, c = r + sites.corner[0], c + sites.corner[1]
-        beside &= (r >= 0) & (r < rows) & (c >= 0) & (c < raster.columns)
+        beside &= (r >= 0) & (r < raster.rows) & (c >= 0) & (c < raster.columns)
         there, site = (r * raster.columns + c)[beside], sites.of_cell[beside]
         usable = ~closed[there]
         np.minimum.at(lip, site[usable], elevation[there[usable]])

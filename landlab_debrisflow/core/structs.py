@@ -1,0 +1,25 @@
+"""Structs that kernels take: arrays and numbers of one subject, under one name."""
+
+
+def struct(declared):
+    """Make the maker of a struct from a NamedTuple that declares its fields: it returns them as a plain tuple.
+
+    What a stage of a step hands to its kernel is made anew every time. Of a plain tuple numba finds the type in 0.1 us,
+    of a NamedTuple in 0.6 us, which for a few hundred particles would be a sixth of a step.
+
+    Examples
+    --------
+    >>> from typing import NamedTuple
+    >>> @struct
+    ... class Growth(NamedTuple):
+    ...     rate: float  # [m s-1]
+    ...     depth: float  # [m]
+    >>> Growth(depth=2.0, rate=0.1)
+    (0.1, 2.0)
+    """
+    name, fields = declared.__name__, ", ".join(declared._fields)
+    made = {}
+    exec(f"def {name}({fields}):\n    return {fields}\n", made)
+    maker = made[name]
+    maker.__doc__, maker.__module__, maker._fields = declared.__doc__, declared.__module__, declared._fields
+    return maker

@@ -1,0 +1,76 @@
+"""The raster of nodes: their statuses, their spacing, and the node nearest to a point.
+
+Coordinates start at the lower left node, and nodes are numbered row by row from there.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.jit import inner
+
+CORE, FIXED_VALUE, FIXED_GRADIENT, LOOPED, CLOSED = range(5)
+"""Node statuses as Landlab numbers them: only core nodes hold material, and closed ones are walls."""
+
+
+class Raster(NamedTuple):
+    """A raster of nodes as kernels read it."""
+
+    status: np.ndarray  # (nodes,) uint8: CORE, CLOSED, or an open boundary
+    columns: int
+    rows: int
+    dx: float  # node spacing [m]
+    dy: float
+
+    @classmethod
+    def from_status(cls, status, spacing) -> "Raster":
+        """Return the raster of node statuses, shape (rows, columns), with a spacing (dx, dy) [m].
+
+        Examples
+        --------
+        >>> raster = Raster.from_status([[4, 4, 4, 4], [4, 0, 0, 4], [4, 4, 4, 4]], (2.0, 5.0))
+        >>> raster.nearest(np.array([1.9, 3.1]), np.array([4.0, 7.0]))
+        array([5, 6])
+        """
+        status = np.asarray(status, np.uint8)
+        rows, columns = status.shape
+        return cls(status=status.reshape(-1), columns=columns, rows=rows, dx=float(spacing[0]), dy=float(spacing[1]))
+
+    @property
+    def core(self):
+        """Nodes that may hold material, ndarray of bool, shape (nodes,)."""
+        return self.status == CORE
+
+    @property
+    def area(self) -> float:
+        """Map area of a node [m2]."""
+        return self.dx * self.dy
+
+    @property
+    def spacing(self) -> float:
+        """The smaller node spacing [m]."""
+        return min(self.dx, self.dy)
+
+    def nearest(self, x, y):
+        """Return the nodes nearest to points on the raster [m], shape (n,)."""
+        return nearest_line(y, self.dy).astype(int) * self.columns + nearest_line(x, self.dx).astype(int)
+
+
+@inner
+def nearest_line(coordinate, spacing):
+    """Return the number, as a float, of the row or column nearest to a coordinate [m]; they go on beyond the edge."""
+    return np.floor(coordinate / spacing + 0.5)
+
+
+@inner
+def nearest_place(coordinate, spacing, count):
+    """Return which of `count` rows or columns of nodes is nearest to a coordinate [m]."""
+    return min(max(int(nearest_line(coordinate, spacing)), 0), count - 1)
+
+
+@inner
+def nearest_node(x, y, dx, dy, columns, rows):
+    """Return the node nearest to a point [m], or -1 if a coordinate is not a number."""
+    if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
+        return -1
+    return nearest_place(y, dy, rows) * columns + nearest_place(x, dx, columns)
