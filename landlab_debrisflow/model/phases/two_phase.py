@@ -2,8 +2,7 @@
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
 is dragged along. All is exchanged between grains and their partners among the water
-(`spatial.cross_summation.find_partners`), with weights that sum to 1, so what
-one gives the other gets, to the last digit.
+(`spatial.partners.find_partners`), with weights that sum to 1, so what one gives the other gets, to the last digit.
 """
 
 import numpy as np
@@ -11,7 +10,8 @@ import numpy as np
 from ...core.jit import kernel
 from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
-from ...spatial.cross_summation import find_partners
+from ...spatial.packing import Position
+from ...spatial.partners import find_partners
 from ..kinematics import kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
@@ -85,7 +85,7 @@ class TwoPhaseDynamics:
             roughness = material.gravity * law.manning_coefficient**2
             p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
         if p.generation != exchange.generation or exchange.age == STEPS_WITH_PARTNERS:
-            partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
+            partners = find_partners(*cells, Position(p.x, p.y, p.z), p.volume, p.smoothing_length)
             make_whole(*partners, p.porosity, p.volume)
             exchange.partners, exchange.generation, exchange.age = partners, p.generation, 0
         exchange.age += 1
