@@ -109,10 +109,11 @@ def press_on_bed(
     The centripetal part v.Hess(Z).v is capped at v^2 / `tightest`: a raster knows no radius below its
     own spacing, and noise must not press the flow to the ground.
     """
+    _, _, _, curvature_xx, curvature_xy, curvature_yy = sample
     for k in range(speed.size):
         i = first + k
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
-        bend = u * u * sample[3, i] + 2.0 * u * v * sample[4, i] + v * v * sample[5, i]
+        bend = u * u * curvature_xx[i] + 2.0 * u * v * curvature_xy[i] + v * v * curvature_yy[i]
         most = (u * u + v * v) / tightest
         bend = min(max(bend, -most), most)
         speed[k] = np.sqrt(u * u + v * v + w * w)

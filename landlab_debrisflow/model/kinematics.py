@@ -17,10 +17,10 @@ CORE, CLOSED = 0, 4  # node statuses as Landlab numbers them; all others are ope
 
 
 @inner
-def along_bed(i, push, sample, cosine, gravity):
+def along_bed(i, push, slope_x, slope_y, cosine, gravity):
     """Return the acceleration by gravity and thrust along the bed [m s-2]."""
     c = cosine[i]
-    nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
+    nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
     across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
     return push[0, i] - across * nx, push[1, i] - across * ny, push[2, i] - across * nz - gravity
 
@@ -37,8 +37,8 @@ def kick(velocity, push, sample, cosine, yield_stress, drag, mass, gravity, rest
     ----------
     velocity, push : ndarray, shape (3, n)
         Velocity [m s-1] and acceleration by inner forces [m s-2].
-    sample : ndarray, shape (6, n)
-        As `Surface.sample` returns it.
+    sample : SurfaceSample
+        Of the bed below the particles.
     cosine, yield_stress, drag, mass : ndarray, shape (n,)
         cos(theta); [Pa]; [Pa s m-1]; density times slope-normal thickness [kg m-2]. The last is as long as there
         are particles to kick; the others may be longer.
@@ -46,8 +46,9 @@ def kick(velocity, push, sample, cosine, yield_stress, drag, mass, gravity, rest
         A particle that is being slowed and falls below this comes to rest, if friction can hold it there [m s-1]. If it
         is infinite, whether or not.
     """
+    slope_x, slope_y = sample.slope_x, sample.slope_y
     for i in range(mass.size):
-        ax, ay, az = along_bed(i, push, sample, cosine, gravity)
+        ax, ay, az = along_bed(i, push, slope_x, slope_y, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
         if speed == 0.0:
@@ -116,18 +117,18 @@ def stop_at_walls(count, x, y, velocity, sample, dx, dy, columns, status, dt, to
     Of the first `count` particles. Done right after each kick: a particle pressed against a wall has no speed, so it
     neither erodes nor counts as moving.
     """
-    rows = status.size // columns
+    slope_x, slope_y, rows = sample.slope_x, sample.slope_y, status.size // columns
     for i in range(count):
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
         if _blocked(x[i], y[i], new_x, new_y, dx, dy, columns, status):
             touched_wall[i] = 1
             # what is left is the projection on the direction along the wall: never faster
             if status[_nearest(new_x, y[i], dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[0, i] + velocity[2, i] * sample[1, i]) / (1.0 + sample[1, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * sample[1, i]
+                left = (velocity[0, i] + velocity[2, i] * slope_x[i]) / (1.0 + slope_x[i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = left, 0.0, left * slope_x[i]
             elif status[_nearest(x[i], new_y, dx, dy, columns, rows)] != CLOSED:
-                left = (velocity[1, i] + velocity[2, i] * sample[2, i]) / (1.0 + sample[2, i] ** 2)
-                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * sample[2, i]
+                left = (velocity[1, i] + velocity[2, i] * slope_y[i]) / (1.0 + slope_y[i] ** 2)
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, left, left * slope_y[i]
             else:
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
 
@@ -169,10 +170,11 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
     (`expected_elevation` is from `drift`; if it is empty nothing drifted).
     """
+    elevation, slope_x, slope_y = sample.elevation, sample.slope_x, sample.slope_y
     for i in range(cosine.size):
-        c = 1.0 / np.sqrt(1.0 + sample[1, i] * sample[1, i] + sample[2, i] * sample[2, i])
-        cosine[i], z[i] = c, sample[0, i]
-        nx, ny, nz = -c * sample[1, i], -c * sample[2, i], c
+        c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
+        cosine[i], z[i] = c, elevation[i]
+        nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
         speed2 = u * u + v * v + w * w

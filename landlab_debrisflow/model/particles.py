@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..terrain.surface import SurfaceSample
 from .variables import PARTICLE_VARIABLES
 
 
@@ -45,6 +46,11 @@ class Particles:
     def generation(self) -> tuple[int, int]:
         """Number of particles, and of those that there ever were: another pair whenever particles came or went."""
         return self.volume.size, self.ever
+
+    @property
+    def surface_sample(self) -> SurfaceSample:
+        """Elevation, slopes and curvatures of the bed below, each of shape (n,), as views of `surface_values`."""
+        return SurfaceSample(*self.surface_values)
 
     @property
     def spread(self):

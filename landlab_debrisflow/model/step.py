@@ -94,7 +94,7 @@ def move(p, bed, status, velocity_ratio, outflow, phases, time: float, dt: float
     nodes, awake = bed.nodes, slice(p.awake)
     exit_node = np.empty(p.awake, np.int64)
     if p.entrained_volume[awake].any():  # the bed below has sunk: that is no fall of the flow
-        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake])[0]
+        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
     drift(
         p.x, p.y, p.z, p.velocity, velocity_ratio, nodes.dx, nodes.dy, nodes.columns, status, dt,
         p.expected_elevation, exit_node, p.touched_wall,
@@ -121,9 +121,9 @@ NO_DRIFT = np.empty(0)
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
     before = p.z.copy() if dt == 0.0 else None
-    p.surface_sample = bed.surface.sample(p.x, p.y)
+    sample = bed.surface.sample(p.x, p.y, p.surface_values)
     expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
-    follow_bed(p.surface_sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
+    follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
     if dt == 0.0:  # nothing has moved but the bed: that is neither rise nor fall of the flow
         p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)

@@ -48,7 +48,7 @@ PARTICLE_VARIABLES = (
     # what the stages of a step hand on to each other
     Variable("nearest_node", "-", "node nearest to it", "i8", 0, written=False, scratch=True),
     Variable(
-        "surface_sample", "-", "the bed below, as `Surface.sample` returns it", written=False, scratch=True,
+        "surface_values", "-", "rows of the `SurfaceSample` of the bed below", written=False, scratch=True,
         components=6,
     ),
     Variable("cos_slope", "-", "cosine of the slope of the bed below", initial=1.0, written=False, scratch=True),

@@ -76,7 +76,7 @@ def ghost_particles(state: FlowState, changed, walls: Walls, touched):
 
 
 def bear(x, y, pull, sample, walls: Walls | None) -> None:
-    """Take away, in place, what walls bear of the pull (3, n) on particles at rest; `sample` (6, n) is of their bed."""
+    """Take away, in place, what walls bear of the pull (3, n) on particles at rest; `sample` is of their bed."""
     if walls is None:
         return
     nodes = walls.nodes

@@ -5,9 +5,22 @@ quadratics exactly, and needs no global solve, so moving one node changes only i
 cliffs its slopes are limited.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..core.jit import inner, kernel
+
+
+class SurfaceSample(NamedTuple):
+    """Elevation, slopes and curvatures of a surface at n points."""
+
+    elevation: np.ndarray  # (n,) z [m]
+    slope_x: np.ndarray  # (n,) dz/dx [-]
+    slope_y: np.ndarray  # (n,) dz/dy [-]
+    curvature_xx: np.ndarray  # (n,) d2z/dx2 [m-1]
+    curvature_xy: np.ndarray  # (n,) d2z/dxdy [m-1]
+    curvature_yy: np.ndarray  # (n,) d2z/dy2 [m-1]
 
 
 class Surface:
@@ -42,25 +55,33 @@ class Surface:
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
         v[0], v[-1] = 2.0 * v[1] - v[2], 2.0 * v[-2] - v[-3]
 
-    def sample(self, x, y):
-        """Read the surface at points [m from the lower left node].
+    def sample(self, x, y, values=None) -> SurfaceSample:
+        """Read elevation, slopes and curvatures of the surface at points.
+
+        Parameters
+        ----------
+        x, y : ndarray, shape (n,)
+            From the lower left node [m].
+        values : ndarray, shape (6, n), optional
+            Rows to write the sample into; by default new ones.
 
         Returns
         -------
-        ndarray, shape (6, n)
-            z, dz/dx, dz/dy, d2z/dx2, d2z/dxdy, d2z/dy2.
+        SurfaceSample
+            Views of the rows.
 
         Examples
         --------
         >>> import numpy as np
         >>> yy, xx = np.mgrid[0.0:5.0, 0.0:6.0]
         >>> surface = Surface(xx**2 - 2.0 * xx * yy, (1.0, 1.0))
-        >>> surface.sample(np.array([2.5]), np.array([1.25])).ravel()
-        array([ 0. ,  2.5, -5. ,  2. , -2. ,  0. ])
+        >>> sample = surface.sample(np.array([2.5]), np.array([1.25]))
+        >>> sample.slope_x, sample.slope_y, sample.curvature_xy
+        (array([2.5]), array([-5.]), array([-2.]))
         """
-        out = np.empty((6, np.size(x)))
-        _sample(self.values, self.dx, self.dy, x, y, out)
-        return out
+        sample = SurfaceSample(*(np.empty((6, np.size(x))) if values is None else values))
+        _sample(self.values, self.dx, self.dy, x, y, sample)
+        return sample
 
 
 def _fill(values, invalid):
@@ -123,7 +144,9 @@ def _tangent(before, after, most):
 
 
 @kernel
-def _sample(values, dx, dy, x, y, out):
+def _sample(values, dx, dy, x, y, sample):
+    """Write the `SurfaceSample` of points x, y, shape (n,) [m], from node values with their rim [m]."""
+    elevation, slope_x, slope_y, curvature_xx, curvature_xy, curvature_yy = sample
     rows, columns = values.shape[0] - 2, values.shape[1] - 2
     f = np.empty((3, 4))  # on four rows: value, first and second derivative along x, per node
     for i in range(x.size):
@@ -141,12 +164,12 @@ def _sample(values, dx, dy, x, y, out):
         rise = f[0, 2] - f[0, 1]
         m1, m2 = _tangent(f[0, 1] - f[0, 0], rise, dy), _tangent(rise, f[0, 3] - f[0, 2], dy)
         k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        out[0, i] = f[0, 1] + t * (m1 + t * (k2 + t * k3))
-        out[2, i], out[5, i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy, (2.0 * k2 + t * 6.0 * k3) / (dy * dy)
+        elevation[i] = f[0, 1] + t * (m1 + t * (k2 + t * k3))
+        slope_y[i], curvature_yy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy, (2.0 * k2 + t * 6.0 * k3) / (dy * dy)
         rise, m1, m2 = f[1, 2] - f[1, 1], 0.5 * (f[1, 2] - f[1, 0]), 0.5 * (f[1, 3] - f[1, 1])
         k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        out[1, i] = (f[1, 1] + t * (m1 + t * (k2 + t * k3))) / dx
-        out[4, i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / (dx * dy)
+        slope_x[i] = (f[1, 1] + t * (m1 + t * (k2 + t * k3))) / dx
+        curvature_xy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / (dx * dy)
         rise, m1, m2 = f[2, 2] - f[2, 1], 0.5 * (f[2, 2] - f[2, 0]), 0.5 * (f[2, 3] - f[2, 1])
         k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        out[3, i] = (f[2, 1] + t * (m1 + t * (k2 + t * k3))) / (dx * dx)
+        curvature_xx[i] = (f[2, 1] + t * (m1 + t * (k2 + t * k3))) / (dx * dx)

@@ -8,13 +8,14 @@ from landlab_debrisflow.model.basal import press_on_bed
 from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 from landlab_debrisflow.physics.material import Material
+from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G, SPACING = 9.81, 5.0
 
 
 def on_bed(velocity, gradient=(0.0, 0.0), hessian=(0.0, 0.0, 0.0)):
     """Return speed and normal gravity of one particle; its velocity on the map, tangent to the bed, is given."""
-    ground = np.array([[0.0, *gradient, *hessian]]).T
+    ground = SurfaceSample(*np.array([[0.0, *gradient, *hessian]]).T)
     u, v = velocity
     along = np.array([[u, v, u * gradient[0] + v * gradient[1]]]).T
     cosine = 1.0 / np.sqrt(1.0 + np.sum(np.square([gradient]), axis=1))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.kinematics import kick
+from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G = 9.81
 
@@ -17,7 +18,7 @@ def kicked(velocity, yield_stress, drag, mass, dt=0.1):
     kick(
         state,
         np.zeros((3, 1)),
-        ground,
+        SurfaceSample(*ground),
         one / np.sqrt(2.0),
         yield_stress * one,
         drag * one,

@@ -62,7 +62,7 @@ def test_value_and_gradient_are_continuous_across_cells(rough, axis):
         lines, along = DY * np.arange(1, 8), rng.uniform(0.0, 11 * DX, 7)
     gap = 1e-9
     points = [(lines + side * gap, along) if axis == 0 else (along, lines + side * gap) for side in (-1, 1)]
-    before, after = (surface.sample(*point) for point in points)
+    before, after = (np.array(surface.sample(*point)) for point in points)
     # a jump would be of order 1; the Hessian, of order 10, moves the gradient by 2e-8
     np.testing.assert_allclose(before[:3], after[:3], rtol=0, atol=1e-6)
     assert np.abs(before[3:] - after[3:]).max() > 1e-3  # C1, not C2: the test can tell
@@ -75,8 +75,8 @@ def test_derivatives_are_those_of_the_values(rough):
     # away from the cell borders, where second derivatives jump
     x = (rng.integers(0, 11, 100) + rng.uniform(0.01, 0.99, 100)) * DX
     y = (rng.integers(0, 8, 100) + rng.uniform(0.01, 0.99, 100)) * DY
-    east, west = surface.sample(x + step, y), surface.sample(x - step, y)
-    north, south = surface.sample(x, y + step), surface.sample(x, y - step)
+    east, west = np.array(surface.sample(x + step, y)), np.array(surface.sample(x - step, y))
+    north, south = np.array(surface.sample(x, y + step)), np.array(surface.sample(x, y - step))
     _, zx, zy, zxx, zxy, zyy = surface.sample(x, y)
     by_x, by_y = (east - west) / (2 * step), (north - south) / (2 * step)
     # central differences: third derivatives of order 1 times step^2, and round-off 1e-16/1e-5

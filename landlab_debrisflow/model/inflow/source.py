@@ -103,8 +103,8 @@ class Source:
         along = self.end - self.start
         left = np.array([-along[1], along[0]]) / np.hypot(*along)
         share = (np.arange(64) + 0.5) / 64
-        slope = surface.sample(*(self.start[:, None] + share * along[:, None]))[1:3].mean(axis=1)
-        if abs(fall := left @ slope) < LEAST_FALL:
+        sample = surface.sample(*(self.start[:, None] + share * along[:, None]))
+        if abs(fall := left @ [sample.slope_x.mean(), sample.slope_y.mean()]) < LEAST_FALL:
             h, degrees = self.hydrograph, np.degrees(np.arctan2(left[1], left[0]))
             raise InputError(
                 f"inflow: the ground falls to neither side of the line from {h.line_start} to {h.line_end} m; "
@@ -213,7 +213,7 @@ class Inflow:
         if (which := self.prescribed(p)).size == 0:
             return
         speed, direction = self._motion(p.inflow_row[which], time)
-        fall = np.einsum("in,in->n", direction, p.surface_sample[1:3, which])
+        fall = np.einsum("in,in->n", direction, p.surface_values[1:3, which])
         p.velocity[:, which] = speed / np.sqrt(1.0 + fall**2) * np.array([*direction, fall])
 
     def prescribe_thickness(self, p, phase_fractions) -> None:
@@ -254,8 +254,8 @@ class Inflow:
         fall = direction @ surface.sample(x, y)[1:3]
         step = (source.way(time) - source.way(self._time[row])) / np.sqrt(1.0 + fall**2)
         x, y = x + step * direction[0], y + step * direction[1]
-        ground = surface.sample(x, y)
-        slant = np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        below = surface.sample(x, y)
+        slant = np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
         load = material.buoyant_density * material.gravity * thickness / slant
         ratio = material.initial_pressure_ratio
         if source.hydrograph.pressure_ratio is not None:
@@ -268,7 +268,7 @@ class Inflow:
         for phase, part in columns.phases.phase_fractions:
             borne = load if phase == MIXTURE else np.zeros(count)
             new = p.append(
-                count, x=x, y=y, z=ground[0], phase=phase, share=part, volume=part * volume,
+                count, x=x, y=y, z=below.elevation, phase=phase, share=part, volume=part * volume,
                 released_volume=part * volume, depth=thickness * slant, thickness=thickness,
                 own_thickness=part * thickness, least_thickness=part * least, smoothing_length=length,
                 next_smoothing_length=length, liquefaction_pressure=borne,

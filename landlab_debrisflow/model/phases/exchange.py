@@ -44,11 +44,11 @@ def kick_both(
     momenta changes by dt (m_s a_s + m_w a_w - f). So v_s' is linear in the friction f, with a compliance G, and
     friction stops grains just where f G takes all their speed.
     """
-    n = phase.size
+    n, slope_x, slope_y = phase.size, sample.slope_x, sample.slope_y
     moves, received = np.empty((n, 6)), np.zeros((n, 3))  # velocity and acceleration without friction; what drag gives
     for i in range(n):
         moves[i, 0], moves[i, 1], moves[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]
-        moves[i, 3], moves[i, 4], moves[i, 5] = along_bed(i, push, sample, cosine, gravity)
+        moves[i, 3], moves[i, 4], moves[i, 5] = along_bed(i, push, slope_x, slope_y, cosine, gravity)
     for k in range(of.size):
         i = of[k]
         u, v, w, ax, ay, az, taken = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0  # of the water around
@@ -63,7 +63,7 @@ def kick_both(
             taken += part
         if count[k] > 0:
             u, v, w, ax, ay, az = u / taken, v / taken, w / taken, ax / taken, ay / taken, az / taken
-        nx, ny, nz = -cosine[i] * sample[1, i], -cosine[i] * sample[2, i], cosine[i]
+        nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
         # what water around on other slopes has across this one does not count
         across, pull = u * nx + v * ny + w * nz, ax * nx + ay * ny + az * nz
         u, v, w = u - across * nx, v - across * ny, w - across * nz
@@ -117,7 +117,7 @@ def kick_both(
             continue
         per_mass = 1.0 / (water_density * volume[i])
         gx, gy, gz = received[i, 0] * per_mass, received[i, 1] * per_mass, received[i, 2] * per_mass
-        nx, ny, nz = -cosine[i] * sample[1, i], -cosine[i] * sample[2, i], cosine[i]
+        nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
         across = gx * nx + gy * ny + gz * nz
         ax, ay, az = moves[i, 3], moves[i, 4], moves[i, 5]
         u = velocity[0, i] + dt * ax + gx - across * nx

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...physics.contracts import MIXTURE
+from ...terrain.surface import SurfaceSample
 from ..kinematics import kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
@@ -51,7 +52,7 @@ class OnePhaseDynamics:
         """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
         n = yield_stress.size
         thrust = np.ascontiguousarray(p.thrust[:, which])
-        sample = np.ascontiguousarray(p.surface_sample[:, which])
+        sample = SurfaceSample(*p.surface_values[:, which])
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
         gravity = self.material.gravity
         kick(pull, thrust, sample, p.cos_slope[which], none, none, mass, gravity, np.zeros(1), 1.0)

@@ -222,10 +222,10 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     per_particle[site] = volume
 
     def length_and_ground(px, py, of):
-        ground = surface.sample(px + x0, py + y0)
-        cosine = 1.0 / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+        below = surface.sample(px + x0, py + y0)
+        cosine = 1.0 / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
         here = np.maximum(sites.at(px, py)[1], THICKNESS_RANGE * sites.thickest[of])  # as in a flow
-        return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, ground[0]
+        return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, below.elevation
 
     sample_length, _, sample_z = length_and_ground(samples.x, samples.y, samples.group)
     volumes = np.concatenate([volume, -samples.volume])

@@ -47,8 +47,8 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
     _warn_of_pits(bed, status, sites, nodes, depth)
     counts = share_particles(sites.volume, _particle_volume(whole, bed.nodes.area, nodes, depth, numerics))
     placed = place_particles(sites, counts, bed.surface)
-    ground = bed.surface.sample(placed.x, placed.y)
-    normal = placed.depth / np.sqrt(1.0 + ground[1] ** 2 + ground[2] ** 2)
+    below = bed.surface.sample(placed.x, placed.y)
+    normal = placed.depth / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
     thickest = np.zeros(sites.volume.size)
     np.maximum.at(thickest, placed.site, normal)
     least, first = THICKNESS_RANGE * thickest[placed.site], p.awake
@@ -57,11 +57,12 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
     origin = origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
     for phase, part in phases.phase_fractions:
         p.append(
-            placed.x.size, x=placed.x, y=placed.y, z=ground[0], phase=phase, share=part, volume=part * placed.volume,
-            released_volume=part * placed.volume, depth=placed.depth, thickness=normal, own_thickness=part * normal,
-            least_thickness=part * least, porosity=material.porosity, density=material.density, origin=origin,
+            placed.x.size, x=placed.x, y=placed.y, z=below.elevation, phase=phase, share=part,
+            volume=part * placed.volume, released_volume=part * placed.volume, depth=placed.depth, thickness=normal,
+            own_thickness=part * normal, least_thickness=part * least, porosity=material.porosity,
+            density=material.density, origin=origin, light=placed.volume < LIGHT * usual,
             smoothing_length=SMOOTHING_RATIO * np.sqrt(placed.volume / np.maximum(normal, least)),
-            light=placed.volume < LIGHT * usual, usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
+            usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
     return slice(first, p.awake)
 
