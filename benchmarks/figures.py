@@ -21,7 +21,7 @@ from rich.table import Table
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import LEVELS, MATERIAL, measure
 from landlab_debrisflow.exact import flows
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.scene import tsing_shan_valley
 from validation.cases.blocks import MU, growing_cap, sliding_cap
 
 PARTICLES = 2000

@@ -20,8 +20,8 @@ from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import MATERIAL
-from landlab_debrisflow.physics.registry import LAWS
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.laws import LAWS
+from landlab_debrisflow.scene import tsing_shan_valley
 
 START, TURN = 2.0, 0.2
 """Until when all run before the first turn, and how long a turn is [s of the event]: before laws bring them apart."""

@@ -15,8 +15,7 @@ import numpy as np
 
 from landlab_debrisflow.physics.column import ALE
 from landlab_debrisflow.physics.column.driver import Columns
-from landlab_debrisflow.physics.column.schemes.lazy.bookkeeping import GRADING, MODES_FRACTION, STRIDE
-from landlab_debrisflow.physics.column.schemes.lazy.impermeable_base import LOSS
+from landlab_debrisflow.physics.column.schemes.lazy.bookkeeping import GRADING, LOSS, MODES_FRACTION, STRIDE
 from landlab_debrisflow.physics.column.schemes.lazy.state import records
 from landlab_debrisflow.physics.contracts import BaseContact
 

@@ -18,7 +18,7 @@ from landlab_debrisflow.grid import grid_bed, read, write
 from landlab_debrisflow.model import activity, peak_maps, simulation, step
 from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.scene import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
 from landlab_debrisflow.spatial.packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
 from landlab_debrisflow.spatial.summation import SummationInput, Sums, _pack, sum_over_neighbours
@@ -204,7 +204,7 @@ STAGES = {
     "  of it sorting": (step, "sort_into_cells"), "  of it sums": (one_phase, "sum_over_neighbours"),
     "consolidate": (step, "consolidate"), "check": (step, "find_limits"),
     "wake those disturbed": (activity, "wake"), "fall asleep": (activity, "fall_asleep"),
-    "look for rest": (simulation.Simulation, "_look_for_rest"), "footprint": (peak_maps.Footprint, "record"),
+    "look for rest": (simulation.Simulation, "_let_rest"), "peak maps": (peak_maps.PeakMaps, "record"),
     "keep rows": (write.FieldWriter, "keep_rows"), "settle and finish": (write.FieldWriter, "close"),
 }  # fmt: skip
 """What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""

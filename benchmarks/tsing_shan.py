@@ -19,8 +19,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from landlab_debrisflow.record.files import write_atomically
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.record import write_atomically
+from landlab_debrisflow.scene import tsing_shan_valley
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
 import tsing_shan

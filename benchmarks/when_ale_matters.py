@@ -13,9 +13,9 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from landlab_debrisflow.plots.maps import save_figure
-from landlab_debrisflow.record.files import write_atomically
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.plots import save_figure
+from landlab_debrisflow.record import write_atomically
+from landlab_debrisflow.scene import tsing_shan_valley
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
 import tsing_shan

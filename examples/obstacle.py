@@ -17,8 +17,8 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, measures
-from landlab_debrisflow.plots.maps import save_figure
-from landlab_debrisflow.record.files import check_writable
+from landlab_debrisflow.plots import save_figure
+from landlab_debrisflow.record import check_writable
 
 SPACING, LENGTH, WIDTH = 4.0, 480.0, 160.0  # of the grid [m]
 FOOT = 240.0  # where the channel of 25 degrees opens onto a fan of 4 [m]

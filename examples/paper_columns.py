@@ -38,9 +38,9 @@ from rich.table import Table
 from scipy.linalg import eigh
 
 from landlab_debrisflow import InputError, ParameterError, solve_column
-from landlab_debrisflow.exact.columns import constant_local_peclet, front, growing_column
-from landlab_debrisflow.plots.maps import save_figure
-from landlab_debrisflow.record.files import check_writable
+from landlab_debrisflow.exact import columns
+from landlab_debrisflow.plots import save_figure
+from landlab_debrisflow.record import check_writable
 
 THICKNESS = 1.0  # h0 [m]
 BED_PRESSURE = 1000.0 * 9.81 * THICKNESS  # p_b [Pa]
@@ -156,12 +156,12 @@ def fixed_column(xi, time, peclet):
 
     shape, slope = shapes(eta), shapes(eta, 1)
     rates, waves = eigh((slope.T * weights) @ slope, (shape.T * weights) @ shape)
-    share = waves.T @ (shape.T @ (weights * constant_local_peclet(1.0 - eta, peclet)))
+    share = waves.T @ (shape.T @ (weights * columns.constant_local_peclet(1.0 - eta, peclet)))
     decaying = shapes(1.0 - np.asarray(xi, float)) @ (waves @ (share * np.exp(-rates * time)))
-    return constant_local_peclet(xi, peclet) - decaying
+    return columns.constant_local_peclet(xi, peclet) - decaying
 
 
-EXACT = {"growing": growing_column, "fixed": fixed_column}
+EXACT = {"growing": columns.growing_column, "fixed": fixed_column}
 """Exact profile of each reading of eq. 48, from x/h, t/T_c and the Péclet number."""
 
 
@@ -200,7 +200,7 @@ def height_where(profile, level, value):
 def smearing(level, profiles):
     """Return the mean over the height of what the pressure differs from a step, at the worst time."""
     fine = (np.arange(10_000) + 0.5) / 10_000
-    steps = fine < front(FRONT_PATH)[:, None]
+    steps = fine < columns.front(FRONT_PATH)[:, None]
     pairs = zip(profiles, steps, strict=True)
     return max(float(abs(np.interp(fine, level, profile) - step).mean()) for profile, step in pairs)
 
@@ -213,7 +213,7 @@ def overshoot(profiles):
 def front_error(level, profiles):
     """Return how far the front is from where it should be, over the thickness, at the worst time."""
     found = [height_where(profile, level, 0.5) for profile in profiles]
-    return float(abs(found - front(FRONT_PATH)).max())
+    return float(abs(found - columns.front(FRONT_PATH)).max())
 
 
 # ---- showing ----

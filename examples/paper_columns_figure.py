@@ -5,7 +5,7 @@ from matplotlib import colormaps
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from landlab_debrisflow.exact.columns import front
+from landlab_debrisflow.exact import columns
 
 TITLES = {
     ("growing", "Fig. 7"): "Fig. 7: Pe = 10, mostly advection",
@@ -65,7 +65,7 @@ def draw_fronts(axes, tests, level, fronts):
     """Figure 6 (A): pressure over depth, a front that travels away from the base."""
     depth = 1.0 - level
     for time, colour, marker in zip(tests.FRONT_TIMES, FRONT_COLOURS, MARKERS, strict=False):
-        y = 1.0 - front(time)
+        y = 1.0 - columns.front(time)
         axes.plot([0.0, y, y, 1.0], [0.0, 0.0, 1.0, 1.0], color=colour)
         for scheme, profile in fronts.items():
             axes.plot(depth, profile[time == tests.FRONT_PATH][0], **marked(scheme, colour, marker))
@@ -82,7 +82,7 @@ def draw_characteristics(axes, tests, level, fronts):
     for entered in np.arange(0.5, 4.0, 0.5):
         later = times[times >= entered]
         axes.plot((1.0 + entered) / (1.0 + later), later, color="0.75", lw=0.8)
-    axes.plot(1.0 - front(times), times, color="k")
+    axes.plot(1.0 - columns.front(times), times, color="k")
     for scheme, profiles in fronts.items():
         depths = [1.0 - tests.height_where(profile, level, 0.5) for profile in profiles]
         axes.plot(depths, tests.FRONT_PATH, **marked(scheme, "k"))

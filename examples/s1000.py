@@ -24,10 +24,8 @@ from rich.text import Text
 from s1000_scores import MEASURES, NOISE, QUOTED, ObservedPath, dig_and_spread, measure
 
 from landlab_debrisflow import DebrisFlow, InputError, measures
-from landlab_debrisflow.plots.maps import Layer, draw_maps, save_figure
-from landlab_debrisflow.record.datasets import stack
-from landlab_debrisflow.record.files import check_writable, write_dataset
-from landlab_debrisflow.record.observers import Progress
+from landlab_debrisflow.plots import Layer, draw_maps, save_figure
+from landlab_debrisflow.record import Progress, check_writable, stack, write_dataset
 
 # ---- the parameters; no calibration ----
 

@@ -23,10 +23,9 @@ from tsing_shan_figures import draw_columns, draw_flow, draw_maps_of, print_tabl
 from tsing_shan_record import Record
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
-from landlab_debrisflow.plots.maps import save_figure
-from landlab_debrisflow.record.datasets import stack
-from landlab_debrisflow.record.files import check_writable, write_dataset
-from landlab_debrisflow.scene.tsing_shan import tsing_shan_valley
+from landlab_debrisflow.plots import save_figure
+from landlab_debrisflow.record import check_writable, stack, write_dataset
+from landlab_debrisflow.scene import tsing_shan_valley
 
 # ---- the parameters of section 4.2.2 ----
 

@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 from tsing_shan_record import LOOK, MEASURES, SINCE
 
-from landlab_debrisflow.plots.maps import Layer, draw_maps
+from landlab_debrisflow.plots import Layer, draw_maps
 
 SHOWN = (0.0, 32.0, 66.0, 100.0, 250.0, 400.0)
 """Times of figure 14 [s]."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from landlab_debrisflow import measures
-from landlab_debrisflow.record.measures import quantile
+from landlab_debrisflow.record import quantile
 
 LOOK = 0.5
 """Time between two looks at the particles [s]; times since the front left erodible ground are known to that."""

@@ -1,4 +1,8 @@
-"""Landslides and debris flows that pick up wet ground, as a Landlab component."""
+"""Landslides and debris flows that pick up wet ground, as a Landlab component.
+
+Public are the names below and those of `exact` (closed forms), `laws` (classes of laws, names for the author of one),
+`plots` (figures), `record` (observers and files) and `scene` (setup, terrains). Deeper modules may change at any time.
+"""
 
 from . import exact
 from .columns.solve import solve_column

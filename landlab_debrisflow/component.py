@@ -11,13 +11,14 @@ from landlab.core.model_component import classproperty
 from .grid import checks, doubts
 from .grid.call import GridCall
 from .grid.fields import NODE_FIELDS, no_new_fields
+from .model.diagnostics import Diagnostics
 from .model.inflow.hydrograph import Hydrograph
 from .model.inflow.source import Inflow
 from .model.numerics import Numerics
 from .model.simulation import Simulation
 from .physics.material import Material
 from .record import summary
-from .record.attributes import of_moment
+from .record.attributes import moment_attributes
 from .record.citation import PAPER
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
 from .scene.setup import Setup
@@ -113,8 +114,8 @@ class DebrisFlow(Component):
         with no_new_fields(grid):
             super().__init__(grid)
             checks.check_boundaries(grid)
-            odd = [*doubts.about_coordinates(grid), *doubts.about_elevations(grid)]
-            odd += doubts.about_names(grid, setup)
+            found = [*doubts.coordinate_doubts(grid), *doubts.elevation_doubts(grid)]
+            found += doubts.name_doubts(grid, setup)
             entering = Inflow(setup.inflow, setup.numerics, grid.xy_of_lower_left)
             if continues is not None:
                 if not isinstance(continues, DebrisFlow):
@@ -123,8 +124,8 @@ class DebrisFlow(Component):
                     )
                 checks.check_continued(continues, grid, entering)
             self._simulation = Simulation(setup, setup.numerics, entering)
-            self._call = GridCall(self, None if continues is None else continues._call)
-        for doubt in (*odd, *doubts.about_parameters(grid, setup)):
+            self._call: GridCall = GridCall(self, None if continues is None else continues._call)
+        for doubt in (*found, *doubts.parameter_doubts(grid, setup)):
             log.warning("%s", doubt)
 
     def __repr__(self):
@@ -136,7 +137,7 @@ class DebrisFlow(Component):
     @classproperty
     @classmethod
     def input_var_names(cls) -> tuple[str, ...]:
-        """Names of the fields that are read if they are there, sorted; `wrap_as_bmi` lets these be set, no others.
+        """Names of the optional input fields, sorted: the fields that `wrap_as_bmi` lets a caller set.
 
         Landlab's own list leaves out all that is optional.
         """
@@ -202,8 +203,8 @@ class DebrisFlow(Component):
             If something still moves.
         """
         if not self.at_rest:
-            what = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
-            raise checks.InputError(f"settle() lays down mass at rest, but {what}; run_until_rest() first")
+            reason = "something has yet to flow in" if self._simulation.idle else "the flow still moves"
+            raise checks.InputError(f"settle() lays down mass at rest, but {reason}; run_until_rest() first")
         self._call.settle()
 
     def new_event(self) -> None:
@@ -224,7 +225,7 @@ class DebrisFlow(Component):
         self._call.restart_peaks()
 
     @property
-    def setup(self):
+    def setup(self) -> Setup:
         """Laws, material, numerics and inflow, as they were checked: a `Setup`."""
         return self._setup
 
@@ -249,7 +250,7 @@ class DebrisFlow(Component):
 
     @property
     def budget_by_phase(self) -> dict[str, dict[str, float]]:
-        """The same for ``"solid"`` and ``"water"`` [m3]: grains, and what is between them, water if saturated.
+        """Volume budget so far of ``"solid"`` and ``"water"`` [m3]: grains, and pore fluid (water if saturated).
 
         What of the released, inflowing and eroded volume is of which phase follows from the porosities.
         """
@@ -261,8 +262,8 @@ class DebrisFlow(Component):
         return self._simulation.state.outflow.by_edge(*self.grid.shape)
 
     @property
-    def diagnostics(self):
-        """What the run took so far: number of steps, smallest one [s], share of particles asleep, CPU seconds by stage.
+    def diagnostics(self) -> Diagnostics:
+        """Cost of the run so far: number of steps, smallest step [s], share of particles asleep, CPU seconds by stage.
 
         A `model.diagnostics.Diagnostics`, of all calls of this component.
         """
@@ -276,7 +277,7 @@ class DebrisFlow(Component):
 
     @property
     def columns(self) -> xr.Dataset:
-        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), what shapes it."""
+        """Excess pore pressure over ``particle`` and ``level`` (0 at the base, 1 at the surface), column states."""
         sim = self._simulation
         c_v = sim.phases.coefficient_of_consolidation(sim.particles, slice(None))
         return columns_dataset(sim.columns_now(), sim.particles, c_v, self._setup, self.elapsed_time)
@@ -289,5 +290,5 @@ class DebrisFlow(Component):
         them, and where something was left before they were closed.
         """
         shown = self._call.maps()
-        moment = of_moment(self.elapsed_time, self._simulation.particles, self.budget)
+        moment = moment_attributes(self.elapsed_time, self._simulation.particles, self.budget)
         return maps_dataset(self.grid, shown, self._setup, moment)

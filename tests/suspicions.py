@@ -29,7 +29,7 @@ def suspicions():
 
     with ExitStack() as stack:
         for name, about in vars(doubts).items():
-            if name.startswith("about_"):
+            if name.endswith(("_doubts", "_reason")):
                 stack.enter_context(mock.patch.object(doubts, name, listening(about)))
         yield said
 

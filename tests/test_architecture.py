@@ -83,7 +83,7 @@ def test_imports_have_no_circle():
 WHOLE = {"sim", "simulation"}
 """Names of parameters that are the whole simulation."""
 
-ROOMS = {"model": 1, "grid": 6}
+ROOMS = {"model": 1, "grid": 1}
 """Most functions of a room that may take it."""
 
 

@@ -42,7 +42,7 @@ def test_the_volume_is_the_integral_of_the_discharge(hill):
     flow.run_one_step(3.0)
     assert flow.budget["inflow"] == pytest.approx(VOLUME, rel=1e-14)
     # when nothing more flows in nothing is prescribed any more, not even right behind the line
-    assert rows.held(flow._simulation.particles).size == 0 and float(flow.particles.x.min()) < 21.0
+    assert rows.prescribed(flow._simulation.particles).size == 0 and float(flow.particles.x.min()) < 21.0
     volumes = flow.particles.volume.values
     assert volumes.size == 300 and np.all(volumes == volumes[0])  # no light beside heavy
 

@@ -22,7 +22,7 @@ def hill():
 
 def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hill):
     flow = DebrisFlow(hill, inflow=LINE | {"times": [0, 100], "discharge": 40, "velocity": 4}, numerics=COARSE)
-    with flow._call.rollback.all_or_nothing():
+    with flow._call.rollback.undo_on_failure():
         flow._call.begin()
     simulation = flow._simulation
     simulation.inflow.enter(simulation.particles, simulation.bed.surface, simulation.columns, 50.0)

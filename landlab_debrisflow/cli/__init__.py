@@ -1,1 +1,1 @@
-"""The command line: thin; what it does stands elsewhere."""
+"""The command line, thin: runs and pages are made by the modules beside and below."""

@@ -16,7 +16,7 @@ from ..record.observers import Progress
 from ..scene.tsing_shan import NON_ERODIBLE_BELOW, tsing_shan_valley
 
 COLUMNS = {"ale": "ALE", "classical": "classical"}
-"""The models compared: name of the column law and what figures and tables call it."""
+"""The models compared: name of the column law, and its label in figures and tables."""
 
 MATERIAL = {"initial_pressure_profile": "basal_layer"}
 """The start of Pastor et al. (2022), section 4.2.2: a basal layer of h/10 at 0.65 of liquefaction."""

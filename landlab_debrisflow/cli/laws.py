@@ -1,14 +1,18 @@
-"""What the declarations say of laws and parameters, for the command line and for ``docs/laws.md``.
+"""Reference of laws and parameters, made of their declarations for the command line and ``docs/laws.md``.
 
-The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula, after a colon what that is;
+The docstring of a law has a form (CONTRIBUTING.md): its first line is the formula and, after a colon, its meaning;
 a section ``References`` is its source.
 """
 
 import dataclasses
 import inspect
 import re
+import sys
 import typing
 
+import landlab_debrisflow
+
+from .. import laws
 from ..core.docstrings import allowed, default
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
@@ -32,39 +36,39 @@ HEADINGS = ("parameter", "unit", "default", "allowed", "in space", "meaning")
 
 
 class Entry(typing.NamedTuple):
-    """What a declared class says of itself."""
+    """Declaration of one class in words."""
 
-    title: str  # "friction: voellmy", or the keyword of what is no law
+    title: str  # "friction: voellmy", or a keyword that is no law
     cls: type
-    formula: str  # "" for what is no law
-    summary: str  # what it is, in a line; may be empty for a law
+    formula: str  # of a law, else ""
+    summary: str  # meaning in a line; may be empty for a law
     details: str  # further paragraphs
     source: str  # "" if there is none
     rows: list  # of its parameters, one str for each of HEADINGS
 
 
 def law_entries(kind: str) -> list[Entry]:
-    """Return what the laws of a kind say of themselves, the default first."""
+    """Return the entries of the laws of a kind, the default first."""
     return [_entry(f"{kind}: {name}", law, has_formula=True) for name, law in LAWS[kind].items()]
 
 
 def other_entries() -> list[Entry]:
-    """Return the same of the other keywords whose parameters are declared."""
-    others = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
-    return [_entry(keyword, cls, has_formula=False) for keyword, cls in others.items()]
+    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow."""
+    classes = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
+    return [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
 
 
 def markdown() -> str:
     """Return the page of all laws and parameters."""
-    parts = [INTRODUCTION]
+    sections = [INTRODUCTION]
     contracts = typing.get_type_hints(Setup)
     for kind in LAWS:
-        what = inspect.cleandoc(contracts[kind].__doc__).splitlines()[0]
-        parts.append(f"## {kind}\n\n{what} A law of this kind has the method `{METHOD[kind]}`.\n")
-        parts += map(_section, law_entries(kind))
-    parts.append("## Other keywords\n")
-    parts += map(_section, other_entries())
-    return "\n".join(parts)
+        summary = inspect.cleandoc(contracts[kind].__doc__).splitlines()[0]
+        sections.append(f"## {kind}\n\n{summary} A law of this kind has the method `{METHOD[kind]}`.\n")
+        sections += map(_section, law_entries(kind))
+    sections.append("## Other keywords\n")
+    sections += map(_section, other_entries())
+    return "\n".join(sections)
 
 
 def _entry(title, cls, has_formula: bool) -> Entry:
@@ -95,10 +99,16 @@ def _section(entry: Entry) -> str:
         ": ".join(filter(None, (f"`{entry.formula}`" if entry.formula else "", entry.summary))),
         entry.details,
         f"Source: {entry.source}" if entry.source else "",
-        f"Class `{entry.cls.__module__}.{entry.cls.__qualname__}`" + (":" if entry.rows else "; no parameters."),
+        f"Class `{_path(entry.cls)}`" + (":" if entry.rows else "; no parameters."),
         _table(entry.rows),
     ]
     return "\n\n".join(filter(None, paragraphs)) + "\n"
+
+
+def _path(cls: type) -> str:
+    """Return the dotted name from which a class is imported, of a public module if there is one."""
+    public = (module for module in (landlab_debrisflow, laws) if getattr(module, cls.__name__, None) is cls)
+    return f"{next(public, sys.modules[cls.__module__]).__name__}.{cls.__qualname__}"
 
 
 def _table(rows) -> str:

@@ -22,7 +22,7 @@ def main(argv=None) -> int:
     Parameters
     ----------
     argv : sequence of str, optional
-        Words of the command line without the program; those of the process by default.
+        Words of the command line without the program; by default from the process.
 
     Returns
     -------

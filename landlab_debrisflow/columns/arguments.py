@@ -1,4 +1,4 @@
-"""What `solve_column` is given, checked: a refusal says which argument, got, allowed and what to do."""
+"""Arguments of `solve_column`, checked: a refusal names the argument, the value given, the values allowed, a remedy."""
 
 import dataclasses
 from numbers import Real
@@ -13,14 +13,10 @@ from ..core.parameters import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.contracts import BaseContact
-from .declarations import CHOICES, NUMBERS, OTHERS
+from .declarations import CHOICES, NUMBERS, SINGLE_NUMBERS
 
-BASE = {
-    "by_erosion": BaseContact.BY_EROSION,
-    "prescribed": BaseContact.PRESCRIBED,
-    "impermeable": BaseContact.IMPERMEABLE,
-    "drained": BaseContact.DRAINED,
-}
+ALLOWED = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE, BaseContact.DRAINED
+BASE = {contact.name.lower(): contact for contact in ALLOWED}
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 
 
@@ -38,11 +34,11 @@ class History:
         self.value = self._read(given(0.0), " at t = 0 s") if self.varies else self._read(given)
 
     def spread(self, count: int) -> None:
-        """Make it one per column."""
+        """Repeat a single value for every column, in place."""
         self.value = np.array(np.broadcast_to(self.value, (count,)))
 
     def at(self, time: float) -> np.ndarray:
-        """Return it at a time [s], shape (column,)."""
+        """Return the values at a time [s], shape (column,)."""
         if not self.varies:
             return self.value
         value, count = self._read(self.given(time), f" at t = {time:g} s"), self.value.size
@@ -54,12 +50,14 @@ class History:
     def _read(self, value, when=""):
         if self.name == "base":
             return _contacts(value, when)
-        return numbers(self.name, NUMBERS[self.name], value, when)
+        return checked_numbers(self.name, NUMBERS[self.name], value, when)
 
 
-def numbers(name: str, argument: dataclasses.Field, value, when="", each="column") -> np.ndarray:
+def checked_numbers(
+    name: str, argument: dataclasses.Field, value: Any, when: str = "", each: str = "column"
+) -> np.ndarray:
     """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
-    array, meta = _array(value), argument.metadata
+    array, meta = _float_array(value), argument.metadata
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
         refuse(f"{name} must be one number or one per {each}, got {got}{when}; {meta['remedy']}")
@@ -72,8 +70,8 @@ def numbers(name: str, argument: dataclasses.Field, value, when="", each="column
     return array
 
 
-def _array(value):
-    """Return real numbers as an array of floats, or None if they are none."""
+def _float_array(value):
+    """Return real numbers as an array of floats; None for anything else."""
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different lengths
@@ -91,7 +89,7 @@ def _contacts(value, when="") -> np.ndarray:
 
 
 class Inputs(NamedTuple):
-    """What `solve_column` was given, checked and spread over n columns."""
+    """Arguments of `solve_column`, checked and spread over n columns."""
 
     times: np.ndarray  # of output [s]
     law: Any  # a ColumnLaw
@@ -99,7 +97,7 @@ class Inputs(NamedTuple):
     thickness: np.ndarray  # (n,), at time 0 [m]
     coefficient_of_consolidation: np.ndarray  # (n,) [m2 s-1]
     loading: np.ndarray  # (n,), all 0 or all > 0 [Pa m-1]
-    pressure_scale: np.ndarray  # (n,), what a law may call liquefaction pressure without loading [Pa]
+    pressure_scale: np.ndarray  # (n,), stands for the liquefaction pressure where there is no loading [Pa]
     entrainment_rate: History  # [m s-1]
     divergence_rate: History  # [s-1]
     porosity_source: History  # [Pa s-1]
@@ -130,17 +128,17 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     for name, argument in CHOICES.items():
         given[name] = checked("solve_column", name, argument, given[name])
     for name in ("initial_layer_fraction", "step"):
-        if given[name] is not None and numbers(name, OTHERS[name], given[name]).ndim:
+        if given[name] is not None and checked_numbers(name, SINGLE_NUMBERS[name], given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
     absent = [name for name in ("initial_pressure", "basal_pressure_ratio") if given[name] is None]
     histories = {name: History(name, given[name]) for name in NUMBERS if name not in absent}
     histories["base"] = History("base", given["base"])
-    _agree(given, histories)
-    law, profile = _law(given, histories), _profile_given(given)
+    _refuse_contradictions(given, histories)
+    law, profile = _checked_law(given, histories), _given_profile(given)
     shapes = {name: history.value.shape for name, history in histories.items()}
     if profile is not None:
         shapes["initial"] = profile.shape[:-1]
-    count = _count({name: shape for name, shape in shapes.items() if shape})
+    count = _column_count({name: shape for name, shape in shapes.items() if shape})
     for history in histories.values():
         history.spread(count)
     value = {name: history.value for name, history in histories.items()}
@@ -152,7 +150,7 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     )  # fmt: skip
     bed = inputs.bed_pressure(0.0, inputs.thickness)
     if profile is None:
-        profile = _start(given, inputs, value.get("initial_pressure", bed))
+        profile = _profile_of_word(given, inputs, value.get("initial_pressure", bed))
     profile = np.array(np.broadcast_to(profile, (count, given["levels"])))
     scale = np.maximum(np.abs(bed), np.abs(profile).max(axis=1))
     return inputs._replace(profile=profile, pressure_scale=np.where(scale > 0.0, scale, 1.0))
@@ -160,9 +158,9 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
 
 def _times(times) -> np.ndarray:
     if times is None:
-        remedy = OTHERS["times"].metadata["remedy"]
+        remedy = SINGLE_NUMBERS["times"].metadata["remedy"]
         refuse(f"times is missing: give the times of output [s], increasing and >= 0; {remedy}")
-    times = np.atleast_1d(numbers("times", OTHERS["times"], times, each="output"))
+    times = np.atleast_1d(checked_numbers("times", SINGLE_NUMBERS["times"], times, each="output"))
     bad = np.flatnonzero(np.diff(times) <= 0.0)
     if bad.size:
         one, other = times[bad[0] : bad[0] + 2]
@@ -170,8 +168,8 @@ def _times(times) -> np.ndarray:
     return times
 
 
-def _agree(given, histories) -> None:
-    """Refuse what does not go together."""
+def _refuse_contradictions(given, histories) -> None:
+    """Refuse arguments that contradict each other."""
     loading, ratio = histories["loading"].value, given["basal_pressure_ratio"]
     if loading.any() != loading.all():
         refuse(f"loading must be 0 in all columns or > 0 in all, got {loading}; solve the two kinds one by one")
@@ -182,9 +180,9 @@ def _agree(given, histories) -> None:
         "source_includes_erosion=True": given["source_includes_erosion"] is True,
         "law='constant_ratio'": given["law"] == "constant_ratio",
     }
-    for what, asked in needs.items():
+    for argument, asked in needs.items():
         if asked and not loading.any():
-            refuse(f"{what} needs loading > 0 Pa m-1, got loading=0; give loading=rho' g cos(theta)")
+            refuse(f"{argument} needs loading > 0 Pa m-1, got loading=0; give loading=rho' g cos(theta)")
     if ratio is not None and not (isinstance(given["basal_pressure"], Real) and given["basal_pressure"] == 1.0):
         refuse(
             f"basal_pressure must be left out where basal_pressure_ratio is given, got {given['basal_pressure']!r}; "
@@ -198,7 +196,7 @@ def _agree(given, histories) -> None:
         refuse(f"tolerance is for advance='lazy' only, got {given['tolerance']!r} with 'every_step'; leave it None")
 
 
-def _law(given, histories):
+def _checked_law(given, histories):
     """Return the law, with its own checks of its parameters."""
     names = ("levels", "scheme", "bed_contact", "loading_source", "source_includes_erosion")
     parameters = {name: given[name] for name in names}
@@ -210,7 +208,7 @@ def _law(given, histories):
     return law if histories["loading"].value.any() else dataclasses.replace(law, loading_source="none")
 
 
-def _count(shapes) -> int:
+def _column_count(shapes) -> int:
     """Return the number of columns."""
     counts = {shape[0] for shape in shapes.values()} - {1}
     if len(counts) > 1:
@@ -219,7 +217,7 @@ def _count(shapes) -> int:
     return counts.pop() if counts else 1
 
 
-def _profile_given(given):
+def _given_profile(given):
     """Return `initial` if it is an array, else None."""
     initial, levels = given["initial"], given["levels"]
     if isinstance(initial, str):
@@ -234,7 +232,7 @@ def _profile_given(given):
             f"initial_pressure must be left None where initial is {word}, got {given['initial_pressure']!r}; "
             "it is for 'linear', 'uniform' and 'basal_layer'"
         )
-    array = np.zeros(levels) if isinstance(initial, str) else _array(initial)
+    array = np.zeros(levels) if isinstance(initial, str) else _float_array(initial)
     if array is None or array.ndim not in (1, 2) or array.shape[-1] != levels or array.size == 0:
         got = repr(initial) if array is None else f"shape {array.shape}"
         refuse(
@@ -252,7 +250,7 @@ def _profile_given(given):
     return array
 
 
-def _start(given, inputs, pressure) -> np.ndarray:
+def _profile_of_word(given, inputs, pressure) -> np.ndarray:
     """Return the profile a word means, with `pressure` at the base [Pa]."""
     levels, shape = given["levels"], given["initial"]
     if inputs.loading[0] > 0.0:

@@ -1,14 +1,15 @@
 """Solved columns as a Dataset, with units."""
 
 from numbers import Real
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ..physics.column.diagnostics import basal_peclet_number
-from ..record.attributes import NO_FILL, described, heading, quantity
+from ..record.attributes import NO_FILL, file_attributes, quantity_attributes, variable_attributes
 from .arguments import Inputs
-from .declarations import NUMBERS, OTHERS
+from .declarations import NUMBERS, SINGLE_NUMBERS
 
 VARIABLES = {
     "excess_pore_pressure": ("Pa", "excess pore pressure"),
@@ -23,7 +24,7 @@ VARIABLES = {
 }
 
 
-def dataset(inputs: Inputs, given, output) -> xr.Dataset:
+def dataset(inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.ndarray]]) -> xr.Dataset:
     """Return the columns at all times of output as a Dataset.
 
     Parameters
@@ -35,20 +36,21 @@ def dataset(inputs: Inputs, given, output) -> xr.Dataset:
     output : list of dict
         For each time the arrays of `VARIABLES`, shape (column,) or (column, level).
     """
-    data = {}
+    data: dict[str, Any] = {}
     for name, (unit, words) in VARIABLES.items():
         dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
-        data[name] = (dims, np.stack([values[name] for values in output]), described(unit, words))
+        data[name] = (dims, np.stack([values[name] for values in output]), variable_attributes(unit, words))
     start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
-    data["initial_peclet_number"] = ("column", start, described("-", "basal Peclet number at time 0"))
+    data["initial_peclet_number"] = ("column", start, variable_attributes("-", "basal Peclet number at time 0"))
     height = "height above the base over thickness, 0 at the base, 1 at the surface"
     coordinates = {
-        "time": ("time", inputs.times, described("s", "time"), NO_FILL),
-        "column": ("column", np.arange(inputs.thickness.size), described("-", "number of the column")),
-        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), described("-", height), NO_FILL),
+        "time": ("time", inputs.times, variable_attributes("s", "time"), NO_FILL),
+        "column": ("column", np.arange(inputs.thickness.size), variable_attributes("-", "number of the column")),
+        "level": ("level", np.linspace(0.0, 1.0, given["levels"]), variable_attributes("-", height), NO_FILL),
     }
-    attributes, units = heading(), {n: argument.metadata["unit"] for n, argument in (NUMBERS | OTHERS).items()}
+    attributes = file_attributes()
+    units = {name: argument.metadata["unit"] for name, argument in (NUMBERS | SINGLE_NUMBERS).items()}
     for name, value in given.items():
         if isinstance(value, str | Real):
-            attributes |= quantity(name, value, units.get(name, "-"))
+            attributes |= quantity_attributes(name, value, units.get(name, "-"))
     return xr.Dataset(data, coordinates, attributes)

@@ -35,7 +35,7 @@ NUMBERS = {
 }  # fmt: skip
 """Arguments that are one number or one per column, declared as parameters are."""
 
-OTHERS = {
+SINGLE_NUMBERS = {
     "times": parameter(
         "s", "times of output", None, (0.0, None),
         remedy="the columns start at time 0; for example times=[10.0, 100.0]",

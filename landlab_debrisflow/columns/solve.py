@@ -64,23 +64,23 @@ def solve_column(
         Times of output, increasing [s]; the columns start at time 0. Required.
     initial : {"zero", "linear", "uniform", "basal_layer"} or array_like, shape (levels,) or (column, levels)
         Pressure at time 0: a word, or at levels, index 0 at the base and 0 at the surface [Pa]. With
-        `loading`, "uniform" and "basal_layer" are nowhere more than what liquefies the grains there.
+        `loading`, "uniform" and "basal_layer" are capped at the liquefaction pressure of each level.
     initial_pressure : float or array_like, optional
-        Of such a word, at the base, per column [Pa]; the pressure of the bed at time 0 if None.
+        Pressure at the base for an `initial` given as a word, per column [Pa]; by default the bed's at time 0.
     initial_layer_fraction : float
         Thickness of the basal layer over that of the column, in [0, 1] [-].
     base : {"by_erosion", "prescribed", "impermeable", "drained"}, array_like of them or function of time
         Whether the bed prescribes the pressure of the base while the column erodes (and is impermeable
         else), always or never; "drained" prescribes 0. Per column.
     bed_contact : {"dirichlet", "flux"}
-        Whether a base that erodes takes the pressure of the bed, or only what new soil brings.
+        Whether an eroding base takes the pressure of the bed, or only gains the pressure of the entrained soil.
     divergence_rate : float, array_like or function of time
         D, the strain rate at which a column spreads and thins, per column [s-1].
     loading : float or array_like
         ``rho' g cos(theta)`` >= 0, per column [Pa m-1]; liquefaction pressure is loading times thickness.
         0, in all columns, leaves the source by loading out.
     loading_source : {"overburden", "proportional", "none"}
-        What a change of thickness by strain does to the pressure, if there is a loading.
+        Source of pressure by a change of thickness through strain, if there is a loading.
     porosity_source : float, array_like or function of time
         Pressure made everywhere in the column by a change of porosity, per column [Pa s-1].
     source_includes_erosion : bool
@@ -110,7 +110,7 @@ def solve_column(
     -------
     xarray.Dataset
         ``excess_pore_pressure(time, column, level)``; over ``time`` and ``column``: ``thickness``,
-        ``basal_excess_pore_pressure`` (what friction feels), ``basal_peclet_number``, ``front_height`` (0
+        ``basal_excess_pore_pressure`` (for friction), ``basal_peclet_number``, ``front_height`` (0
         until something eroded), ``front_age`` (NaN until then), ``consolidation_time``, ``erosion_time``,
         ``clipped_pressure``; ``initial_peclet_number(column)``, the paper's Pe0. The coordinate ``level`` is
         xi, 0 at the base and 1 at the surface. Units are in the attributes, as are the parameters that are
@@ -145,7 +145,7 @@ def solve_column(
 
 
 class _History:
-    """Columns under way; the volume is over 1 m2 at time 0, so that it grows by erosion only."""
+    """Columns under way; their volumes are over 1 m2 at time 0, so that only erosion makes them grow."""
 
     def __init__(self, inputs: Inputs):
         self.inputs, self.time = inputs, 0.0

@@ -1,4 +1,4 @@
-"""Refuse values: the one place that compares with an allowed interval and words what is wrong with it."""
+"""Refusal of values: the one place that compares with an allowed interval and words the error."""
 
 import numpy as np
 
@@ -11,19 +11,19 @@ def require(good, name: str, allowed: str, values, where="", remedy: str = "", f
     Parameters
     ----------
     good : bool or array_like of bool
-        One for all values, which are then told as they were given, or one for each, of which the first bad is told.
+        Verdict on all values, or on each of them: the message then shows the first bad one.
     name : str
         Of the argument, parameter or field, with its owner in front.
     allowed : str
         Words after "must".
     values : object
-        What was given.
+        Value or values given.
     where : str or callable
         Words after the value, or a function that makes them from the flat indices of all bad values.
     remedy : str
-        What to do.
+        Advice that ends the message.
     form : str
-        Format of the value told; as it prints by default.
+        Format of the value in the message; by default its `repr`.
     error : type
         Class of the error.
 

@@ -1,4 +1,4 @@
-"""The errors a user can meet. Each says what, where, got, allowed and what to do."""
+"""Errors raised for a user's input or a failing run: each names place, value given, values allowed and remedy."""
 
 
 class ParameterError(ValueError):
@@ -24,9 +24,9 @@ class SimulationError(RuntimeError):
 
     def __init__(self, variable: str, particle: int | None, time: float, value: float):
         self.variable, self.particle, self.time, self._value = variable, particle, time, value
-        whose = "" if particle is None else f" of particle {particle}"
+        owner = "" if particle is None else f" of particle {particle}"
         super().__init__(
-            f"{variable}{whose} became {value} at {time:.6g} s; the grid is as it "
+            f"{variable}{owner} became {value} at {time:.6g} s; the grid is as it "
             "was before the call. Look at the terrain and the parameters there, or use more particles."
         )
 

@@ -1,17 +1,17 @@
-"""What a user probably meant: the end of a refusal that says what to do."""
+"""Hints that end a refusal: the word or number that a user probably meant."""
 
 import difflib
 from collections.abc import Iterable
 from typing import Any
 
 
-def plain(value: Any):
+def python_value(value: Any):
     """Return the Python value of a scalar of numpy, or of an array without dimensions; anything else as it is."""
     return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
 
 
 def same_word(word: Any, allowed: Iterable[str]) -> str | None:
-    """Return the allowed word that `word` is, whatever its case, or None.
+    """Return the allowed word that equals `word` but for upper and lower case, or None.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def same_word(word: Any, allowed: Iterable[str]) -> str | None:
 
 
 def did_you_mean(word: Any, allowed: Iterable[str]) -> str:
-    """Return the question after the allowed word nearest to a refused one, or nothing if none is near.
+    """Return the question after the allowed word nearest to a refused one; an empty text if no word is near.
 
     Examples
     --------
@@ -44,7 +44,7 @@ def _folded(word: str) -> str:
 
 
 def number_in(text: Any) -> float | None:
-    """Return the number a text stands for, also one with a decimal comma, or None."""
+    """Return the number that a text holds, with decimal point or comma, or None."""
     try:
         return float(text.replace(",", ".")) if isinstance(text, str) else None
     except ValueError:
@@ -52,7 +52,7 @@ def number_in(text: Any) -> float | None:
 
 
 def give_number(value: Any, whole: bool = False) -> str:
-    """Return what to give instead of something that is no number, or no whole one, or nothing if nobody knows.
+    """Return a remedy for a value that is no number, or no whole number, as the end of a sentence; "" if none is known.
 
     Examples
     --------

@@ -1,13 +1,13 @@
-"""The one place that names numba's decorators, so that every kernel is compiled alike.
+"""Decorators of numba, named here only, so that every kernel is compiled alike.
 
 Kernels are cached on disk, release the interpreter lock (members of an ensemble and ranges of
 cells run in threads) and may reorder sums, but never assume that numbers are finite: a NaN must
 survive until the check after the step. But in a kernel np.isfinite() asks whether v - v is a number, and of a v
-that is itself a sum reordering makes that 0: compare abs(v) with infinity instead. What is reordered is decided when
+that is itself a sum reordering makes that 0: compare abs(v) with infinity instead. The order of sums is decided when
 a kernel is compiled, the same way every time: on one machine results are bit-equal, whichever process compiled it.
 Another processor may get other bits.
 
-What is compiled once and cached is what Python calls. All that a kernel calls is compiled again as
+Functions that Python calls are compiled once and cached. Functions that a kernel calls are compiled again as
 a part of it, so a large function is best called from one place, and a stage that is called from
 several is best a kernel that Python calls (3 to 6 us). `python -m benchmarks.start --kernels` shows
 what each costs. A kernel calls no kernel: see `inner`.
@@ -27,15 +27,15 @@ _CHOICES: dict[str, Any] = {
 }
 
 kernel: Any = numba.njit(cache=True, fastmath=_REORDER, **_CHOICES)
-"""For what Python calls."""
+"""Decorator of functions that Python calls."""
 
 approximate_kernel: Any = numba.njit(cache=True, fastmath=_REORDER | {"afn"}, **_CHOICES)
-"""The same for sums of floats whose reciprocal roots may be the processor's estimate, refined once (3e-7)."""
+"""`kernel` for sums of floats whose reciprocal roots may be the processor's estimate, refined once (3e-7)."""
 
 inner: Any = register_jitable(fastmath=_REORDER, forceinline=True, **_CHOICES)
-"""For what only kernels call: it has no entry from Python and no file in the cache, which halves what it costs.
-Called from Python it is what it looks like, Python.
+"""Decorator of functions that only kernels call. Without an entry from Python and a file in the cache they cost half
+the time to compile. Called from Python they run as plain Python.
 
-It always becomes a part of its callers. As a function of its own it would be in the object code of each of them, by
-one name, reordered differently; a process calls the copy it meets first, which is another one when kernels are
+Such a function always becomes a part of its callers. As a function of its own it would be in the object code of each of
+them, by one name, reordered differently; a process calls the copy it meets first, which is another one when kernels are
 compiled than when they are loaded."""

@@ -20,7 +20,7 @@ import dataclasses
 import functools
 import math
 from collections import namedtuple
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from numbers import Integral, Real
 from typing import Any, TypeVar, dataclass_transform
 
@@ -29,7 +29,7 @@ import numpy as np
 from .checks import in_range
 from .docstrings import with_parameters
 from .errors import ParameterError
-from .hints import did_you_mean, give_number, number_in, plain, same_word
+from .hints import did_you_mean, give_number, number_in, python_value, same_word
 
 T = TypeVar("T")
 
@@ -68,9 +68,10 @@ class NodeValues:
 
 
 def parameter(
-    unit: str, meaning: str, default: Any, bounds=(None, None), choices=None, kind=float, varies=False, *,
-    open_below=False, timed=False, remedy="",
-):  # fmt: skip
+    unit: str, meaning: str, default: Any, bounds: tuple[float | None, float | None] = (None, None),
+    choices: Collection[str] | None = None, kind: type = float, varies: bool = False, *,
+    open_below: bool = False, timed: bool = False, remedy: str = "",
+) -> Any:  # fmt: skip
     """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
     Parameters
@@ -94,7 +95,7 @@ def parameter(
     timed : bool
         Whether a function of time will do for a number.
     remedy : str
-        What to do about a number that is refused.
+        Advice that ends the refusal of a number.
 
     Returns
     -------
@@ -115,9 +116,9 @@ def parameter(
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 def declared(cls: type[T]) -> type[T]:
-    """Make a frozen, keyword-only dataclass whose parameters are checked when it is built.
+    """Make a frozen, keyword-only dataclass that checks its parameters when an instance is built.
 
-    A method ``_agree`` of the class is called last, for what concerns several parameters at once. The docstring gets a
+    A method ``_agree`` of the class is called last, to check parameters against each other. The docstring gets a
     section ``Parameters`` from the declarations.
     """
 
@@ -128,13 +129,14 @@ def declared(cls: type[T]) -> type[T]:
         if hasattr(self, "_agree"):
             self._agree()
 
-    cls.__post_init__ = check  # before dataclass() runs: it looks for the method only then
-    cls = dataclasses.dataclass(frozen=True, kw_only=True)(cls)
-    cls.__doc__ = with_parameters(cls.__doc__, dataclasses.fields(cls))
-    return cls
+    made: Any = cls
+    made.__post_init__ = check  # before dataclass() runs: it looks for the method only then
+    made = dataclasses.dataclass(frozen=True, kw_only=True)(made)
+    made.__doc__ = with_parameters(made.__doc__, dataclasses.fields(made))
+    return made
 
 
-def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
+def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
     """Return the value of a parameter, or of an argument, in its declared type.
 
     Parameters
@@ -151,7 +153,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
         If the value is not of that type or not allowed.
     """
     meta, name = field.metadata, f"{owner}: {name}"
-    kind, value = meta["kind"], plain(value)
+    kind, value = meta["kind"], python_value(value)
     if value is None and field.default is None:
         return None
     if kind is tuple:
@@ -172,7 +174,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any):
 
 
 def _checked_on_nodes(name: str, value: Any, meta):
-    """Return the name of a field or an array of values as `NodeValues`; what they are is looked at with the grid."""
+    """Return the name of a field, or an array of values as `NodeValues`; both are compared with the grid later."""
     if isinstance(value, NodeValues) or (isinstance(value, str) and number_in(value) is None):
         return value
     try:
@@ -191,7 +193,7 @@ def _checked_on_nodes(name: str, value: Any, meta):
     return NodeValues(values.astype(float))
 
 
-def on_nodes(obj, fields: Mapping[str, Any]):
+def on_nodes(obj: Any, fields: Mapping[str, Any]) -> Any:
     """Return all that a law reads of its parameters: numbers as arrays over nodes, or of length 1, in SI units.
 
     Parameters
@@ -223,8 +225,8 @@ def on_nodes(obj, fields: Mapping[str, Any]):
 
 @functools.cache
 def _struct(names: tuple[str, ...], constants: tuple[tuple[str, float], ...]) -> type:
-    """Return the type of named tuples with some names and constants; the same one for the same, also in a pickle."""
-    cls = namedtuple("Parameters", names)
+    """Return the type of named tuples with some names and constants: one type per signature, in a pickle, too."""
+    cls = namedtuple("Parameters", names)  # type: ignore[misc]  # which names, is known when it runs
     return type("Parameters", (cls,), {
         "__doc__": "Parameters of a law in SI units, of which each is an ndarray, shape (n,) or (1,).",
         "__slots__": (), "__module__": __name__, **dict(constants),
@@ -243,7 +245,7 @@ def _checked_list(name: str, value: Any, meta):
     if isinstance(value, str | Mapping) or not hasattr(value, "__iter__"):
         hint = give_number(value) if isinstance(value, str) else ""
         raise ParameterError(f"{name} must be a number or a list of numbers [{meta['unit']}], got {value!r}{hint}")
-    return tuple(_checked_number(f"{name}[{k}]", plain(number), meta) for k, number in enumerate(value))
+    return tuple(_checked_number(f"{name}[{k}]", python_value(number), meta) for k, number in enumerate(value))
 
 
 def _checked_number(name: str, value: Any, meta):
@@ -257,7 +259,8 @@ def _checked_number(name: str, value: Any, meta):
     except OverflowError:  # of an integer
         number = math.inf
     told = value if kind is int and math.isfinite(number) else number
-    in_range(name, told, *meta["bounds"], unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
+    low, high = meta["bounds"]
+    in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
     return int(value) if kind is int else number
 
 

@@ -1,4 +1,4 @@
-"""What a variable of a particle is: the declaration from which arrays, output and files follow."""
+"""Declaration of a particle variable, from which arrays, output and files follow."""
 
 from typing import NamedTuple
 

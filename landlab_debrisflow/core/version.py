@@ -1,4 +1,4 @@
-"""The version of the package: that of the installed distribution, which `pyproject.toml` names."""
+"""Version of the package: the version of the installed distribution, which `pyproject.toml` names."""
 
 from importlib.metadata import version
 

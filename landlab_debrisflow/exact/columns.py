@@ -4,7 +4,10 @@ Everything is dimensionless: heights over the thickness, ``xi`` = 0 at the base 
 consolidation time (``h^2 / c_v``), pressures over the basal pressure.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import erf, erfc, erfcx
 
 LINEAR, BASAL_LAYER = "linear", "basal_layer"
@@ -14,7 +17,7 @@ MOST_MODES = 10_000
 """Of a series: the start of a linear profile is then 1 at the base to 2e-5."""
 
 
-def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.ndarray:
+def growing_column(xi: ArrayLike, time: float, peclet: float, start: float = 0.0) -> np.ndarray:
     """Return the pressure in a column that grows at a constant rate under a constant basal pressure.
 
     Heat equation on an interval that grows, summed over images so that every term is a product of an exponential and
@@ -61,8 +64,8 @@ def growing_column(xi, time: float, peclet: float, start: float = 0.0) -> np.nda
     return cold + start * (warm - cold)
 
 
-def constant_local_peclet(xi, peclet: float) -> np.ndarray:
-    """Return the steady pressure in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
+def constant_local_peclet(xi: ArrayLike, peclet: float) -> np.ndarray:
+    """Return the steady pressure [Pa] in a column whose erosion rate falls as it thickens, ``e_R h / c_v`` constant.
 
     ``Pe (1 - xi) dp/dxi = d2p/dxi2`` between 1 at the base and 0 at the surface.
 
@@ -92,7 +95,7 @@ def constant_local_peclet(xi, peclet: float) -> np.ndarray:
     return erf(root * eta) / erf(root) if root > 1e-8 else eta
 
 
-def consolidation(xi, time: float, start: str = LINEAR, layer: float = 1.0) -> np.ndarray:
+def consolidation(xi: ArrayLike, time: float, start: str = LINEAR, layer: float = 1.0) -> np.ndarray:
     """Return the pressure in a column over an impermeable base that consolidates through its surface.
 
     Terzaghi's series, as many terms as matter at that time.
@@ -129,7 +132,7 @@ def consolidation(xi, time: float, start: str = LINEAR, layer: float = 1.0) -> n
     return np.cos(xi[..., None] * wave) @ (weight * np.exp(-(wave**2) * time))
 
 
-def basal_consolidation(time, start: str = LINEAR, layer: float = 1.0, modes: int = 2000) -> np.ndarray:
+def basal_consolidation(time: ArrayLike, start: str = LINEAR, layer: float = 1.0, modes: int = 2000) -> np.ndarray:
     """Return the basal pressure of `consolidation` at many times.
 
     Parameters
@@ -174,7 +177,7 @@ def consolidation_modes(count: int, start: str = LINEAR, layer: float = 1.0) -> 
     return wave, 2.0 / wave**2 if start == LINEAR else 2.0 * np.sin(wave * layer) / wave
 
 
-def front(time_over_erosion_time):
+def front(time_over_erosion_time: Any) -> Any:
     """Return the height of the front between old soil and new over the thickness, without diffusion [-].
 
     The old soil keeps its thickness while the column grows at a constant rate, so the front is at

@@ -1,4 +1,4 @@
-"""Volume budget: every term is measured on its own, none is the remainder of the others."""
+"""Volume budget: every term is measured by itself, so that the residual shows an error of any term."""
 
 from copy import copy
 from typing import NamedTuple
@@ -48,16 +48,16 @@ class VolumeBudget:
         return other
 
     def continue_from(self, earlier: "VolumeBudget", volumes: ModelVolumes, material) -> None:
-        """Begin with the terms of an earlier budget whose component holds no particles any more.
+        """Begin with the terms of an earlier budget whose component has no particles left.
 
-        Phases of volumes are those they had then, of another material perhaps.
+        Volumes keep the split into grains and fluid of the earlier component, whose material may have been another one.
         """
         whole, solid = earlier.terms(volumes), earlier.terms_by_phase(volumes, material)["solid"]
         self._earlier = {name: (whole[name], solid[name]) for name in CARRIED_OVER}
         self.released, self._eroded, self.deposited = (whole[name] for name in ("released", "eroded", "deposited"))
 
     def measure_erosion(self, core, soil: RowBackup | None) -> None:
-        """Measure erosion as the decrease of the soil depth at `core` nodes from now on; None: stop measuring."""
+        """Measure erosion as the decrease of the soil depth at `core` nodes from now on; with None, stop measuring."""
         self._eroded = self.eroded
         self._core, self._soil = core, soil
 
@@ -86,7 +86,7 @@ class VolumeBudget:
         }  # fmt: skip
 
     def terms_by_phase(self, volumes: ModelVolumes, material) -> dict[str, dict[str, float]]:
-        """Return the terms of grains and of the fluid between them [m3]; settled grains are those of the particles."""
+        """Return the terms of grains and of the pore fluid [m3]; settled grains are counted by particles."""
         whole = self.terms(volumes)
         porosity = dict.fromkeys(("released", "inflow"), material.porosity) | {"eroded": material.soil_porosity}
         solids = {

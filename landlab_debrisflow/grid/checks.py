@@ -7,17 +7,17 @@ import numpy as np
 
 from ..core.checks import in_range, require
 from ..core.errors import InputError, ParameterError
-from ..core.hints import did_you_mean, give_number, plain
+from ..core.hints import did_you_mean, give_number, python_value
 from ..core.parameters import NodeValues
 from .fields import NODE_FIELDS
-from .fills import LEAST_FILL, is_fill, replace_them
+from .fill_values import LEAST_FILL, is_fill, replacement_remedy
 
 CORE, FIXED_GRADIENT, LOOPED, CLOSED = 0, 2, 3, 4  # node statuses of Landlab
 
 
 def check_duration(value, name: str = "dt") -> float:
     """Return a duration in seconds, or raise InputError."""
-    value = plain(value)
+    value = python_value(value)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(f"{name} must be a number of seconds >= 0, got {value!r}{give_number(value)}")
     if not 0.0 <= value < np.inf:
@@ -76,7 +76,7 @@ def check_loaded_bed(grid, ratio, pressure) -> None:
 
 
 def check_parameters(grid, laws) -> None:
-    """Refuse parameters of laws, by kind, that vary in space but not over the nodes of this grid."""
+    """Refuse parameters of laws, by kind, that vary in space but do not fit the nodes of this grid."""
     closed = grid.status_at_node == CLOSED
     for kind, law in laws.items():
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
@@ -188,7 +188,7 @@ def _check_range(grid, name, values, low, high, unit):
     if low <= values.min() and values.max() <= most:  # False for NaN
         return
     closed, fills = grid.status_at_node == CLOSED, (unit == "m") & is_fill(values)
-    place = _first_of_all(grid, lambda node: replace_them(name, values, values[node]))
+    place = _first_of_all(grid, lambda node: replacement_remedy(name, values, values[node]))
     in_range(name, values, low, high, unit, place, ignored=closed, refused=fills, form="g", error=InputError)
 
 

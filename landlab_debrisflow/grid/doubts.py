@@ -11,7 +11,7 @@ from scipy.ndimage import find_objects, label
 from ..core.parameters import NodeValues
 from .checks import CLOSED, where
 from .fields import NODE_FIELDS
-from .fills import is_fill, written
+from .fill_values import code_of, is_fill
 
 LOWEST, HIGHEST = -12000.0, 9000.0  # of the ground on Earth [m]
 UPRIGHT = 10.0  # relief over extent above which no whole DEM is [-]
@@ -25,17 +25,17 @@ FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 # ---- parameters ----
 
 
-def about_parameters(grid, physics) -> Iterator[str]:
+def parameter_doubts(grid, physics) -> Iterator[str]:
     """Yield doubts about parameters of laws and material; a 0 that means "none" is not doubted."""
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(physics, kind)
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
-            values = _values(grid, law, field)
-            if values.size and (words := _odd(field, values)):
+            values = _nonzero_values(grid, law, field)
+            if values.size and (words := _parameter_doubt(field, values)):
                 yield f"{kind}: {field.name} {words}"
 
 
-def _values(grid, law, field):
+def _nonzero_values(grid, law, field):
     """Return the values of a parameter at nodes in use, or its one value, without zeros, shape (n,)."""
     value, used = getattr(law, field.name), grid.status_at_node != CLOSED
     if isinstance(value, str) and field.metadata.get("varies"):
@@ -48,8 +48,8 @@ def _values(grid, law, field):
     return values[values != 0.0]
 
 
-def _odd(field, values) -> str:
-    """Return the doubt about values of a parameter, none of them 0, or an empty text."""
+def _parameter_doubt(field, values) -> str:
+    """Return the doubt about the non-zero values of a parameter, or an empty text."""
     unit, least, most = field.metadata.get("unit"), values.min(), values.max()
     if unit == "deg" and field.metadata["bounds"][0] == 0.0 and most < LEAST_ANGLE and np.any(values % 1.0):
         return f"is {most:g} degrees at most: was it meant in radians? {most:g} rad are {np.degrees(most):.3g} deg"
@@ -66,10 +66,10 @@ def _odd(field, values) -> str:
 # ---- coordinates and elevations ----
 
 
-def about_coordinates(grid) -> Iterator[str]:
+def coordinate_doubts(grid) -> Iterator[str]:
     """Yield doubts about the coordinates of the grid: ground in degrees or km is upright when read in metres."""
     corner, spacing = np.array(grid.xy_of_lower_left), np.array([grid.dx, grid.dy])
-    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _ends(grid)
+    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _elevation_range(grid)
     on_globe = bool(np.all(np.abs([corner, corner + extent]) <= [[360.0, 90.0]] * 2))
     fine, far = spacing.max() < DEGREES_BELOW, bool(np.any(np.abs(corner) > 10.0 * extent))
     upright = spacing.max() < 1.0 and high - low > UPRIGHT * extent.max() and low >= LOWEST and high <= HIGHEST
@@ -86,9 +86,9 @@ def about_coordinates(grid) -> Iterator[str]:
         )
 
 
-def about_elevations(grid) -> Iterator[str]:
+def elevation_doubts(grid) -> Iterator[str]:
     """Yield doubts about the height of the ground."""
-    low, high = _ends(grid)
+    low, high = _elevation_range(grid)
     if low < LOWEST or high > HIGHEST:
         yield (
             f"topographic__elevation goes from {low:g} to {high:g} m, which is nowhere on Earth: was it meant in "
@@ -96,7 +96,7 @@ def about_elevations(grid) -> Iterator[str]:
         )
 
 
-def _ends(grid) -> tuple[float, float]:
+def _elevation_range(grid) -> tuple[float, float]:
     """Return the lowest and the highest elevation at nodes in use [m], without values that reading would refuse."""
     z = grid.at_node["topographic__elevation"]
     ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
@@ -109,46 +109,46 @@ def _ends(grid) -> tuple[float, float]:
 
 RELEASE = "debris_flow__release_depth"
 OUR_NAMES = tuple(field.name for field in NODE_FIELDS)
-UNSAID = {"debris", "flow", "landslide", "initial", "depth", "thickness", "height", "m"}
+COMMON_WORDS = {"debris", "flow", "landslide", "initial", "depth", "thickness", "height", "m"}
 """Words of a field's name that say nothing about which field is meant."""
 
-ALIKE = 0.85
-"""Likeness of what is left of two names from which on one may be meant by the other [-]."""
+LEAST_SIMILARITY = 0.85
+"""Similarity of two names without common words from which on one may stand for the other [-]."""
 
 
-def about_names(grid, physics) -> Iterator[str]:
+def name_doubts(grid, physics) -> Iterator[str]:
     """Yield fields that look like inputs of ours which are missing; the release may come later."""
     laws = (physics.friction, physics.erosion)
     read = {getattr(law, f.name) for law in laws if dataclasses.is_dataclass(law) for f in dataclasses.fields(law)}
     missing = [f.name for f in NODE_FIELDS if "in" in f.intent and f.name not in grid.at_node and f.name != RELEASE]
     for name in sorted(set(grid.at_node) - set(OUR_NAMES) - read):
-        ours = max(missing, key=lambda ours: _likeness(name, ours), default="")
-        if name in misnamed(grid, ours):
+        ours = max(missing, key=lambda ours: _similarity(name, ours), default="")
+        if name in misnamed_fields(grid, ours):
             yield (
                 f"the grid has no field {ours!r}, but one named {name!r}: was it meant? It is not read; "
                 f"grid.add_field({ours!r}, grid.at_node[{name!r}], at='node')"
             )
 
 
-def misnamed(grid, ours: str) -> list[str]:
+def misnamed_fields(grid, ours: str) -> list[str]:
     """Return names of fields with values > 0 that resemble one of our names."""
-    alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _likeness(name, ours) >= ALIKE]
+    alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _similarity(name, ours) >= LEAST_SIMILARITY]
     return [name for name in alike if np.any(np.nan_to_num(grid.at_node[name]) > 0)]
 
 
-def _likeness(name: str, ours: str) -> float:
-    """Return the likeness of two names, whole or without common words, from 0 to 1."""
+def _similarity(name: str, ours: str) -> float:
+    """Return the similarity of two names, whole or without common words, from 0 to 1."""
     one, other = ([word for word in n.lower().replace("-", "_").split("_") if word] for n in (name, ours))
-    pairs = (one, other), tuple([word for word in n if word not in UNSAID] for n in (one, other))
+    pairs = (one, other), tuple([word for word in n if word not in COMMON_WORDS] for n in (one, other))
     return max((difflib.SequenceMatcher(None, *map("_".join, p)).ratio() for p in pairs if all(p)), default=0.0)
 
 
 # ---- release ----
 
 
-def about_nothing(grid, soil) -> str:
+def missing_release_reason(grid, soil) -> str:
     """Return the likely reason why no release was found, as the end of a sentence."""
-    if names := misnamed(grid, RELEASE):
+    if names := misnamed_fields(grid, RELEASE):
         return f"; {names[0]!r} is not read: was it meant? grid.at_node[{RELEASE!r}][:] = grid.at_node[{names[0]!r}]"
     ids = "mass__wasting_id"
     marked = np.count_nonzero(grid.at_node[ids] > 0) if ids in grid.at_node else 0
@@ -159,7 +159,7 @@ def about_nothing(grid, soil) -> str:
     return ""
 
 
-def about_release(grid, nodes, depth) -> Iterator[str]:
+def release_doubts(grid, nodes, depth) -> Iterator[str]:
     """Yield which site is deepest for its width, if deeper than wide; `depth` [m] fails at some nodes."""
     if nodes.size == 0 or depth.max() <= min(grid.dx, grid.dy):
         return
@@ -177,8 +177,8 @@ def about_release(grid, nodes, depth) -> Iterator[str]:
             row, column = np.unravel_index(site.argmax(), site.shape)
             node = (box[0].start + row) * grid.number_of_node_columns + box[1].start + column
             deepest, narrow = site.max(), width
-    if worst > 1.0 and not any(about_coordinates(grid)):  # of which it would be the consequence
+    if worst > 1.0 and not any(coordinate_doubts(grid)):  # of which it would be the consequence
         yield (
-            f"a release is deeper than it is wide, {written(round(float(deepest), 3))} m on {narrow:g} m around "
+            f"a release is deeper than it is wide, {code_of(round(float(deepest), 3))} m on {narrow:g} m around "
             f"{where(grid, node)}: was the depth meant in cm or mm? A flow of such a shape is not shallow"
         )

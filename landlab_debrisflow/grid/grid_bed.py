@@ -25,7 +25,7 @@ class GridBed:
     eroded: np.ndarray  # (nodes,) depth eroded in all calls, whatever becomes of its field [m]
     event_eroded: np.ndarray | None = None  # (nodes,) depth eroded in the event before the present call [m]
     elevation: np.ndarray | None = None  # (nodes,) as the last call left it [m]
-    status: np.ndarray | None = None  # (nodes,) likewise
+    status: np.ndarray | None = None  # (nodes,) as the last call left it
     surface: Surface | None = None  # of that elevation
 
     def copy(self) -> "GridBed":

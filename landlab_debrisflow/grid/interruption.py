@@ -13,9 +13,9 @@ log = logging.getLogger("landlab_debrisflow")
 class Interruption:
     """Context of every call, which asks it between two steps whether an end is `requested`.
 
-    Ctrl-C is noted instead of raised while a call runs in the main thread, unless somebody has put a handler of
-    their own in place of Python's. A second one is raised at once, unless it is `deferred`: in a step it undoes the
-    call like any failure there, in an observer it is a failure of that.
+    Ctrl-C is noted instead of raised while a call runs in the main thread, unless the user's program has a handler of
+    its own in place of Python's. A second one is raised at once, unless it is `deferred`: in a step it undoes the call
+    like any failure there, in an observer it is a failure of that.
 
     Attributes
     ----------

@@ -24,34 +24,34 @@ class CallListener:
         self._reports = Reports(flow)
 
     def begun(self) -> None:
-        """The model lies on its bed and particles of a release are made."""
+        """Prepare maps and accounts: the model lies on its bed, particles of the release are made."""
         self._writer.begin()
 
     def started(self, idle: bool) -> None:
-        """The first step is about to be made; `idle`: nothing moves yet."""
+        """Keep rows and show the flow before the first step; `idle`: nothing moves yet."""
         self._writer.keep_rows()
         if not idle:
-            self._look(due_at_start(self._flow._observers))
+            self._show(due_at_start(self._flow._observers))
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
-        """A step from `began` to `time` [s] was made; `idle`: nothing moves any more."""
+        """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
         self._writer.follow_step()
         observers = self._flow._observers
-        self._look(observers if idle else due_after_step(observers, began, time))
+        self._show(observers if idle else due_after_step(observers, began, time))
 
     def interrupted(self) -> bool:
         """Return whether the run is to end before the next step."""
         return self._interruption.requested
 
     def ended(self, stop_at_rest: bool) -> None:
-        """The run has come to its end: write results, settle mass at rest, log messages."""
+        """Write results, settle mass at rest, log messages at the end of a run."""
         sim = self._writer.simulation
         with self._interruption.deferred():
             self._writer.close(settle=sim.at_rest and sim.numerics.settle)
-            self._reports.tell(stop_at_rest)
+            self._reports.log_messages(stop_at_rest)
 
-    def _look(self, observers) -> None:
-        """Show the flow to observers; a failing one does not keep the others from observing."""
+    def _show(self, observers) -> None:
+        """Show the flow to all observers, even if one of them fails."""
         if not observers:
             return
         with self._writer.present():

@@ -75,7 +75,7 @@ class Outputs:
 
     @contextmanager
     def shown(self):
-        """Put the outputs into the fields of the grid; if the block raises, put the former ones back."""
+        """Put the outputs into the fields of the grid; if the block raises, put the former values back."""
         before = _holders.get(self._grid, lambda: None)()
         self.show()
         try:
@@ -88,7 +88,7 @@ class Outputs:
     def maps(self, accounts) -> dict:
         """Return the values of maps by name over nodes: elevation, soil and release of now, and the outputs.
 
-        Depths eroded and deposited are those of the `accounts`, whatever others made of the fields.
+        Depths eroded and deposited come from `accounts`, because other components may have changed the fields.
         """
         at, count = self._grid.at_node, self._grid.number_of_nodes
         shown = {name: at[name] for name in ("topographic__elevation", "soil__depth", "debris_flow__release_depth")

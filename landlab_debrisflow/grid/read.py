@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.parameters import on_nodes
-from . import checks, doubts, plausible
+from . import checks, doubts, elevation_checks
 from .inflow_lines import check_lines
 from .release import NO_RELEASE, Release, read_release
 
@@ -86,7 +86,7 @@ class GridReader:
         warned : tuple of str
             Kinds of doubt not to be logged again.
         with_release : bool
-            Whether to read what fails.
+            Whether to read the release.
 
         Raises
         ------
@@ -110,7 +110,7 @@ class GridReader:
         changed = not grid_bed.matches(elevation, status)
         if changed:
             checks.check_boundaries(grid)
-            plausible.check_elevation(grid, elevation)
+            elevation_checks.check_elevation(grid, elevation)
         shape, spacing = tuple(map(int, grid.shape)), (float(grid.dx), float(grid.dy))
         return Terrain(elevation, status, shape, spacing, tuple(map(float, grid.xy_of_lower_left)), changed)
 
@@ -123,17 +123,17 @@ class GridReader:
         return soil._replace(drained=None if drained is None else drained > 0.0)
 
     def _field(self, name):
-        """Return the values of a field, sharing its memory, or None if the grid does not have it."""
+        """Return the values of a field, sharing its memory, or None if the grid has no such field."""
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
     def _warn(self, release, soil, new_event, warned) -> tuple:
-        """Log what is odd about the release, unless that has been logged before; return the kinds of doubt logged."""
+        """Log doubts about the release that were not logged before; return the kinds of doubt logged."""
         logged = ()
-        for doubt in () if "depth" in warned else doubts.about_release(self._grid, release.nodes, release.depth):
+        for doubt in () if "depth" in warned else doubts.release_doubts(self._grid, release.nodes, release.depth):
             log.warning("%s", doubt)
             logged = ("depth",)
         if release.nodes.size == 0 and new_event and "nothing" not in warned:
-            found = doubts.about_nothing(self._grid, soil.depth)
+            found = doubts.missing_release_reason(self._grid, soil.depth)
             log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
             logged = ("nothing",)
         return logged

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..core.errors import InputError
 from .checks import CLOSED, where
-from .fills import is_fill, replace_them
+from .fill_values import is_fill, replacement_remedy
 
 RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id"
 
@@ -46,7 +46,7 @@ def read_release(grid, soil) -> Release:
         if (fills := nodes[is_fill(ids[nodes])]).size:
             raise InputError(
                 f"{MASS_WASTING_ID} is {ids[fills[0]]} at {where(grid, fills[0])}, and the whole soil would fail there"
-                f"{replace_them(MASS_WASTING_ID, ids, ids[fills[0]])}"
+                f"{replacement_remedy(MASS_WASTING_ID, ids, ids[fills[0]])}"
             )
         depth = soil[nodes]
         check_release(grid, f"soil__depth where {MASS_WASTING_ID} > 0", nodes, depth, soil)
@@ -55,7 +55,7 @@ def read_release(grid, soil) -> Release:
 
 
 def take_off(release: Release, elevation, soil) -> None:
-    """Take a release off elevation and soil [m], and set the fields that asked for it to 0 there, all in place.
+    """Take a release off elevation and soil [m] and set the fields that demanded it to 0 there, in place.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def check_release(grid, name: str, nodes, depth, soil) -> None:
         allowed = ">= 0 m" if found[0] < 0.0 else "a thickness"
         raise InputError(
             f"{name} must be {allowed}, got {found[0]:g} at {where(grid, found[1])}; give the thickness that fails as "
-            f"a positive number and 0 elsewhere{replace_them(name, depth, found[0])}"
+            f"a positive number and 0 elsewhere{replacement_remedy(name, depth, found[0])}"
         )
     if found := first(grid.status_at_node[nodes] != 0):
         raise InputError(

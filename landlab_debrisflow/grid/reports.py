@@ -7,7 +7,7 @@ import numpy as np
 log = logging.getLogger("landlab_debrisflow")
 
 NOTABLE = 0.01
-"""Part of what an event released, took in and eroded from which on its outflow is told [-]."""
+"""Least outflow to be reported, over the volume that an event released, took in and eroded [-]."""
 
 
 class Reports:
@@ -20,9 +20,9 @@ class Reports:
 
     def __init__(self, flow):
         self._flow, self._simulation = flow, flow._simulation
-        self._supply, self._left, self._told = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
+        self._supply, self._outflow_before, self._reported = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
 
-    def tell(self, until_rest: bool) -> None:
+    def log_messages(self, until_rest: bool) -> None:
         """Log the messages of a call that ends; `until_rest`: whether it was to end at rest."""
         self._walls()
         self._outflow()
@@ -43,21 +43,21 @@ class Reports:
     def _outflow(self):
         budget, by_edge = self._flow.budget, self._flow.outflow_by_edge
         supply = budget["released"] + budget["inflow"] + budget["eroded"]
-        left = {edge: volume - self._left[edge] for edge, volume in by_edge.items()}
-        total, came, at_rest = sum(left.values()), supply - self._supply, self._simulation.at_rest
+        outflow = {edge: volume - self._outflow_before[edge] for edge, volume in by_edge.items()}
+        total, came, at_rest = sum(outflow.values()), supply - self._supply, self._simulation.at_rest
         # as soon as it is notable, and once more with its final volume
-        if total - self._told >= NOTABLE * came > 0.0 and (at_rest or self._told == 0.0):
-            sides = {"inside": "open nodes inside"} | {edge: f"the {edge} edge" for edge in left if edge != "inside"}
-            where = ", ".join(f"{v:.4g} m3 over {sides[edge]}" for edge, v in left.items() if v >= 0.01 * total)
+        if total - self._reported >= NOTABLE * came > 0.0 and (at_rest or self._reported == 0.0):
+            sides = {"inside": "open nodes inside"} | {edge: f"the {edge} edge" for edge in outflow if edge != "inside"}
+            where = ", ".join(f"{v:.4g} m3 over {sides[edge]}" for edge, v in outflow.items() if v >= 0.01 * total)
             log.log(
-                logging.INFO if self._told else logging.WARNING,
+                logging.INFO if self._reported else logging.WARNING,
                 "%s left the grid, %.3g %% of what was released, flowed in and was eroded: the DEM ends inside the "
                 "flow's reach, and depths and deposits near there are too small; use a larger DEM",
                 where, 100.0 * total / came,
             )  # fmt: skip
-            self._told = total
+            self._reported = total
         if at_rest:
-            self._supply, self._left, self._told = supply, by_edge, 0.0
+            self._supply, self._outflow_before, self._reported = supply, by_edge, 0.0
 
     def _unrest(self):
         sim = self._simulation

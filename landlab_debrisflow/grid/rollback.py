@@ -1,8 +1,8 @@
 """Undo of a call, and the way back into one that was interrupted.
 
 A call that fails leaves grid and model as they were. One that is interrupted ends like any other: fields and model show
-the present. But the state between its two steps is kept, and if nobody has changed the grid the next call goes on from
-there, so that in the end nothing tells that there was an interruption.
+the present. But the state between its two steps is kept, and if the grid was not changed since, the next call goes on
+from there, so that in the end nothing tells that there was an interruption.
 """
 
 from contextlib import contextmanager
@@ -81,22 +81,22 @@ class Rollback:
 
     @contextmanager
     def around_call(self):
-        """Run a call as a block that changes all or nothing; give the interrupted call that goes on in it, or None.
+        """Run a call as a block with undo; yield the interrupted call that this one continues, or None.
 
         Raises
         ------
         InputError
             If another call runs.
-        KeyboardInterrupt, or what an observer raised
+        KeyboardInterrupt, or the exception of an observer
             After the block.
         """
-        with self._interruption, self._outputs.shown(), self.all_or_nothing() as earlier:
+        with self._interruption, self._outputs.shown(), self.undo_on_failure() as earlier:
             yield earlier
         self._interruption.raise_cause(self._writer.simulation.time, done=self.interrupted is None)
 
     @contextmanager
-    def all_or_nothing(self):
-        """Undo the block if it raises anything; give the interrupted call that goes on in it, or None."""
+    def undo_on_failure(self):
+        """Undo the block if it raises; yield the interrupted call that this one continues, or None."""
         writer, earlier = self._writer, self.interrupted
         if earlier is not None and earlier.fingerprint != self._fingerprint():
             earlier = None
@@ -123,7 +123,7 @@ class Rollback:
             writer.rows = None
 
     def break_off(self, end: float) -> None:
-        """Close a call that should go on until `end` [s], and keep what is needed to go on as if it had not ended."""
+        """Close a call that should run until `end` [s], and keep the moment from which a later call can continue it."""
         writer = self._writer
         with self._interruption.deferred():
             moment = Moment(writer, writer.rows.renewed(writer.changed_arrays))

@@ -6,7 +6,7 @@ A flow covers a small part of a large DEM; nothing may cost a copy of all of it.
 import numpy as np
 
 MARGIN = 16
-"""Rows kept beyond those asked for, so that a flow that moves on does not ask at every step."""
+"""Rows kept on either side of the requested ones, so that a flow that advances does not ask at every step."""
 
 
 class RowBackup:
@@ -15,7 +15,7 @@ class RowBackup:
     Parameters
     ----------
     arrays : sequence of ndarray, shape (nodes,)
-        Arrays that others change after `keep_rows`.
+        Arrays to be changed after a call of `keep_rows`.
     columns : int
         Columns of the raster.
 
@@ -65,7 +65,7 @@ class RowBackup:
         which : int
             Position of the array.
         counted : ndarray of bool, shape (nodes,), optional
-            Nodes that count; values at others need not be numbers. None: all.
+            Nodes that count; values elsewhere may be NaN. None: all nodes.
         """
         array, total = self._arrays[which], 0.0
         for nodes, copies in self._kept:

@@ -5,7 +5,8 @@ from copy import copy
 
 import numpy as np
 
-from ..model.peak_maps import NOW, PEAKS, PHASES, Footprint
+from ..model.deposit import extent
+from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
 from .fields import NODE_FIELDS, OUTPUT_PREFIX
@@ -42,7 +43,7 @@ class FieldWriter:
 
     @property
     def changed_arrays(self) -> list:
-        """Arrays over nodes that a call changes in place: fields, and what the border remembers of them."""
+        """Arrays over nodes that a call changes in place: fields, and the memory of the border."""
         at, state = self._grid.at_node, self.state
         fields = [np.asarray(at[field.name]) for field in NODE_FIELDS if "out" in field.intent and field.name in at]
         return [*fields, state.settled, *state.grid_bed.arrays]
@@ -61,12 +62,12 @@ class FieldWriter:
     # ---- in a call ----
 
     def begin(self) -> None:
-        """Prepare the maps and accounts of a call whose simulation has been put on its bed."""
+        """Prepare maps and accounts of a call, after the simulation was put on its bed."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         bed = state.bed = sim.bed
-        names = NOW + PEAKS + (PHASES if sim.physics.two_phases else ())
+        names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
         fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = Footprint(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
+        state.peak_maps = PeakMaps(bed.nodes, sim.status, fields, sim.numerics.arrival_depth, sim.time)
         soil = None if bed.soil is None else RowBackup([bed.soil], bed.nodes.columns)
         state.budget.measure_erosion(bed.nodes.core, soil)
         self.keep_rows()
@@ -74,7 +75,8 @@ class FieldWriter:
 
     def keep_rows(self, *others: RowBackup) -> None:
         """Keep the rows that the next step may change, in further backups too."""
-        (south, north), dy = self.simulation.extent(), self._grid.dy
+        sim, dy = self.simulation, self._grid.dy
+        south, north = extent(sim.particles, sim.state.origins, sim.inflow, sim.bed.nodes)
         for backup in (self.rows, self.state.budget, *others) if south <= north else ():
             backup.keep_rows(int(south / dy) - REACH, int(north / dy) + REACH + 2)
 
@@ -132,7 +134,7 @@ class FieldWriter:
     # ---- the end of a call ----
 
     def close(self, settle: bool = False) -> None:
-        """Write the present for good and note the terrain, to see in the next call what others have changed."""
+        """Write the present for good and note the terrain, so that the next call sees changes made in between."""
         state = self.state
         with self._interruption.deferred():
             if settle:

@@ -1,1 +1,1 @@
-"""State and time: what moves, what it exchanges with the bed, and the loop. Knows arrays, not grids."""
+"""State and time: moving mass, its exchange with the bed, and the loop. Knows arrays, not grids."""

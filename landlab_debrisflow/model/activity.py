@@ -17,7 +17,7 @@ STEPS_BETWEEN_CHECKS = 16
 
 
 def disturbed(p):
-    """Return the places of particles asleep whose sums over neighbours are done again in this step."""
+    """Return the places of particles asleep whose sums over neighbours are redone in this step."""
     return p.awake + np.flatnonzero(p.summed[p.awake :])
 
 

@@ -1,4 +1,4 @@
-"""The base of the flow: what laws are told of it, and what it does to the pore-pressure columns above it."""
+"""The base of the flow: its state as laws read it, and the forcing of the pore-pressure columns above."""
 
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -39,7 +39,7 @@ class BasalLaw(NamedTuple):
 
 
 class ColumnPhysics(NamedTuple):
-    """What the columns under particles are advanced with in a call."""
+    """Law, material and boundary by which the columns under particles are advanced in a call."""
 
     law: ColumnLaw
     material: Any  # physics.material.Material
@@ -157,7 +157,7 @@ def column_state(p, which: slice) -> ColumnState:
 
 
 def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained_ratio) -> ColumnForcing:
-    """Return what a step did to some columns.
+    """Return the forcing of some columns by one step of the flow.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The weight of the flow on a bed whose own pore pressure follows it."""
+"""Load of the flow on a bed whose own pore pressure follows the load."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from ..physics.contracts import WATER
 
 
 def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
-    """Tell the bed what the flow weighs.
+    """Load the bed with the weight of the flow.
 
     Parameters
     ----------

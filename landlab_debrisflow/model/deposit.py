@@ -1,4 +1,4 @@
-"""What lies still, and on which nodes it lies; and how far what moves may reach."""
+"""Resting mass on the nodes, and the range in y that a step may change."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ def resting_depth(p, origins, bed):
 
 
 def extent(p, origins, inflow, raster) -> tuple[float, float]:
-    """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
+    """Return least and largest y of the ground that a step may change [m]; the first is larger if there is none."""
     ends = [(p.y.min(), p.y.max())] if p.y.size else []
     if nodes := origins.span:  # to which may return what never moved
         ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))

@@ -1,4 +1,4 @@
-"""What a run took: steps, time in each stage of a step, particles that could be left alone."""
+"""Cost of a run: steps, CPU time by stage of a step, particles left asleep."""
 
 import time
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ TIMED = 8
 
 
 class Diagnostics(NamedTuple):
-    """What a run took so far, without the work between steps."""
+    """Cost of a run so far, without the work between steps."""
 
     steps: int
     smallest_step: float  # [s], infinite before the first
@@ -55,14 +55,14 @@ class Counters:
         return other
 
     def clock(self):
-        """Return what measures the next step: a `StageClock` for the first ones and then for every `TIMED`-th."""
+        """Return the clock of the next step: a `StageClock` for the first steps, then for every `TIMED`-th only."""
         if self.steps < TIMED:
             return StageClock(self.cpu, 1)
         return NO_CLOCK if self.steps % TIMED else StageClock(self.cpu, TIMED)
 
     @property
     def diagnostics(self) -> Diagnostics:
-        """What they tell, as a value that stays as it is."""
+        """Cost so far, as a value that later steps leave as it is."""
         cpu = MappingProxyType(dict(zip(STAGES, self.cpu, strict=True)))
         return Diagnostics(self.steps, self.smallest_step, self.sleeping_steps / max(self.particle_steps, 1), cpu)
 

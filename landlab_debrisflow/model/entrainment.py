@@ -52,7 +52,7 @@ def _mix(
     bearing_density, depth, thickness, share, cosine, volume, porosity, density, entrainment_rate, first_erosion_time,
     basal_peclet_number, velocity_ratio,
 ):  # fmt: skip
-    """Add the entrained soil [m3], which becomes what the particle's own phase takes of it, in place.
+    """Add the entrained soil [m3], in place, and replace it by the volume that the particle's own phase takes.
 
     The soil enters with the basal velocity v_b = `slip_ratio` v, and the flow accelerates it to v:
     d(v)/dt = - (v - v_b) dm/dt / m, so v goes like m^(slip_ratio - 1), m being the mass.

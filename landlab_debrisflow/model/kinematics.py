@@ -211,7 +211,7 @@ def count_still_steps(x, y, z, volume, smoothing_length, reference_position, ref
 
 @kernel
 def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
-    """Let all particles within reach of those that have gone count as changed, in place."""
+    """Reset the still steps of all particles within reach of removed ones, in place."""
     for k in range(gone_x.size):
         for i in range(x.size):
             reach = max(support[i], gone_support[k])

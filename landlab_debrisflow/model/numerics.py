@@ -1,4 +1,4 @@
-"""How finely and how to compute; nothing here is physics."""
+"""Numerical choices: resolution and tolerances, no physics."""
 
 from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter

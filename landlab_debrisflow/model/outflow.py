@@ -1,4 +1,4 @@
-"""What left the grid: volume by the open node over which it went."""
+"""Outflow of the grid: volume by exit node."""
 
 import numpy as np
 
@@ -18,14 +18,14 @@ class Outflow:
         self._at, self.solid = {}, 0.0  # volume by node, that of the grains [m3]
 
     def count(self, nodes, volume, solid) -> None:
-        """Add volumes [m3] to the accounts of open nodes over which they left; `solid` is what of them are grains."""
+        """Add volumes [m3], and the volumes of their grains `solid`, to the accounts of exit nodes."""
         for node, part in zip(nodes.tolist(), volume.tolist(), strict=True):
             self._at[node] = self._at.get(node, 0.0) + part
         self.solid += float(np.sum(solid))
 
     @property
     def total(self) -> float:
-        """All of it [m3]."""
+        """Total outflow [m3]."""
         return float(sum(self._at.values()))
 
     def by_edge(self, rows: int, columns: int) -> dict[str, float]:

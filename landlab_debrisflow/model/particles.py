@@ -44,7 +44,7 @@ class Particles:
 
     @property
     def generation(self) -> tuple[int, int]:
-        """Number of particles, and of those that there ever were: another pair whenever particles came or went."""
+        """Number of particles now, and of all particles ever made; the pair changes whenever particles come or go."""
         return self.volume.size, self.ever
 
     @property
@@ -58,7 +58,7 @@ class Particles:
         return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:
-        """Add particles that are awake, and return their places; what is not named gets its declared initial value."""
+        """Add particles that are awake and return their places; variables not given get their initial value."""
         first, n = self.awake, self.count
         values["identity"] = self.ever + np.arange(count)
         self.ever += count
@@ -73,7 +73,7 @@ class Particles:
         return slice(first, first + count)
 
     def exchange(self, these, those) -> None:
-        """Let particles at `these` places and at `those`, arrays of int without common places, change places."""
+        """Exchange the particles at two arrays of int with their places, which have no place in common."""
         if these.size == 0:
             return
         to, of = np.concatenate([these, those]), np.concatenate([those, these])

@@ -1,4 +1,4 @@
-"""What the flow shows on the nodes: now, and at its peak. The maps are made of this.
+"""Peak maps: the flow at nodes, now and at its peak. Fields and Datasets are made of this.
 
 Peaks count where the flow is deeper than what counts as arrival: a node has arrival time, peak depth, peak speed and
 all the others, or none. The last 1e-32 m3 of a tent moves at full speed, too. Two of the peaks are what obstacles are
@@ -25,9 +25,9 @@ from ..spatial.transfer import Nodes, scatter
 from .kinematics import CLOSED
 from .particles import Particles
 
-NOW = ("depth", "speed", "basal_excess_pore_pressure", "basal_peclet_number")
-LOOK = 0.5
-"""Part of a node spacing that matter or waves may cross between two looks: no node is passed unseen."""
+CURRENT = ("depth", "speed", "basal_excess_pore_pressure", "basal_peclet_number")
+UPDATE_FRACTION = 0.5
+"""Part of a node spacing that matter or waves may cross between two updates: no node is passed unseen."""
 
 PEAKS = (
     "max_depth", "max_speed", "max_basal_pressure_ratio", "max_basal_peclet_number", "arrival_time",
@@ -45,7 +45,7 @@ FACES = 4
 """From `TOWARDS` on, if there are closed nodes: impact towards faces in the east, west, north, south."""
 
 
-class Footprint:
+class PeakMaps:
     """Writes node arrays; only nodes under the flow, and closed ones beside them, are looked at.
 
     Parameters
@@ -55,8 +55,8 @@ class Footprint:
     status : ndarray, shape (nodes,)
         Node statuses as Landlab numbers them.
     fields : mapping of str to ndarray, shape (nodes,)
-        Arrays named as in `NOW` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1 where
-        nothing came.
+        Arrays named as in `CURRENT` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1
+        where nothing came.
     arrival_depth : float
         Depth that counts as arrival, and for the peaks [m].
     time : float
@@ -66,23 +66,26 @@ class Footprint:
     def __init__(self, nodes: Nodes, status, fields, arrival_depth: float, time: float):
         self._nodes, self._status, self._arrival_depth = nodes, status, arrival_depth
         self._walled = bool(np.any(status == CLOSED))
-        self._now, self._peaks = [fields[name] for name in NOW], [fields[name] for name in PEAKS]
+        self._now, self._peaks = [fields[name] for name in CURRENT], [fields[name] for name in PEAKS]
         self._phases = [fields[name] for name in PHASES if name in fields]
         self._sums = np.zeros((nodes.core.size, TOWARDS + FACES * self._walled))
         self._scratch = np.empty(nodes.core.size, np.int64)
-        self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last look
-        self._passed, self._then = 0.0, time  # way of the fastest since the last look [m]; when it was last counted [s]
+        self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last update
+        self._passed, self._then = (
+            0.0,
+            time,
+        )  # way of the fastest since then [m]; when that was last counted [s]
 
     @property
     def under(self):
-        """Nodes that showed the flow at the last look."""
+        """Nodes that showed the flow at the last update."""
         return self._under
 
     def is_due(self, time: float, fastest: float) -> bool:
-        """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last look."""
+        """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last update."""
         self._passed += fastest * (time - self._then)
         self._then = time
-        return self._passed > LOOK * min(self._nodes.dx, self._nodes.dy)
+        return self._passed > UPDATE_FRACTION * min(self._nodes.dx, self._nodes.dy)
 
     def record(self, particles: Particles, density, time: float) -> None:
         """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""
@@ -93,14 +96,14 @@ class Footprint:
             self._under = self._under[:0]
             return
         values = np.empty((p.count, self._sums.shape[1]))
-        _weigh(
+        _weight_by_volume(
             self._walled, p.volume, p.velocity, p.basal_excess_pore_pressure, p.liquefaction_pressure,
             p.basal_peclet_number, np.broadcast_to(density, p.count), p.z, p.lowest_z, p.depth, p.phase, values,
         )  # fmt: skip
         self._under = scatter(self._nodes, p.x, p.y, p.spread, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._nodes.area
-            _strike(self._under, self._sums, least, self._nodes.columns, self._status, *self._peaks[-2:])
+            _record_walls(self._under, self._sums, least, self._nodes.columns, self._status, *self._peaks[-2:])
         self._show_phases(self._under)
         _record(self._under, self._sums, self._nodes.area, time, self._arrival_depth, *self._now, *self._peaks)
 
@@ -121,8 +124,10 @@ class Footprint:
 
 
 @kernel
-def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values):
-    """Write what is to be averaged over the volume at the nodes, times volume."""
+def _weight_by_volume(
+    walled, volume, velocity, pressure, liquefaction, peclet, density, z, lowest_z, depth, phase, values
+):
+    """Write the quantities to be averaged over the volume at nodes, times volume."""
     for i in range(volume.size):
         m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
@@ -138,8 +143,8 @@ def _weigh(walled, volume, velocity, pressure, liquefaction, peclet, density, z,
 
 
 @kernel
-def _strike(at, sums, least, columns, status, max_impact, max_run_up):
-    """Keep the peaks of closed nodes beside those with more than the `least` volume [m3]."""
+def _record_walls(at, sums, least, columns, status, max_impact, max_run_up):
+    """Record the peaks at closed nodes beside nodes with more than the `least` volume [m3]."""
     rows = status.size // columns
     for k in range(at.size):
         n = at[k]

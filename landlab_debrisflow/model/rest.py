@@ -48,7 +48,7 @@ class Bodies:
         return other
 
     def separate(self, p) -> None:
-        """Tell the bodies of particles `p` apart; those that were arrested move with what has touched them."""
+        """Find the bodies of particles `p` and set arrested particles free that another body has touched."""
         self.steps, self.known = 0, p.ever
         if p.count == 0:
             return
@@ -98,7 +98,7 @@ class Bodies:
         return energy <= rest_energy * self.peak if slow else None
 
     def _measure(self, p, part):
-        """Return the kinetic energy of each body, and what `_measure` returns; what has just moved counts."""
+        """Return the kinetic energy of each body [m5 s-2], and the results of the kernel `_measure`."""
         energy = np.zeros(self.peak.size)
         return energy, *_measure(
             p.awake, p.summed, p.volume, p.velocity, p.body, p.arrested, part, self.volume, energy, self.peak,
@@ -106,7 +106,7 @@ class Bodies:
         )  # fmt: skip
 
     def arrest(self, p, slow, held, prescribed) -> None:
-        """Stop slow bodies that friction mostly holds, and that do not move as prescribed.
+        """Stop slow bodies that friction mostly holds, except particles of prescribed motion.
 
         Parameters
         ----------
@@ -192,7 +192,7 @@ def _root(parent, i):
 
 @inner
 def _join_cells(x, y, z, support, order, first, last, start, stop, parent):
-    """Join those of two cells that feel each other; return whether those of the first one are then of one body."""
+    """Join interacting particles of two cells; return whether the first cell is then of one body."""
     for k in range(first, last):
         i = order[k]
         root = _root(parent, i)
@@ -213,7 +213,7 @@ def _join_cells(x, y, z, support, order, first, last, start, stop, parent):
 
 @kernel
 def _join(x, y, z, support, columns, order, start, window, parent):
-    """Join those that feel each other: write a particle that stands for its body for each of them."""
+    """Join interacting particles: write a particle of its body, one per body, for each of them."""
     one = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
     for cell in range(start.size - 1):
         row, column, w = cell // columns, cell % columns, window[cell]

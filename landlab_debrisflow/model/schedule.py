@@ -1,6 +1,7 @@
-"""When observers look at a flow: before the first step of a call, and after steps that cross multiples of intervals."""
+"""When a run is listened to: at its begin, after every step, and at multiples of the intervals of observers."""
 
 import sys
+from typing import Protocol
 
 import numpy as np
 
@@ -9,13 +10,29 @@ EVERY_STEP = sys.float_info.min
 so each crosses a multiple of it."""
 
 
+class RunListener(Protocol):
+    """Listener to `Simulation.run`."""
+
+    def begun(self) -> None:
+        """The flow lies on its bed, particles of a release are made."""
+
+    def started(self, idle: bool) -> None:
+        """The first step is about to be made; `idle`: nothing moves yet."""
+
+    def stepped(self, began: float, time: float, idle: bool) -> None:
+        """A step from `began` to `time` [s] was made; `idle`: nothing moves any more."""
+
+    def interrupted(self) -> bool:
+        """Return whether the run is to end before the next step."""
+
+
 def due_at_start(observers) -> list:
     """Return the observers that look before the first step of a call."""
     return [observer for observer in observers if observer.interval <= EVERY_STEP]
 
 
 def due_after_step(observers, began: float, time: float) -> list:
-    """Return the observers of whose interval a step from `began` to `time` [s] crosses a multiple.
+    """Return the observers of whose interval a multiple lies in a step from `began` to `time` [s].
 
     Rounding lets no multiple be missed or crossed twice.
 

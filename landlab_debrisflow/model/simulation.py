@@ -8,7 +8,7 @@ from ..terrain.bed import Bed
 from . import activity, step
 from .basal import BasalLaw, ColumnPhysics, held_at_rest, present_profiles
 from .bed_load import load_bed
-from .deposit import extent, resting_depth
+from .deposit import resting_depth
 from .diagnostics import Diagnostics
 from .inflow.source import Inflow
 from .kinematics import CLOSED
@@ -19,6 +19,7 @@ from .phases.two_phase import TwoPhaseDynamics
 from .release.origins import Origins
 from .release.release import release_particles
 from .rest import Bodies
+from .schedule import RunListener
 from .state import State
 from .time_step import viscous_share
 from .variables import particle_variables
@@ -43,20 +44,19 @@ class Simulation:
     state : State
         All that changes in a run but the bed: to go back is to put a copy of it here.
     phases : Phases
-    bed, status, walls, friction, erosion, columns
+    bed, status, walls, friction, erosion, columns, courant_number
         What `set_bed` was given, and how the stages of a step want it.
     """
 
     def __init__(self, physics, numerics: Numerics, inflow: Inflow | None = None):
         self.physics, self.numerics, flow, column = physics, numerics, physics.flow, physics.column
-        self.courant_number = numerics.courant_number * viscous_share(numerics.shock_viscosity)
         self.phases = OnePhaseDynamics(physics.material)
         if physics.two_phases:
             self.phases = TwoPhaseDynamics(flow, physics.material, column.stores_pressure)
         laws = (flow, physics.friction, physics.erosion, column, self.phases)
         particles = Particles(column.levels, particle_variables(column, laws))
         self.state = State(particles, inflow or Inflow())
-        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = None
+        self.bed = self.status = self.walls = self.friction = self.erosion = self.columns = self.courant_number = None
 
     @property
     def particles(self) -> Particles:
@@ -65,7 +65,7 @@ class Simulation:
 
     @property
     def inflow(self) -> Inflow:
-        """What has flowed in, and what will."""
+        """Inflow so far and to come."""
         return self.state.inflow
 
     @property
@@ -75,7 +75,7 @@ class Simulation:
 
     @property
     def diagnostics(self) -> Diagnostics:
-        """What the run took so far."""
+        """Cost of the run so far."""
         return self.state.counters.diagnostics
 
     def set_bed(self, bed: Bed, status, parameters, changed: bool = True) -> None:
@@ -92,6 +92,7 @@ class Simulation:
             Whether the terrain differs from what the last call left.
         """
         material, spacing = self.physics.material, min(bed.nodes.dx, bed.nodes.dy)
+        self.courant_number = self.numerics.courant_number * viscous_share(self.numerics.shock_viscosity)
         self.bed, self.status = bed, status
         self.walls = Walls(bed.nodes, status) if np.any(status == CLOSED) else None
         self.friction, self.erosion = (
@@ -105,34 +106,20 @@ class Simulation:
             self.set_free()
         load_bed(self.particles, bed.pore_pressure, material, self.time)
 
-    def begin(self, bed: Bed, given, listener) -> None:
-        """Put the simulation on a bed and make particles of what fails.
-
-        Parameters
-        ----------
-        bed : Bed
-            The ground after it has failed.
-        given : GridInput
-            Terrain, release and parameters of laws, as plain arrays (`grid/read.py`).
-        listener : object
-            Its `begun()` is called at the end.
-        """
+    def begin(self, bed: Bed, given, listener: RunListener) -> None:
+        """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
         self.set_bed(bed, given.terrain.status, given.parameters, given.terrain.changed)
         if given.release.nodes.size:
             self.release(given.release.nodes, given.release.depth)
         listener.begun()
 
-    def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener) -> bool:
-        """Begin on a bed and advance, as `begin` and `advance`; call `listener.started(idle)` before the first step."""
+    def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener: RunListener) -> bool:
+        """Begin on a bed and advance; parameters and return value as of `begin` and `advance`."""
         self.begin(bed, given, listener)
         if not (stop_at_rest and self.at_rest):
             self.start(end)
             listener.started(self.idle)
         return self.advance(end, stop_at_rest, listener)
-
-    def extent(self) -> tuple[float, float]:
-        """Return least and largest y of what may change the ground in a step [m]; nothing: the first is larger."""
-        return extent(self.particles, self.state.origins, self.inflow, self.bed.nodes)
 
     def release(self, nodes, depth) -> None:
         """Turn failing ground into particles at rest on the bed below.
@@ -148,9 +135,8 @@ class Simulation:
         new = release_particles(p, state.origins, nodes, depth, bed, self.status, self.phases, self.numerics)
         self._refresh(FIRST_SWEEPS)
         load_bed(p, bed.pore_pressure, material, self.time)
-        load = p.liquefaction_pressure[new]
         p.excess_pore_pressure[new] = initial_profile(
-            load, p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
+            p.liquefaction_pressure[new], p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
             material.basal_layer_fraction,
         )  # fmt: skip
         p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
@@ -187,7 +173,7 @@ class Simulation:
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves, and nothing will flow in."""
+        """Whether the flow is at rest and no inflow is to come."""
         return self.idle and self.inflow.over
 
     def start(self, end: float) -> None:
@@ -196,8 +182,8 @@ class Simulation:
         if self.particles.count:
             self._find_limits()
 
-    def advance(self, end: float, stop_at_rest: bool = False, listener=None) -> bool:
-        """Advance until exactly `end` [s], or until rest, or until somebody interrupts.
+    def advance(self, end: float, stop_at_rest: bool = False, listener: RunListener | None = None) -> bool:
+        """Advance until exactly `end` [s], until rest, or until the listener interrupts.
 
         Parameters
         ----------
@@ -205,9 +191,8 @@ class Simulation:
             [s]
         stop_at_rest : bool
             Return as soon as all is at rest; `time` tells when.
-        listener : object, optional
-            Before every step `interrupted()` is called, and ends the advance if it returns True; after every step
-            `stepped(began, time, idle)`, with the times of its two ends [s] and whether nothing moves any more.
+        listener : RunListener, optional
+            Is told of every step, and may end the advance before the next one.
 
         Returns
         -------
@@ -268,7 +253,7 @@ class Simulation:
             self._refresh()
 
     def _pass_time(self, end: float) -> None:
-        """Let time pass for what is at rest: its pore pressure still drains."""
+        """Let time pass for a flow at rest: its pore pressure still drains."""
         p = self.particles
         if p.count:
             p.entrained_volume[: p.awake], p.entrained_ratio[: p.awake] = 0.0, 0.0
@@ -290,7 +275,7 @@ class Simulation:
         )
 
     def set_free(self) -> None:
-        """Let what was arrested move again."""
+        """Set arrested particles free."""
         self.state.bodies.set_free(self.particles)
 
     def resting_depth(self):
@@ -305,15 +290,7 @@ class Simulation:
         return present_profiles(p, slice(p.count), self.columns)
 
     def settle(self):
-        """Lay the mass into the bed and forget the particles.
-
-        Returns
-        -------
-        nodes : ndarray of int
-            Nodes that received material.
-        depth : ndarray
-            Depth laid on each [m].
-        """
+        """Lay the mass into the bed and forget the particles; return nodes and the depth laid on each [m]."""
         p, state = self.particles, self.state
         state.settled_solid += float(self.phases.solid_volume(p).sum())
         nodes, depth = self.resting_depth()

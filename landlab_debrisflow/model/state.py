@@ -1,4 +1,4 @@
-"""The state of a run: all that changes in it but the bed, which has its arrays from others (terrain/bed.py)."""
+"""State of a run without its bed, whose arrays belong to the grid (terrain/bed.py)."""
 
 from copy import deepcopy
 
@@ -15,7 +15,7 @@ from .stopped import Stopped
 
 
 class State:
-    """All that a run is made of.
+    """State of a run, complete.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The state of a run as an xarray Dataset: every particle variable with unit and dimensions, and all that is beside."""
+"""State of a run as an xarray Dataset: every particle variable with unit and dimensions, then counters and accounts."""
 
 import numpy as np
 import xarray as xr

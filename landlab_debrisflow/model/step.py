@@ -59,7 +59,7 @@ def advance(simulation, dt: float) -> None:
 
 
 def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Walls | None, dt: float) -> None:
-    """Accelerate by gravity along the bed, pressure and basal resistance, the latter taken implicitly."""
+    """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time)."""
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
@@ -196,7 +196,7 @@ def _flow_state(p, material) -> FlowState:
 
 
 def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> None:
-    """Advance the pore-pressure columns with what the flow did to them."""
+    """Advance the pore-pressure columns by the forcing of the step."""
     awake, phases = slice(p.awake), columns.phases
     forcing = column_forcing(p, awake, columns, p.entrained_volume[awake], p.entrained_ratio[awake])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
@@ -205,7 +205,7 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
 
 
 def find_limits(p, phases, courant_number: float, friction: BasalLaw, time: float, dt: float = 0.0) -> StepLimits:
-    """Return what limits the next step, after one of `dt` seconds that began at `time` [s].
+    """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
     Raises
     ------

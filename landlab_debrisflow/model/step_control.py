@@ -1,4 +1,4 @@
-"""How long the next step is, of those that stability allows."""
+"""Step control: length of the next step within the limits of stability."""
 
 import numpy as np
 
@@ -34,7 +34,7 @@ class StepControl:
         return other
 
     def restart(self) -> None:
-        """Something new is released."""
+        """Restart from short steps, because a new release or inflow begins to move."""
         self.step = 0.0
 
     def longest(self, stable: float, energy: float) -> float:

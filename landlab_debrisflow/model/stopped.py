@@ -1,4 +1,4 @@
-"""What ran against closed nodes: every particle counts once, with the volume it has when it is first stopped."""
+"""Volume stopped by closed nodes: every particle counts once, with its volume when first stopped."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""How long a step may be, and what else is asked of all particles at the end of one."""
+"""Limits of the time step, and further reductions over all particles at its end."""
 
 from typing import NamedTuple
 
@@ -19,7 +19,7 @@ shock viscosity of 1 damps it (docs/decisions.md, Flow 2)."""
 
 
 def viscous_share(viscosity: float) -> float:
-    """Return by what the Courant number must fall for a shock viscosity > 1, which is taken explicitly [-].
+    """Return the factor on the Courant number for a shock viscosity > 1, which is integrated explicitly [-].
 
     Damped leapfrog bears x = c dt / l up to (1.63 x)^2/4 + 1.17 viscosity x/2 = 1.
 
@@ -41,7 +41,7 @@ NOT_STIFF = np.zeros(1)
 
 
 class StepLimits(NamedTuple):
-    """What limits the next step, and what else is asked of all particles that are awake."""
+    """Limits of the next step, and further reductions over all particles that are awake."""
 
     longest_step: float  # that is stable [s]
     energy: float  # sum of volume times speed squared [m5 s-2]

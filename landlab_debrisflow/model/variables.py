@@ -1,4 +1,4 @@
-"""The variables of a particle: those that every flow has, and those that its laws and phases bring."""
+"""Variables of a particle: the variables of every flow, and the contributions of laws and phases."""
 
 from ..core.errors import ParameterError
 from ..core.variables import Variable

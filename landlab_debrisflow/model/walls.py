@@ -76,7 +76,7 @@ def ghost_particles(state: FlowState, changed, walls: Walls, touched):
 
 
 def bear(x, y, pull, sample, walls: Walls | None) -> None:
-    """Take away, in place, what walls bear of the pull (3, n) on particles at rest; `sample` is of their bed."""
+    """Reduce the pull (3, n) on particles at rest by the reaction of walls, in place; `sample` is their bed."""
     if walls is None:
         return
     nodes = walls.nodes
@@ -104,7 +104,7 @@ _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 @kernel
 def _find(x, y, support, dx, dy, columns, rows, status, source, wall):
-    """Count the ghosts, and write whose they are and the walls in x and y [m], NaN for none, if there is room.
+    """Count the ghosts; write their particles and the walls in x and y [m], NaN for none, if there is room.
 
     A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. In a
     corner a particle and its three ghosts in one place would sum to more than any smoothing length can make up for.

@@ -1,8 +1,8 @@
-"""What a law is given and what it must return.
+"""Interfaces of the laws: the states they read, the arrays they write, their methods.
 
 A law is a frozen dataclass made by `core.parameters.declared` with one array method. It reads the
 arrays it is given, writes only those named ``out`` (or named in the docstring), and is composed with
-others in Python: no law knows another.
+the laws of other kinds in Python: no law knows another.
 """
 
 from enum import IntEnum
@@ -22,7 +22,7 @@ class BasalStress(NamedTuple):
 
 
 class BasalState(NamedTuple):
-    """The base of the flow under each of n particles: what friction and erosion laws read."""
+    """The base of the flow under each of n particles, as friction and erosion laws read it."""
 
     depth: Array  # (n,) vertical [m]
     thickness: Array  # (n,) slope-normal [m]
@@ -78,7 +78,7 @@ class ColumnState(NamedTuple):
 
 
 class ColumnForcing(NamedTuple):
-    """Change of n columns in one step of the flow; arrays have length n, those marked (1) also 1."""
+    """Change of n columns in one step of the flow; arrays have length n, arrays marked (1) n or 1."""
 
     volume: Array  # after the step [m3]
     thickness: Array  # after the step, slope-normal [m]
@@ -134,7 +134,7 @@ MIXTURE, WATER = 0, 1
 
 
 class Smoothing(NamedTuple):
-    """Over which distance each of n particles feels others."""
+    """Smoothing length of each of n particles and its cap."""
 
     length: Array  # (n,) smoothing length [m]
     longest: Array  # (n,) cap of it [m]
@@ -142,18 +142,18 @@ class Smoothing(NamedTuple):
 
 
 class MixtureState(NamedTuple):
-    """What a flow law with two phases finds of the mixture at each of n particles, and what it finds anew of it."""
+    """Mixture at each of n particles, as a flow law of two phases reads it, with the arrays for its results."""
 
     phase: Array  # (n,) MIXTURE or WATER (int8)
     share: Array  # (n,) of the thickness that is of the own phase, of the step before [-]
     cross_term: Array  # (n,) as that of `spatial.cross_summation.CrossPhaseSums`, of the step before [-]
     mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
     material: Any  # physics.material.Material
-    written: Any  # `MixtureSums` of those that are moved, without ghosts
+    written: Any  # `MixtureSums` of the moving particles, without ghosts
 
 
 class MixtureSums(NamedTuple):
-    """What a flow law with two phases writes of the mixture, where cells are awake."""
+    """Results of a flow law of two phases for the mixture; particles in sleeping cells are left unchanged."""
 
     share: Array  # (m,) of the thickness that is of the own phase [-]
     cross_term: Array  # (m,) [-]
@@ -185,27 +185,27 @@ class FlowLaw(Protocol):
     number_of_phases: ClassVar[int]
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
-        """Write, where cells are awake, what neighbours do to each other: `spatial.summation.Sums`.
+        """Write the sums over neighbours (`spatial.summation.Sums`) of particles in cells that are awake.
 
-        That is the thickness and what belongs to it, the acceleration by the flow's own pressure and the
-        rate at which converging flow thickens. A law with two phases also writes ``state.mixture.written`` and returns
+        The sums are thickness, smoothing length and gradient term, the acceleration by the flow's own pressure, and the
+        convergence. A law with two phases also writes ``state.mixture.written`` and returns
         the cells of grains and of water.
         """
 
 
 class Phases(Protocol):
-    """What the number of phases changes in a step (model/phases).
+    """Stages of a step that depend on the number of phases (model/phases).
 
-    `particles` are all, `exchange` is what grains and water know of each other from step to step.
+    `particles` are all particles, `exchange` is the state of the exchange between grains and water.
     """
 
-    variables: tuple  # of Variable, beside those that every particle has
+    variables: tuple  # of Variable, beyond the variables of every particle
     phase_fractions: tuple  # phase and volume fraction of each kind of particle that a volume is divided into
     solid_fraction: float  # part of the soil that becomes the eroding particle's own: grains of two phases, all of one
     sleeps: bool  # whether particles that lie still may be left alone
 
     def density(self, particles) -> Array:
-        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+        """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
 
     def solid_volume(self, particles) -> Array:
         """Return the volume of the grains in each particle, shape (n,) [m3]."""
@@ -214,7 +214,7 @@ class Phases(Protocol):
         """Return the coefficient of consolidation of some columns, as long as they are many or of length 1 [m2 s-1]."""
 
     def after_summation(self, particles, exchange, cells) -> None:
-        """Write thickness and mixture of the particles from sums over neighbours; `cells` are those of each phase."""
+        """Write thickness and mixture of the particles from sums over neighbours; `cells` has a cell list per phase."""
 
     def kick(self, particles, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate the particles that are awake along the bed for `dt` seconds, friction and drag included."""
@@ -226,7 +226,7 @@ class Phases(Protocol):
         """Set the erosion rate to 0 where no particle could take all of the soil, in place."""
 
     def share_entrained(self, particles, exchange) -> None:
-        """Give to other particles what of the entrained soil is not the eroding particle's own."""
+        """Give to other particles the volume of entrained soil that the eroding particle does not keep."""
 
     def column_forcing(self, particles, forcing: ColumnForcing, prescribed, dt: float) -> ColumnForcing:
         """Return the forcing of the columns with the source by a change of porosity [Pa s-1]."""

@@ -1,4 +1,4 @@
-"""What the debris is made of, and the pore pressure it starts with."""
+"""Material of the debris, and the pore pressure at release."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from ..core.parameters import declared, parameter
 
 @declared
 class Material:
-    """Saturated (or, with ``water_density=0``, dry) debris; the defaults are those of Tsing Shan.
+    """Debris, saturated or (with ``water_density=0``) dry; the defaults are the values of Tsing Shan.
 
     The basal friction acts on the *buoyant* weight, so an angle printed for a saturated flow is the
     angle of the grains, about twice the apparent one.
@@ -72,7 +72,7 @@ class Material:
 
     @property
     def buoyant_density(self) -> float:
-        """Density of the mixture less what the pore water bears of it [kg m-3]."""
+        """Density of the mixture less the buoyancy of the pore water [kg m-3]."""
         return self.density - self.bearing_density
 
     @property

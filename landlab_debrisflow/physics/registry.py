@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from ..core.errors import ParameterError
-from ..core.hints import did_you_mean, plain, same_word
+from ..core.hints import did_you_mean, python_value, same_word
 from ..core.parameters import from_mapping
 from .column import ALE, Classical, ConstantRatio, NoExcessPressure
 from .erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
@@ -36,7 +36,7 @@ METHOD = {
 """The method that makes an object a law of its kind."""
 
 
-def law_name(kind: str, law) -> str:
+def law_name(kind: str, law: Any) -> str:
     """Return the name a law of some kind is chosen by, or module and class of one that has no name."""
     cls = type(law)
     return next((name for name, known in LAWS[kind].items() if known is cls), f"{cls.__module__}.{cls.__qualname__}")
@@ -56,7 +56,7 @@ def build_law(kind: str, value: Any) -> Any:
         ...
     landlab_debrisflow.core.errors.ParameterError: flow: unknown law 'plough'; allowed: one_phase, two_phase
     """
-    laws, value = LAWS[kind], plain(value)
+    laws, value = LAWS[kind], python_value(value)
     if value is None:
         value = next(iter(laws))
     if isinstance(value, str):
@@ -68,7 +68,7 @@ def build_law(kind: str, value: Any) -> Any:
             names = ", ".join(laws)
             raise ParameterError(f"{kind}: a mapping needs the key 'law', one of {names}; got {value!r}{hint}")
         name = values.pop("law")
-        if (known := same_word(plain(name), laws)) is None:
+        if (known := same_word(python_value(name), laws)) is None:
             outside = isinstance(name, str) and "." in name
             remedy = f"; give an object of that class, or put the class into LAWS[{kind!r}]" if outside else ""
             hint, allowed = did_you_mean(name, laws), ", ".join(laws)

@@ -28,7 +28,7 @@ class Layer(NamedTuple):
     panels: Mapping[str, xr.DataArray]
     """Title of each panel and its values, over ``y`` and ``x``."""
     label: str
-    """What the colour bar says, with the unit."""
+    """Text beside the colour bar, with the unit."""
     colours: str = "viridis"
     """Name of a matplotlib colour map."""
     limits: tuple[float, float] | None = None
@@ -46,7 +46,7 @@ def draw_maps(
     margin: float = 50.0,
     extent: tuple[float, float, float, float] | None = None,
 ) -> Figure:
-    """Draw layers as rows and runs as columns, all over the same hillshade.
+    """Draw layers as rows and runs as columns, over one hillshade.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def draw_maps(
     contours : sequence of float
         Elevations to be drawn as lines [m].
     margin : float
-        Ground shown around what is drawn [m].
+        Width of ground shown around the drawn values [m].
     extent : tuple of float, optional
         West, east, south, north of the part shown, in the coordinates of `relief` [m]; by default all
         nodes any layer shows, with `margin`.

@@ -1,7 +1,7 @@
-"""What files say beside the numbers: under names that CF allows, in values that NetCDF can hold.
+"""Attributes of files beside the numbers: names that CF allows, values that NetCDF can hold.
 
 A quantity stands under its name, in letters, digits and underscores, and its unit, if it has one, under the name with
-``_units`` behind it. What is not set (None) is left out.
+``_units`` behind it. Parameters that are not set (None) are left out.
 """
 
 import dataclasses
@@ -18,20 +18,20 @@ from ..core.version import __version__
 from ..physics.registry import LAWS, law_name
 
 OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
-"""How the names begin of what is true at one moment of one run only."""
+"""Beginnings of the names of attributes that hold at one moment of one run only."""
 
 CF_UNITS = {"-": "1", "deg": "degree"}
-"""Units of the package that files call otherwise."""
+"""Names in files of units that have another name in the package."""
 
 NO_FILL = {"_FillValue": None}
 """Encoding of coordinates, which are missing nowhere."""
 
 LARGEST_INTEGER = 2**63 - 1
-"""That a file can hold."""
+"""Largest integer that a file can hold."""
 
 
-def heading() -> dict[str, str]:
-    """Return what stands in every file: conventions, and what wrote it."""
+def file_attributes() -> dict[str, str]:
+    """Return the attributes of every file: conventions, software and its version."""
     return {"Conventions": "CF-1.10", "source": f"landlab_debrisflow {__version__}", "version": __version__}
 
 
@@ -40,43 +40,44 @@ def date_created() -> dict[str, str]:
     return {"date_created": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")}
 
 
-def of_moment(time: float, particles: Any, budget: Mapping[str, float] | tuple[()] = ()) -> dict[str, Any]:
+def moment_attributes(time: float, particles: Any, budget: Mapping[str, float] | tuple[()] = ()) -> dict[str, Any]:
     """Return elapsed time [s], number of particles so far and the terms of a budget [m3], if there is one."""
-    attributes = quantity("elapsed_time", time, "s") | quantity("number_of_particles", particles.ever)
+    attributes = quantity_attributes("elapsed_time", time, "s")
+    attributes |= quantity_attributes("number_of_particles", particles.ever)
     for name, volume in dict(budget).items():
-        attributes |= quantity(f"budget_{name}", volume, "m3")
+        attributes |= quantity_attributes(f"budget_{name}", volume, "m3")
     return attributes
 
 
-def described(unit: str, long_name: str) -> dict[str, str]:
+def variable_attributes(unit: str, long_name: str) -> dict[str, str]:
     """Return the attributes of a variable."""
     return {"units": CF_UNITS.get(unit, unit), "long_name": long_name}
 
 
-def quantity(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
-    """Return the attributes of a quantity; none for what is not set or cannot be written.
+def quantity_attributes(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
+    """Return the attributes of a quantity; an empty mapping for a value that is not set or cannot be written.
 
     Examples
     --------
-    >>> quantity("inflow_0_velocity", (4.0,), "m s-1")
+    >>> quantity_attributes("inflow_0_velocity", (4.0,), "m s-1")
     {'inflow_0_velocity': 4.0, 'inflow_0_velocity_units': 'm s-1'}
-    >>> quantity("numerics_settle", True), quantity("friction_drag π", 2.5)
+    >>> quantity_attributes("numerics_settle", True), quantity_attributes("friction_drag π", 2.5)
     ({'numerics_settle': 1}, {'friction_dragu20u3c0': 2.5})
     """
-    name, value = legal(name), plain(value)
+    name, value = legal_name(name), file_value(value)
     if value is None:
         return {}
     has_unit = unit != "-" and not isinstance(value, str)
     return {name: value} | ({f"{name}_units": CF_UNITS.get(unit, unit)} if has_unit else {})
 
 
-def legal(name: str) -> str:
-    """Return a name in letters, digits and underscores; others become ``u`` and their number in Unicode."""
+def legal_name(name: str) -> str:
+    """Return a name in letters, digits and underscores; other characters become ``u`` and their number in Unicode."""
     return re.sub("[^A-Za-z0-9_]", lambda other: f"u{ord(other[0]):x}", name)
 
 
-def plain(value: Any) -> str | int | float | tuple[float, ...] | None:
-    """Return a value as number, text or tuple of numbers, which files give back equal; None if it is no such thing."""
+def file_value(value: Any) -> str | int | float | tuple[float, ...] | None:
+    """Return a value as number, text or tuple of numbers, which files give back equal; None for another type."""
     if isinstance(value, str):
         return str(value)
     if isinstance(value, NodeValues):
@@ -86,11 +87,11 @@ def plain(value: Any) -> str | int | float | tuple[float, ...] | None:
     if isinstance(value, Real):
         return float(value)
     if isinstance(value, tuple | list) and value and all(isinstance(one, Real) for one in value):
-        return plain(value[0]) if len(value) == 1 else tuple(float(one) for one in value)
+        return file_value(value[0]) if len(value) == 1 else tuple(float(one) for one in value)
     return None
 
 
-def parameters(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
+def parameters_of(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
     """Yield name, value and declaration (a mapping) of all parameters of an object.
 
     An object that declares none, a law from outside perhaps, has its public attributes.
@@ -102,35 +103,37 @@ def parameters(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
         yield from ((name, value, {}) for name, value in public.items())
 
 
-def of_parameters(kind: str, obj: Any) -> dict[str, Any]:
+def parameter_attributes(kind: str, obj: Any) -> dict[str, Any]:
     """Return the attributes of all parameters of an object."""
     attributes: dict[str, Any] = {}
-    for name, value, declaration in parameters(obj):
-        attributes |= quantity(f"{kind}_{name}", value, declaration.get("unit", "-"))
+    for name, value, declaration in parameters_of(obj):
+        attributes |= quantity_attributes(f"{kind}_{name}", value, declaration.get("unit", "-"))
     return attributes
 
 
-def of_laws(setup) -> dict[str, str]:
+def law_attributes(setup: Any) -> dict[str, str]:
     """Return the class of every law under its kind, and the name it is chosen by, or where it is from."""
-    attributes = {}
+    attributes: dict[str, str] = {}
     for kind in LAWS:
         law = getattr(setup, kind)
         attributes |= {kind: type(law).__name__, f"{kind}_law": law_name(kind, law)}
     return attributes
 
 
-def at_nodes(
+def node_parameters(
     kind: str, obj: Any, fields: Mapping[str, np.ndarray], count: int
 ) -> Iterator[tuple[str, np.ndarray, dict[str, str]]]:
     """Yield name, values over `count` nodes and attributes of every parameter that is given at all of them.
 
-    `fields` are those of the grid at its nodes, of which a parameter may have given the name.
+    `fields` are the fields of the grid at nodes, by name: a parameter may be given as such a name.
     """
-    for name, value, declaration in parameters(obj):
+    for name, value, declaration in parameters_of(obj):
         if isinstance(value, str) and declaration.get("varies") and value in fields:
             value = fields[value]
         if isinstance(value, NodeValues):
             value = value.values
         if isinstance(value, np.ndarray) and value.shape == (count,) and value.dtype.kind in "biuf":
-            words = described(declaration["unit"], declaration["meaning"]) if declaration else {"long_name": name}
-            yield legal(f"{kind}_{name}"), value.astype(float), words
+            words = (
+                variable_attributes(declaration["unit"], declaration["meaning"]) if declaration else {"long_name": name}
+            )
+            yield legal_name(f"{kind}_{name}"), value.astype(float), words

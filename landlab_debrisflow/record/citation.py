@@ -1,4 +1,4 @@
-"""What to cite."""
+"""Citation of the package and of the paper."""
 
 PAPER = """
 @article{pastor2022ale,

@@ -1,6 +1,6 @@
 """The state as xarray Datasets with units, after the CF conventions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,41 +12,44 @@ from ..physics.column.diagnostics import consolidation_time, erosion_time
 from .attributes import (  # fmt: skip
     NO_FILL,
     OF_A_MOMENT,
-    at_nodes,
     date_created,
-    described,
-    heading,
-    of_laws,
-    of_moment,
-    of_parameters,
+    file_attributes,
+    law_attributes,
+    moment_attributes,
+    node_parameters,
+    parameter_attributes,
+    variable_attributes,
 )
 
 ON_WALLS = ("debris_flow__max_impact_pressure", "debris_flow__max_run_up")
-"""Maps that tell of closed nodes, too: what ran against their faces, 0 if nothing did."""
+"""Maps with values at closed nodes, too: peaks of the flow against their faces, 0 without any."""
 
 FIELDS = {field.name: field for field in NODE_FIELDS}
 
 
-def particles_dataset(particles, lower_left, setup, time: float) -> xr.Dataset:
+def particles_dataset(particles: Any, lower_left: Sequence[float], setup: Any, time: float) -> xr.Dataset:
     """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
     data, order = {}, np.argsort(particles.identity)
     for variable in particles.variables:
         if not variable.written or variable.per_level:
             continue
-        values, attributes = getattr(particles, variable.name), described(variable.unit, variable.long_name)
+        values, attributes = getattr(particles, variable.name), variable_attributes(variable.unit, variable.long_name)
         if variable.components:
             for axis, part in zip("xyz", values, strict=True):
                 words = f"{variable.long_name}, {axis} component"
-                data[f"{variable.name}_{axis}"] = ("particle", part[order], described(variable.unit, words))
+                data[f"{variable.name}_{axis}"] = ("particle", part[order], variable_attributes(variable.unit, words))
         else:
             data[variable.name] = ("particle", values[order], attributes)
-    data["x"] = ("particle", particles.x[order] + lower_left[0], described("m", "map coordinate of the grid"))
-    data["y"] = ("particle", particles.y[order] + lower_left[1], described("m", "map coordinate of the grid"))
-    attributes = heading() | of_moment(time, particles) | of_laws(setup)  # no date: the same particles are identical
+    data["x"] = ("particle", particles.x[order] + lower_left[0], variable_attributes("m", "map coordinate of the grid"))
+    data["y"] = ("particle", particles.y[order] + lower_left[1], variable_attributes("m", "map coordinate of the grid"))
+    # no date: equal particles make identical Datasets
+    attributes = file_attributes() | moment_attributes(time, particles) | law_attributes(setup)
     return xr.Dataset(data, {"particle": _numbers(particles.identity[order])}, attributes)
 
 
-def columns_dataset(profile, particles, coefficient_of_consolidation, setup, time: float) -> xr.Dataset:
+def columns_dataset(
+    profile: np.ndarray, particles: Any, coefficient_of_consolidation: np.ndarray, setup: Any, time: float
+) -> xr.Dataset:
     """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
@@ -66,23 +69,26 @@ def columns_dataset(profile, particles, coefficient_of_consolidation, setup, tim
         "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
         "clipped_pressure": (p.column_clipped, "Pa m", "pressure taken off by the bounds times thickness"),
     }  # fmt: skip
-    words = described("-", "height above the base over thickness, 0 at the base, 1 at the surface")
+    words = variable_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface")
     level = xr.Variable("level", np.linspace(0.0, 1.0, levels), words, NO_FILL)
-    words = described("Pa", "excess pore pressure")
+    words = variable_attributes("Pa", "excess pore pressure")
     return xr.Dataset(
         {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
-        | {name: ("particle", values[order], described(unit, text)) for name, (values, unit, text) in data.items()},
+        | {
+            name: ("particle", values[order], variable_attributes(unit, text))
+            for name, (values, unit, text) in data.items()
+        },
         {"particle": _numbers(p.identity[order]), "level": level},
-        heading() | of_moment(time, particles) | of_laws(setup),
+        file_attributes() | moment_attributes(time, particles) | law_attributes(setup),
     )
 
 
 def _numbers(identity):
-    return xr.Variable("particle", identity, described("-", "number of the particle, in order of release"))
+    return xr.Variable("particle", identity, variable_attributes("-", "number of the particle, in order of release"))
 
 
-def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
-    """Return what is shown over ``y`` and ``x``, closed nodes missing, with all parameters.
+def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment: Mapping[str, Any]) -> xr.Dataset:
+    """Return the output fields over ``y`` and ``x``, NaN at closed nodes, with all parameters.
 
     Parameters
     ----------
@@ -93,7 +99,7 @@ def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
         A parameter that varies in space becomes a map named as its attribute would be. One given at all nodes is there
         as it was given, too, under a name with two underscores, by which `Setup.from_dataset` finds it.
     moment : mapping
-        Attributes: see `attributes.of_moment`.
+        Attributes: see `attributes.moment_attributes`.
 
     Returns
     -------
@@ -106,21 +112,21 @@ def maps_dataset(grid, shown: Mapping, setup, moment: Mapping) -> xr.Dataset:
         if field.intent == "out":  # what lay there before the nodes were closed is in the budget, too
             missing = closed & (values == field.start) & (name not in ON_WALLS)
         values = np.where(missing, np.nan, values).reshape(grid.shape)
-        data[name] = (("y", "x"), values, described(field.unit, field.doc), encoding)
+        data[name] = (("y", "x"), values, variable_attributes(field.unit, field.doc), encoding)
     attributes: dict[str, Any] = {}
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(setup, kind)
-        attributes |= of_parameters(kind, law)
-        for name, values, words in at_nodes(kind, law, grid.at_node, closed.size):
+        attributes |= parameter_attributes(kind, law)
+        for name, values, words in node_parameters(kind, law, grid.at_node, closed.size):
             data[name] = (("y", "x"), np.where(closed, np.nan, values).reshape(grid.shape), words, encoding)
     for name, array in setup.node_arrays().items():
-        words = described(array.unit, f"{array.meaning}, as given, also at closed nodes")
+        words = variable_attributes(array.unit, f"{array.meaning}, as given, also at closed nodes")
         data[name] = (("y", "x"), array.values.reshape(grid.shape), words, encoding)
-    attributes |= of_parameters("numerics", setup.numerics)
+    attributes |= parameter_attributes("numerics", setup.numerics)
     for k, hydrograph in enumerate(setup.inflow):
-        attributes |= of_parameters(f"inflow_{k}", hydrograph)
-    attributes |= setup.to_attributes() | of_laws(setup)
-    return xr.Dataset(data, _axes(grid), heading() | date_created() | dict(moment) | attributes)
+        attributes |= parameter_attributes(f"inflow_{k}", hydrograph)
+    attributes |= setup.to_attributes() | law_attributes(setup)
+    return xr.Dataset(data, _axes(grid), file_attributes() | date_created() | dict(moment) | attributes)
 
 
 def _axes(grid):
@@ -128,17 +134,19 @@ def _axes(grid):
     axes = {}
     spacings = grid.dx, grid.dy
     for axis, first, spacing, count in zip("xy", grid.xy_of_lower_left, spacings, grid.shape[::-1], strict=True):
-        words = described("m", axis) | {"standard_name": f"projection_{axis}_coordinate", "axis": axis.upper()}
+        words = variable_attributes("m", axis) | {
+            "standard_name": f"projection_{axis}_coordinate",
+            "axis": axis.upper(),
+        }
         axes[axis] = xr.Variable(axis, first + spacing * np.arange(count), words, NO_FILL)
     return axes
 
 
-def stack(maps: Sequence[xr.Dataset], dimension: str, labels, **words) -> xr.Dataset:
+def stack(maps: Sequence[xr.Dataset], dimension: str, labels: Iterable[Any], **words: str) -> xr.Dataset:
     """Stack maps of several moments or runs side by side along a new dimension.
 
-    Parameters of which all have the same values over nodes have them once. Attributes that are not the same for all
-    are left out, as are those that are true of one moment only; variables that one has and another has not are missing
-    there.
+    A parameter over nodes that is equal in all maps is kept once, without the new dimension. Attributes are kept if
+    they are equal in all maps and hold at more than one moment. A variable that some maps lack is NaN there.
 
     Parameters
     ----------

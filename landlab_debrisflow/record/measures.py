@@ -1,20 +1,22 @@
 """Measures of an event: how far, how large, how deep, how fast."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from ..core.errors import InputError
-from .attributes import described
+from .attributes import variable_attributes
 
 ELEVATION, RELEASE = "topographic__elevation", "debris_flow__release_depth"
 DEPOSIT = "debris_flow__deposit_depth"
 
 
-def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | None = None, inside=None,
-             front_fraction: float = 0.99, flow_threshold: float = 0.0, erosion_threshold: float = 0.01,
-             deposit_threshold: float = 0.1) -> xr.Dataset:  # fmt: skip
+def measures(flow: Any, before: xr.Dataset | None = None, *, distance: Callable | None = None,
+             inside: ArrayLike | None = None, front_fraction: float = 0.99, flow_threshold: float = 0.0,
+             erosion_threshold: float = 0.01, deposit_threshold: float = 0.1) -> xr.Dataset:  # fmt: skip
     """Measure an event: run-out, travel angle, areas, volumes and peaks.
 
     Parameters
@@ -29,7 +31,7 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
         by default in plan from the centre of the release, weighted with its thickness.
     inside : array_like of bool, shape (rows, columns) or (nodes,), optional
         Nodes to which areas, depths, peaks and the volumes of erosion and deposit are limited. Budget and run-out
-        are always those of the whole event.
+        always belong to the whole event.
     front_fraction : float
         Part of the volume that lies behind the front [-], in (0, 1]: a stray particle is no front.
     flow_threshold, erosion_threshold, deposit_threshold : float
@@ -85,19 +87,22 @@ def measures(flow, before: xr.Dataset | None = None, *, distance: Callable | Non
     >>> round(float(found.travel_angle), 2)  # 10 m down in 20 m
     26.57
     """
-    _check(front_fraction, flow_threshold, erosion_threshold, deposit_threshold)
+    thresholds = flow_threshold, erosion_threshold, deposit_threshold
+    _check(front_fraction, *thresholds)
     maps = flow if isinstance(flow, xr.Dataset) else flow.maps
     if DEPOSIT not in maps or set(maps[DEPOSIT].dims) != {"y", "x"}:
         raise InputError(
             f"measures: needs a DebrisFlow or its maps at one moment, got a Dataset over {dict(maps.sizes)}"
         )
-    found = _of_moment(maps) | _of_maps(_Region(maps, inside), flow_threshold, erosion_threshold, deposit_threshold)
+    found = _moment_measures(maps) | _map_measures(_Region(maps, inside), *thresholds)
     if before is not None or distance is not None:
-        found |= _of_way(_mass(flow, maps, before), before, distance, front_fraction)
-    return xr.Dataset({name: ((), value, described(unit, words)) for name, (value, unit, words) in found.items()})
+        found |= _travel_measures(_mass(flow, maps, before), before, distance, front_fraction)
+    return xr.Dataset(
+        {name: ((), value, variable_attributes(unit, words)) for name, (value, unit, words) in found.items()}
+    )
 
 
-def quantile(values, weights, fraction: float) -> float:
+def quantile(values: np.ndarray, weights: np.ndarray, fraction: float) -> float:
     """Return the value that a fraction of the weights does not exceed.
 
     Parameters
@@ -134,7 +139,7 @@ def _cell(maps) -> float:
 
 
 class _Region:
-    """Values of maps at the nodes that are measured; what is missing there counts as nothing."""
+    """Values of maps at the nodes to be measured; missing values count as 0."""
 
     def __init__(self, maps, inside):
         self._maps, self._shape = maps, (maps.sizes["y"], maps.sizes["x"])
@@ -153,8 +158,8 @@ class _Region:
         return np.nan_to_num(self._maps[field].values[self._inside]) if field in self._maps else np.zeros(0)
 
 
-def _of_moment(maps):
-    """Return elapsed time and the terms of the budget, where maps know them."""
+def _moment_measures(maps):
+    """Return elapsed time [s] and terms of the budget [m3] in maps, as (value, unit, meaning) by name."""
     found = {}
     if "elapsed_time" in maps.attrs:
         found["elapsed_time"] = float(maps.attrs["elapsed_time"]), "s", "elapsed time"
@@ -164,8 +169,8 @@ def _of_moment(maps):
     return found
 
 
-def _of_maps(region, flow_threshold, erosion_threshold, deposit_threshold):
-    """Return areas, volumes, depths and peaks."""
+def _map_measures(region, flow_threshold, erosion_threshold, deposit_threshold):
+    """Return areas [m2], volumes [m3], depths [m] and peaks as (value, unit, meaning) by name."""
     depth, eroded, deposit = (region.at(name) for name in ("max_depth", "eroded_depth", "deposit_depth"))
     eroding, thick = _at_least(eroded, erosion_threshold), deposit[_at_least(deposit, deposit_threshold)]
     peclet = region.at("max_basal_peclet_number")
@@ -177,25 +182,25 @@ def _of_maps(region, flow_threshold, erosion_threshold, deposit_threshold):
         "deposit_area": (thick.size * region.cell, "m2", "map area of the deposit"),
         "eroded_volume": (eroded.sum() * region.cell, "m3", "volume eroded, without the release"),
         "deposit_volume": (deposit.sum() * region.cell, "m3", "volume of the deposit"),
-        "max_depth": (_of(np.max, depth), "m", "largest depth of moving mass"),
-        "max_speed": (_of(np.max, region.at("max_speed")), "m s-1", "largest speed"),
+        "max_depth": (_reduce(np.max, depth), "m", "largest depth of moving mass"),
+        "max_speed": (_reduce(np.max, region.at("max_speed")), "m s-1", "largest speed"),
         "max_impact_pressure": (
-            _of(np.max, region.at("max_impact_pressure")), "Pa", "largest density times speed squared",
+            _reduce(np.max, region.at("max_impact_pressure")), "Pa", "largest density times speed squared",
         ),
-        "max_run_up": (_of(np.max, region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
-        "max_eroded_depth": (_of(np.max, eroded), "m", "deepest erosion"),
-        "max_deposit_depth": (_of(np.max, deposit), "m", "largest depth of the deposit"),
-        "mean_deposit_depth": (_of(np.mean, thick), "m", "mean depth over the area of the deposit"),
-        "median_deposit_depth": (_of(np.median, thick), "m", "median depth over the area of the deposit"),
-        "max_basal_peclet_number": (_of(np.max, peclet), "-", "largest basal Péclet number where eroded"),
+        "max_run_up": (_reduce(np.max, region.at("max_run_up")), "m", "largest height above the lowest bed come over"),
+        "max_eroded_depth": (_reduce(np.max, eroded), "m", "deepest erosion"),
+        "max_deposit_depth": (_reduce(np.max, deposit), "m", "largest depth of the deposit"),
+        "mean_deposit_depth": (_reduce(np.mean, thick), "m", "mean depth over the area of the deposit"),
+        "median_deposit_depth": (_reduce(np.median, thick), "m", "median depth over the area of the deposit"),
+        "max_basal_peclet_number": (_reduce(np.max, peclet), "-", "largest basal Péclet number where eroded"),
         "median_basal_peclet_number": (
-            _of(np.median, peclet), "-", "median of the largest basal Péclet numbers where eroded",
+            _reduce(np.median, peclet), "-", "median of the largest basal Péclet numbers where eroded",
         ),
     }  # fmt: skip
 
 
-def _of(reduction, values):
-    """Return a reduction of values, NaN if there are none."""
+def _reduce(reduction, values):
+    """Return a reduction of values, in their unit; NaN for an empty array."""
     return reduction(values) if values.size else np.nan
 
 
@@ -216,8 +221,8 @@ def _mass(flow, maps, before):
     return x[covered], y[covered], ground[ELEVATION].values[covered], deposit[covered] * _cell(maps)
 
 
-def _of_way(mass, before, distance, front_fraction):
-    """Return how far the mass went, and with the ground before also the line from the crown to the front."""
+def _travel_measures(mass, before, distance, front_fraction):
+    """Return run-out [m] and, with the ground before, travel angle [deg], as (value, unit, meaning) by name."""
     x, y, z, volume = mass
     released = None if before is None else np.nan_to_num(before[RELEASE].values)
     if released is not None and not released.any():

@@ -1,10 +1,10 @@
-"""Observers: what watches a run. They are given to `DebrisFlow` and never imported by the model.
+"""Observers of a run, given to `DebrisFlow` and never imported by the model.
 
 An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, called at the end of every step that
 crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers change nothing: steps
 are as long as without them, so a look comes a little after the multiple, and its time is `flow.elapsed_time`.
 A step that crosses several multiples is looked at once. With ``interval = EVERY_STEP`` an observer looks before the
-first step of a call and after every step. What it sees is the grid as it would be if the call ended there, except
+first step of a call and after every step. It sees the grid as if the call ended there, except
 that nothing settles; it may not run the flow itself.
 
 An observer that raises ends the call after that step, with everything computed kept: call again to go on. The other
@@ -15,31 +15,33 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
-from rich.console import Console
 
 from ..core.checks import require
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..model.schedule import EVERY_STEP
-from .attributes import described
+from .attributes import variable_attributes
 from .datasets import stack
 from .files import check_writable, write_dataset
 
+if TYPE_CHECKING:
+    from rich.console import Console
+
 
 class Progress:
-    """One line on the terminal that follows the event; nothing where there is no terminal.
+    """One line on the terminal that follows the event, silent without a terminal.
 
     Parameters
     ----------
     interval : float
         Event time between updates [s].
     label : str
-        What to put in front of the line.
+        Beginning of the line.
     console : rich.console.Console, optional
         Where to write; standard error by default, so that a redirected result stays clean.
 
@@ -49,7 +51,9 @@ class Progress:
         If the interval is not > 0.
     """
 
-    def __init__(self, interval: float = 1.0, label: str = "debris flow", console: Console | None = None):
+    def __init__(self, interval: float = 1.0, label: str = "debris flow", console: "Console | None" = None):
+        from rich.console import Console  # takes 30 ms, which an import of the package need not
+
         self.interval = _positive(interval, type(self).__name__)
         self._label, self._console = label, console or Console(stderr=True)
 
@@ -115,7 +119,7 @@ class Snapshots:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """All snapshots so far over ``time`` [s]; attributes that are not the same for all are left out.
+        """All snapshots so far over ``time`` [s], with the attributes that all of them have in common.
 
         Raises
         ------
@@ -125,7 +129,7 @@ class Snapshots:
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
         # elapsed time has no date to count from, so to CF it is a quantity, no time axis
-        time = described("s", "elapsed time")
+        time = variable_attributes("s", "elapsed time")
         series, last = stack(self._maps, "time", self._times, **time), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
 
@@ -191,7 +195,7 @@ class Series:
         self._values: list[dict[str, np.ndarray]] = []
 
     def observe(self, flow: Any) -> None:
-        """Measure, and interpolate what is wanted between the last time and now."""
+        """Measure, and interpolate to the wanted times between the last step and now."""
         now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
         then, earlier = self._before or (now, values)
         if {k: v.shape for k, v in values.items()} != {k: v.shape for k, v in earlier.items()}:
@@ -208,7 +212,7 @@ class Series:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The measures at those of the times that were passed, over ``time`` [s]; an attribute says how."""
+        """The measures at the wanted times that have passed, over ``time`` [s]."""
         first = self._values[0] if self._values else {}
         data = {
             name: (("time", *(f"{name}_{k}" for k in range(value.ndim))), np.stack([v[name] for v in self._values]))

@@ -14,7 +14,7 @@ def text(flow: Any) -> str:
 
 
 def html(flow: Any) -> str:
-    """Return the same as a table."""
+    """Return state, laws and budget as a table."""
     rows = _rows(flow) or {"state": "under construction"}
     cells = "".join(
         f'<tr><th style="text-align:left">{escape(name)}</th><td style="text-align:left">{escape(words)}</td></tr>'
@@ -24,7 +24,7 @@ def html(flow: Any) -> str:
 
 
 def _rows(flow) -> dict[str, str] | None:
-    """Return what is to be told by name, or None if the component is not complete."""
+    """Return names and values to show, or None if the component is not complete."""
     if "_call" not in vars(flow):
         return None
     budget = ", ".join(f"{name} {volume:.6g}" for name, volume in flow.budget.items())

@@ -1,4 +1,4 @@
-"""A digest of values: the same in every process, whatever the seed of hashes and the addresses of objects."""
+"""Digest of values, equal in every process, whatever the seed of hashes and the addresses of objects."""
 
 import dataclasses
 import re
@@ -79,7 +79,7 @@ def _array(values: np.ndarray) -> str:
         values = np.array(values)
         values += 0.0  # -0.0 and 0.0 are equal, and so are all that are no number
         values[np.isnan(values)] = np.nan
-    return f"{values.dtype.str}{values.shape}{blake2b(np.ascontiguousarray(values), digest_size=16).hexdigest()}"
+    return f"{values.dtype.str}{values.shape}{blake2b(np.ascontiguousarray(values).data, digest_size=16).hexdigest()}"
 
 
 def _path(of) -> str:

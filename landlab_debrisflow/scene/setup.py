@@ -1,9 +1,9 @@
-"""What is simulated and how, as one value: laws, material, numerics, inflow."""
+"""Setup of a run as one value: laws, material, numerics, inflow."""
 
 import dataclasses
 import json
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -16,8 +16,11 @@ from ..model.numerics import Numerics
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
-from ..record.attributes import legal
+from ..record.attributes import legal_name
 from .digest import digest, state_of, text_of
+
+UNSET: Any = None
+"""Default of what `Setup` builds by itself, of any type."""
 
 
 class NodeArray(NamedTuple):
@@ -30,7 +33,7 @@ class NodeArray(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Setup:
-    """One law of each kind, the material, the numerics and what flows in: all of a run but the grid.
+    """One law of each kind, the material, the numerics and the inflow: a whole run but for its grid.
 
     It is compared, hashed and pickled as a value, and its attributes are the keywords of `DebrisFlow`, so that
     ``DebrisFlow(grid, **vars(setup))`` runs it.
@@ -57,13 +60,27 @@ class Setup:
     (True, False)
     """
 
-    flow: FlowLaw = None
-    friction: FrictionLaw = None
-    erosion: ErosionLaw = None
-    column: ColumnLaw = None
-    material: Material = None
-    numerics: Numerics = None
+    flow: FlowLaw = UNSET
+    friction: FrictionLaw = UNSET
+    erosion: ErosionLaw = UNSET
+    column: ColumnLaw = UNSET
+    material: Material = UNSET
+    numerics: Numerics = UNSET
     inflow: tuple[Hydrograph, ...] = ()
+
+    if TYPE_CHECKING:  # what is given is not yet what the attributes are
+
+        def __init__(
+            self,
+            *,
+            flow: Any = None,
+            friction: Any = None,
+            erosion: Any = None,
+            column: Any = None,
+            material: Material | Mapping[str, Any] | None = None,
+            numerics: Numerics | Mapping[str, Any] | None = None,
+            inflow: Hydrograph | Mapping[str, Any] | Sequence[Hydrograph | Mapping[str, Any]] | None = None,
+        ) -> None: ...
 
     def __post_init__(self):
         built = {kind: build_law(kind, getattr(self, kind)) for kind in LAWS}
@@ -85,7 +102,7 @@ class Setup:
         Parameters
         ----------
         mapping : mapping
-            By the names of the attributes; what is left out has its default.
+            Values by the names of the attributes; missing ones have their defaults.
 
         Returns
         -------
@@ -106,14 +123,14 @@ class Setup:
         return cls(**mapping)
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return all values, defaults included, as numbers, words, lists and mappings; what is not set is left out.
+        """Return all values, defaults included, as numbers, words, lists and mappings, without the unset ones.
 
         Returns
         -------
         dict
-            `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared is
-            there with its class and how it prints, and one whose class has no name in `LAWS` with its class: from those
-            no setup can be built.
+            `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared
+            appears as its class and its `repr`, a declared law without a name in `LAWS` as its class: from such a
+            mapping no setup can be built.
         """
         return self._mapping(lambda kind, name, array: array.values.tolist())
 
@@ -137,7 +154,7 @@ class Setup:
         return mapping | {"inflow": [values_of("inflow", hydrograph) for hydrograph in self.inflow]}
 
     def digest(self) -> str:
-        """Return 32 hexadecimal digits that are the same for equal setups in every process, and else differ.
+        """Return 32 hexadecimal digits, equal in every process for equal setups and different otherwise.
 
         Of a law that is not declared they tell class, state and how it prints.
         """
@@ -147,7 +164,7 @@ class Setup:
     # ---- in a Dataset ----
 
     def node_arrays(self) -> dict[str, NodeArray]:
-        """Return what is given at every node, by the name of a variable, such as ``friction__cohesion``."""
+        """Return the parameters given at every node, by the name of a variable, such as ``friction__cohesion``."""
         return {
             _variable(kind, field.name): NodeArray(value.values, field.metadata["unit"], field.metadata["meaning"])
             for kind in LAWS if is_declared(law := getattr(self, kind))
@@ -190,17 +207,17 @@ class Setup:
         return cls.from_mapping(mapping)
 
 
-def is_declared(obj) -> bool:
+def is_declared(obj: Any) -> bool:
     """Return whether the parameters of an object are all declared."""
     return dataclasses.is_dataclass(obj) and all("meaning" in field.metadata for field in dataclasses.fields(obj))
 
 
 def _variable(kind: str, name: str) -> str:
-    return legal(f"{kind}__{name}")
+    return legal_name(f"{kind}__{name}")
 
 
 def _hydrographs(inflow) -> tuple[Hydrograph, ...]:
-    """Return what stands for an inflow: none, a Hydrograph, a mapping, or several of them."""
+    """Return the hydrographs of an inflow given as None, a Hydrograph, a mapping, or several of them."""
     if inflow is None:
         return ()
     if isinstance(inflow, Hydrograph | Mapping):

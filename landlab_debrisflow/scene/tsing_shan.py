@@ -25,24 +25,24 @@ CORRELATION_LENGTH = 15.0
 
 def tsing_shan_valley(
     *,
-    erodible_length=714.0,
-    slopes=(38.0, 28.0, 2.0),
-    transition_length=240.0,
-    runout_length=1400.0,
-    width=600.0,
-    channel_width=40.0,
-    channel_depth=12.0,
-    erodible_depth=12.0,
-    roughness=0.0,
-    seed=0,
-    spacing=5.0,
-    offset=(0.0, 0.0),
-):
+    erodible_length: float = 714.0,
+    slopes: tuple[float, float, float] = (38.0, 28.0, 2.0),
+    transition_length: float = 240.0,
+    runout_length: float = 1400.0,
+    width: float = 600.0,
+    channel_width: float = 40.0,
+    channel_depth: float = 12.0,
+    erodible_depth: float = 12.0,
+    roughness: float = 0.0,
+    seed: int = 0,
+    spacing: float = 5.0,
+    offset: tuple[float, float] = (0.0, 0.0),
+) -> RasterModelGrid:
     """Build a valley with the numbers of the Tsing Shan debris flow of 1990, whose own terrain is not public.
 
     A channel descends from west to east along the middle row, reaches 100 m elevation, and opens onto a
-    plain. From the parent landslide to 100 m the path is 714 m long: what it takes to grow from 2350
-    to 20 000 m3 at 3e-3 per metre, ln(20000/2350)/3e-3. With the default slopes the ground falls some
+    plain. From the parent landslide to 100 m the path is 714 m long, over which 2350 m3 grow to
+    20 000 m3 at 3e-3 per metre: ln(20000/2350)/3e-3. With the default slopes the ground falls some
     490 m over the first 1000 m from the crown, as at Tsing Shan. Where the flow ends, and with that its
     travel angle, is left to the model.
 
@@ -65,7 +65,7 @@ def tsing_shan_valley(
         ``soil__depth`` above 100 m elevation [m]; 0 below. At the foot of the channel 20 000 m3 that
         grow by 3e-3 per metre take 60 m3 from every metre of path. Over half the channel width that is
         3 m on average. The default of 12 m leaves a factor of four for the middle, where the flow is
-        deepest and what it has cut draws more flow in: the bed is nowhere exhausted.
+        deepest and the cut draws more flow in: the bed is nowhere exhausted.
     roughness : float
         Standard deviation of correlated roughness added to the surface [m].
     seed : int
@@ -74,8 +74,8 @@ def tsing_shan_valley(
         Distance of nodes [m].
     offset : tuple of float
         How far everything, terrain and release, lies east and north of where it would be, in parts of the
-        spacing, from -0.5 to 0.5. It is the same valley seen by other nodes and other particles: what runs
-        differ in with the offset is the noise of the discretisation.
+        spacing, from -0.5 to 0.5. The valley stays the same, nodes and particles change: runs
+        that differ in the offset only show the noise of the discretisation.
 
     Returns
     -------

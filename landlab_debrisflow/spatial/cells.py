@@ -164,7 +164,7 @@ def _wake(cells):
 
 @lru_cache(maxsize=4)
 def _pool(process: int, threads: int) -> ThreadPoolExecutor:
-    """Return the threads of a process; a forked one inherits the object, but none of its threads."""
+    """Return the thread pool of a process; the number of the process is a key because a fork inherits no threads."""
     return ThreadPoolExecutor(threads, thread_name_prefix="debrisflow")
 
 

@@ -1,1 +1,1 @@
-"""The ground: a smooth surface through the nodes, and the ledger of what may be eroded."""
+"""The ground: a smooth surface through the nodes, erodible soil, and the pore pressure of the bed."""

@@ -64,7 +64,7 @@ class Bed:
 
     @classmethod
     def from_arrays(cls, elevation, spacing, soil=None, pressure_ratio=0.0, **others) -> "Bed":
-        """Return a bed whose outermost nodes are open and all others core, from arrays alone.
+        """Return a bed made of arrays alone, with open nodes along its edge and core nodes inside.
 
         Parameters
         ----------
@@ -88,7 +88,7 @@ class Bed:
         return cls(nodes, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
     def erode(self, x, y, spread, wanted):
-        """Take soil for particles that ask for it; those on one node share what is left there.
+        """Take the demanded soil for particles; particles at one node divide the soil left there.
 
         Parameters
         ----------
@@ -129,7 +129,7 @@ class Bed:
         return at, depth
 
     def lay_down(self, nodes, depth):
-        """Add a depth [m] to elevation and soil of some nodes, none of them twice."""
+        """Add a depth [m] to elevation and soil of distinct nodes."""
         self.elevation[nodes] += depth
         if self.soil is not None:
             self.soil[nodes] += depth

@@ -63,7 +63,7 @@ class BedPressure:
         self._bear(x, y, spread, force, time, dt, self._loading)
 
     def stand(self, x, y, spread, force, time: float) -> None:
-        """Note what lies on the bed already at the start: that is no new load."""
+        """Note the load on the bed at the start, which raises no pressure."""
         self._bear(x, y, spread, force, time, 0.0, 0.0)
 
     def _bear(self, x, y, spread, force, time, dt, loading):
@@ -82,7 +82,7 @@ class BedPressure:
             self._age[nodes] = age
 
     def finish(self, time: float, nodes: slice) -> None:
-        """Bring all to `time` [s] at the end; nothing ever lay outside `nodes`, where one factor will do."""
+        """Drain the whole bed to `time` [s] at the end, outside `nodes`, which no flow ever loaded, by one factor."""
         self.drain(time, nodes)
         if np.isfinite(self._drainage_time):
             for others in (slice(0, nodes.start), slice(nodes.stop, None)):

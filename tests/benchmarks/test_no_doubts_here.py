@@ -25,6 +25,7 @@ def benchmark(name):
         sys.path.remove(str(ROOT / "examples"))
 
 
+@pytest.mark.slow
 def test_flow():
     flow = benchmark("flow")
     for ours, numbers, *_ in flow.CASES.values():
@@ -38,6 +39,7 @@ def test_flow():
         built(run, *arguments)
 
 
+@pytest.mark.slow
 def test_flow_stability(no_doubts):
     """A layer of 100 m on 25 m, there to see what breaks, is doubted as it should be; nothing else is."""
     for name, build in benchmark("flow_stability").cases():

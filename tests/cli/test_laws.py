@@ -1,6 +1,7 @@
 """The page of laws says what the declarations say."""
 
 import dataclasses
+import importlib
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,12 @@ def test_every_law_and_parameter_is_there_once():
         rows = [line.split("`")[1] for line in sections[title].splitlines() if line.startswith("| `")]
         assert rows == [field.name for field in dataclasses.fields(cls)]
         assert ("\nSource: " in sections[title]) == (title in laws)
+
+
+def test_every_class_is_imported_from_a_public_module():
+    for path in (line.split("`")[1] for line in PAGE.splitlines() if line.startswith("Class `")):
+        module, _, name = path.rpartition(".")
+        assert name in importlib.import_module(module).__all__ and module.count(".") <= 1
 
 
 @declared

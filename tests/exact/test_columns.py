@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 from scipy.special import erf
 
 from landlab_debrisflow.exact import columns
-from landlab_debrisflow.physics.column import ale, classical, constant_ratio, diagnostics, none
+from landlab_debrisflow.physics.column import ale, classical, constant_ratio, diagnostics, driver, none
 from landlab_debrisflow.physics.column import initial as start
 
 XI = (0.1, 0.25, 0.5, 0.75, 0.9)
@@ -89,7 +89,7 @@ def test_peclet_numbers_are_ratios_of_times():
     assert_allclose(number, times, rtol=1e-15)
 
 
-@pytest.mark.parametrize("module", [ale, columns, classical, constant_ratio, none, diagnostics, start])
+@pytest.mark.parametrize("module", [ale, columns, classical, constant_ratio, driver, none, diagnostics, start])
 def test_docstrings(module):
     with np.errstate(all="raise", under="ignore"):
         assert doctest.testmod(module).failed == 0

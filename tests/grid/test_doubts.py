@@ -127,7 +127,7 @@ def test_coordinates_in_degrees(built, corner, spacing, relief):
 
 def test_what_follows_from_degrees_is_not_said_besides():
     grid = earth((-121.5, 47.3), 1.0 / 3600.0)
-    assert list(doubts.about_release(grid, np.array([605]), np.array([3.0]))) == []
+    assert list(doubts.release_doubts(grid, np.array([605]), np.array([3.0]))) == []
 
 
 @pytest.mark.parametrize("unit", ["degrees", "Degrees_east", "deg", "°"])

@@ -267,7 +267,7 @@ def test_to_undo_costs_no_copy_of_the_raster():
     flow.run_one_step(1.0)
     tracemalloc.start()
     try:
-        with flow._call.rollback.all_or_nothing():
+        with flow._call.rollback.undo_on_failure():
             assert tracemalloc.get_traced_memory()[0] < 0.3 * flow.grid.at_node["soil__depth"].nbytes
     finally:
         tracemalloc.stop()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, Numerics, ParameterError
-from landlab_debrisflow.model.peak_maps import Footprint
+from landlab_debrisflow.model.peak_maps import PeakMaps
 from validation.grids import COARSE, copy_fields, dry_block, inclined, release_cap
 
 
@@ -44,14 +44,14 @@ def test_no_step_jumps_over_the_terrain(monkeypatch, depth):
     grid = inclined((25, 60), 5.0, math.tan(math.radians(35.0)))
     release_cap(grid, (60.0, 60.0), (30.0, 30.0), depth, on_top=True)
     flow = DebrisFlow(grid, **dry_block(0.2, particle_count=100))
-    steps, is_due = [], Footprint.is_due
+    steps, is_due = [], PeakMaps.is_due
 
     def watch(self, *arguments):
         p = flow._simulation.particles
         steps.append((p.x.copy(), p.y.copy()))
         return is_due(self, *arguments)
 
-    monkeypatch.setattr(Footprint, "is_due", watch)
+    monkeypatch.setattr(PeakMaps, "is_due", watch)
     flow.run_one_step(5.0)
     longest = max(np.hypot(*np.subtract(b, a)).max() for a, b in itertools.pairwise(steps))
     # half a spacing, with what gravity and thrust may add on the way

@@ -5,7 +5,7 @@ import pytest
 
 from landlab_debrisflow.model.kinematics import CLOSED
 from landlab_debrisflow.model.particles import Particles
-from landlab_debrisflow.model.peak_maps import NOW, PEAKS, Footprint
+from landlab_debrisflow.model.peak_maps import CURRENT, PEAKS, PeakMaps
 from landlab_debrisflow.spatial.transfer import Nodes
 
 SHAPE, D, ARRIVAL_DEPTH = (5, 5), 10.0, 0.01
@@ -18,9 +18,9 @@ def footprint(closed):
     for node in closed:
         status[node] = CLOSED
     status = status.ravel()
-    fields = {name: np.zeros(status.size) for name in NOW + PEAKS}
+    fields = {name: np.zeros(status.size) for name in CURRENT + PEAKS}
     nodes = Nodes(status == 0, SHAPE[1], D, D)
-    return Footprint(nodes, status, fields, ARRIVAL_DEPTH, 0.0), {name: a.reshape(SHAPE) for name, a in fields.items()}
+    return PeakMaps(nodes, status, fields, ARRIVAL_DEPTH, 0.0), {name: a.reshape(SHAPE) for name, a in fields.items()}
 
 
 def over_the_middle(*velocities, **values):
@@ -82,7 +82,7 @@ def test_a_film_is_no_peak(share, counts):
         liquefaction_pressure=1000.0, basal_peclet_number=7.0,
     )  # fmt: skip
     seen.record(p, 2000.0, 1.0)
-    shown = {name: field[name][2, 2] for name in NOW}
+    shown = {name: field[name][2, 2] for name in CURRENT}
     assert shown == pytest.approx(
         {"depth": share * 0.01, "speed": 3.0, "basal_excess_pore_pressure": 600.0, "basal_peclet_number": 7.0}
     )

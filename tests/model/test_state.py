@@ -10,8 +10,8 @@ from landlab_debrisflow.model.inflow.source import Inflow
 from landlab_debrisflow.model.kinematics import CORE
 from landlab_debrisflow.model.numerics import Numerics
 from landlab_debrisflow.model.simulation import Simulation
-from landlab_debrisflow.physics.registry import build_physics
 from landlab_debrisflow.record.files import write_dataset
+from landlab_debrisflow.scene.setup import Setup
 from landlab_debrisflow.terrain.bed import Bed
 
 SHAPE, SPACING = (20, 60), (5.0, 5.0)
@@ -49,12 +49,12 @@ class Terrain:
         )
 
 
-def build(scene):
+def build(scene, particles=60):
     """Return a simulation that nothing was released in yet."""
     laws, hydrographs = SCENES[scene]
-    numerics = Numerics(particle_count=60)
+    numerics = Numerics(particle_count=particles)
     inflow = Inflow([Hydrograph(**each) for each in hydrographs], numerics)
-    return Simulation(build_physics(**laws), numerics, inflow)
+    return Simulation(Setup(**laws), numerics, inflow)
 
 
 def call(simulation, terrain, seconds, failing=None, changed=False):
@@ -76,8 +76,8 @@ def call(simulation, terrain, seconds, failing=None, changed=False):
     terrain.earlier += bed.taken
 
 
-def begun(scene, seconds=4.0):
-    simulation, terrain = build(scene), Terrain()
+def begun(scene, seconds=4.0, particles=60):
+    simulation, terrain = build(scene, particles), Terrain()
     failing = (abs(terrain.x - 30.0) < 9.0) & (abs(terrain.y - 48.0) < 9.0)
     if scene == "sleeps":
         failing |= (abs(terrain.x - 150.0) < 13.0) & (abs(terrain.y - 48.0) < 11.0)

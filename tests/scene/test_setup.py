@@ -64,6 +64,7 @@ def test_every_law_in_every_form_comes_back_from_yaml(kind, name, form):
     assert (getattr(again, kind) == LAWS[kind][name]()) == (setup == Setup(**{kind: name}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "name", "form"), CASES)
 def test_every_law_in_every_form_comes_back_from_files(kind, name, form, tmp_path):
     """Also what is given at nodes that the grid has closed."""
@@ -85,6 +86,7 @@ def test_every_law_in_every_form_comes_back_from_files(kind, name, form, tmp_pat
         assert read["maps"][variable].attrs["units"] == {"deg": "degree", "-": "1"}.get(array.unit, array.unit)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", OUTSIDE)
 def test_laws_from_outside_are_told_but_not_built(which, tmp_path):
     flow, snapshots = run(scene(), erosion=OUTSIDE[which])
@@ -171,6 +173,7 @@ def test_equal_setups_have_the_same_digest():
     assert Setup(erosion=Circular()).digest() == Setup(erosion=Circular()).digest() != Setup(erosion=Rate(1)).digest()
 
 
+@pytest.mark.slow
 def test_a_digest_is_the_same_in_every_process():
     expected = [setup.digest() for setup in variants()]
     code = "from tests.scene.test_setup import variants; print(*(setup.digest() for setup in variants()))"

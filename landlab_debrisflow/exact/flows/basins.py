@@ -1,11 +1,12 @@
 """Thacker's paraboloid: water that swings or breathes in a basin without friction."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .plane import GRAVITY, cut_dry
 
 
-def basin(x, y=0.0, radius: float = 10.0, depth: float = 1.0):
+def basin(x: ArrayLike, y: ArrayLike = 0.0, radius: float = 10.0, depth: float = 1.0) -> np.ndarray:
     """Return the elevation of Thacker's paraboloid [m], 0 on the circle ``radius``, ``-depth`` in the middle.
 
     Parameters
@@ -40,8 +41,15 @@ def thacker_planar_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     return float(2.0 * np.pi * radius / np.sqrt(2.0 * gravity * depth))
 
 
-def thacker_planar(x, y, time: float, radius: float = 10.0, depth: float = 1.0, orbit=(5.0, 5.0),
-                   gravity: float = GRAVITY):  # fmt: skip
+def thacker_planar(
+    x: ArrayLike,
+    y: ArrayLike,
+    time: float,
+    radius: float = 10.0,
+    depth: float = 1.0,
+    orbit: tuple[float, float] = (5.0, 5.0),
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, ...]:
     """Return depth and velocities of a flat surface that swings in a paraboloid.
 
     A cap of constant shape whose centre moves on ``(a cos(w t), b sin(w t))``, any orbit of the oscillator
@@ -89,8 +97,15 @@ def thacker_curved_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     return float(2.0 * np.pi * radius / np.sqrt(8.0 * gravity * depth))
 
 
-def thacker_curved(x, y, time: float, radius: float = 10.0, depth: float = 1.0, first_radius: float = 8.0,
-                   gravity: float = GRAVITY):  # fmt: skip
+def thacker_curved(
+    x: ArrayLike,
+    y: ArrayLike,
+    time: float,
+    radius: float = 10.0,
+    depth: float = 1.0,
+    first_radius: float = 8.0,
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, ...]:
     """Return depth and velocities of a circular cap that breathes in a paraboloid, from rest.
 
     ``A = (a^4 - r0^4)/(a^4 + r0^4)``; with squares, as it is often printed, the edge would start at ``(a r0)^(1/2)``.

@@ -1,6 +1,7 @@
 """Blocks and endless slabs on a plane: sliding, growing by erosion, losing their pore pressure."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..columns import LINEAR, consolidation_modes
@@ -10,7 +11,9 @@ MODES = 2000
 """Number of decaying modes of the pore pressure: with them the start of a linear profile is 1 to 1e-4."""
 
 
-def sliding_block(time, slope: float, friction: float, speed: float = 0.0, gravity: float = GRAVITY):
+def sliding_block(
+    time: ArrayLike, slope: float, friction: float, speed: float = 0.0, gravity: float = GRAVITY
+) -> tuple[np.ndarray, np.ndarray]:
     """Return velocity and travel of a block or endless slab under Coulomb friction.
 
     Held at rest where friction is not overcome; one that is braked stops at
@@ -40,13 +43,15 @@ def sliding_block(time, slope: float, friction: float, speed: float = 0.0, gravi
     >>> round(float(velocity), 2), round(float(travel), 2)
     (9.81, 9.81)
     """
-    pull, time = plane_gravity(slope, friction, gravity)[1], np.asarray(time, dtype=float)
+    pull, moving = plane_gravity(slope, friction, gravity)[1], np.asarray(time, dtype=float)
     if pull < 0.0:
-        time = np.minimum(time, -speed / pull)
-    return speed + pull * time, speed * time + 0.5 * pull * time**2
+        moving = np.minimum(moving, -speed / pull)
+    return speed + pull * moving, speed * moving + 0.5 * pull * moving**2
 
 
-def eroding_block(time, slope: float, friction: float, growth: float, slip: float = 0.0, gravity: float = GRAVITY):
+def eroding_block(
+    time: ArrayLike, slope: float, friction: float, growth: float, slip: float = 0.0, gravity: float = GRAVITY
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return velocity, travel and thickness ratio of a block from rest that entrains ``growth h v``.
 
     ``dv/dt = a - growth (1 - slip) v^2``; eroded soil enters with ``slip`` times the velocity of the block.
@@ -84,8 +89,16 @@ def eroding_block(time, slope: float, friction: float, growth: float, slip: floa
     return velocity, travel, np.exp(growth * travel)
 
 
-def consolidating_block(time, slope: float, friction: float, ratio: float, consolidation_time: float,
-                        start: str = LINEAR, layer: float = 1.0, gravity: float = GRAVITY):  # fmt: skip
+def consolidating_block(
+    time: ArrayLike,
+    slope: float,
+    friction: float,
+    ratio: float,
+    consolidation_time: float,
+    start: str = LINEAR,
+    layer: float = 1.0,
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, np.ndarray]:
     """Return velocity and travel of a block from rest on its own pore pressure, which drains at the surface.
 
     ``dv/dt = g (sin(slope) - friction (1 - ratio r(t)) cos(slope))`` with ``friction = (rho'/rho) tan(phi)`` and ``r``
@@ -127,12 +140,12 @@ def consolidating_block(time, slope: float, friction: float, ratio: float, conso
     def velocity(t):
         return pull * t - np.expm1(-np.multiply.outer(t, rate)) @ (lift / rate)
 
-    time = np.asarray(time, dtype=float)
+    moving = np.asarray(time, dtype=float)
     if pull < 0.0:
         # all that the pressure can ever give is lost again by then
         last = (lift / rate).sum() / -pull
         tiny = 1e-9 * consolidation_time  # not the start, which is a root as well
         moves = pull + lift.sum() > 0.0
-        time = np.minimum(time, brentq(velocity, tiny, 1.001 * last, xtol=1e-12) if moves else 0.0)
-    decay = np.exp(-np.multiply.outer(time, rate))
-    return velocity(time), 0.5 * pull * time**2 + time * (lift / rate).sum() - (1.0 - decay) @ (lift / rate**2)
+        moving = np.minimum(moving, brentq(velocity, tiny, 1.001 * last, xtol=1e-12) if moves else 0.0)
+    decay = np.exp(-np.multiply.outer(moving, rate))
+    return velocity(moving), 0.5 * pull * moving**2 + moving * (lift / rate).sum() - (1.0 - decay) @ (lift / rate**2)

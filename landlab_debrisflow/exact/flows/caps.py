@@ -1,13 +1,15 @@
 """Parabolic caps and ridges that spread on a plane while they slide, from rest."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from .plane import GRAVITY, cut_dry, plane_gravity
 
 
-def ridge_half_width(time: float, half_width: float = 10.0, depth: float = 1.0, slope: float = 0.0,
-                     gravity: float = GRAVITY) -> tuple[float, float]:  # fmt: skip
+def ridge_half_width(
+    time: float, half_width: float = 10.0, depth: float = 1.0, slope: float = 0.0, gravity: float = GRAVITY
+) -> tuple[float, float]:
     """Return the half width of a parabolic ridge [m] and its rate [m s-1].
 
     ``l'' = 3/2 g cos(slope) V/l^2`` with ``V = 4/3 h0 l0``. Its first integral is ``l'^2 = 3 g' V (1/l0 - 1/l)`` and
@@ -37,8 +39,15 @@ def ridge_half_width(time: float, half_width: float = 10.0, depth: float = 1.0, 
     return half_width * stretch, half_width * rate * np.sqrt(1.0 - 1.0 / stretch)
 
 
-def ridge(x, time: float, half_width: float = 10.0, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0,
-          gravity: float = GRAVITY):  # fmt: skip
+def ridge(
+    x: ArrayLike,
+    time: float,
+    half_width: float = 10.0,
+    depth: float = 1.0,
+    slope: float = 0.0,
+    friction: float = 0.0,
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, ...]:
     """Return thickness and velocity of a parabolic ridge that spreads in one dimension while it slides.
 
     The pressure coefficient is 1. Friction may have any value as long as the whole ridge moves down: either none, or
@@ -81,7 +90,9 @@ def ridge(x, time: float, half_width: float = 10.0, depth: float = 1.0, slope: f
     return cut_dry(depth * half_width / width * (1.0 - place**2), pull * time + place * rate)
 
 
-def cap_radius(time, radius: float = 10.0, depth: float = 1.0, slope: float = 0.0, gravity: float = GRAVITY):
+def cap_radius(
+    time: ArrayLike, radius: float = 10.0, depth: float = 1.0, slope: float = 0.0, gravity: float = GRAVITY
+) -> np.ndarray:
     """Return the radius of `cap` [m]: ``R^2 = R0^2 + 2 g cos(slope) h0 t^2``.
 
     Parameters
@@ -98,7 +109,15 @@ def cap_radius(time, radius: float = 10.0, depth: float = 1.0, slope: float = 0.
     return np.sqrt(radius**2 + 2.0 * gravity * np.cos(slope) * depth * np.asarray(time, dtype=float) ** 2)
 
 
-def cap(x, y, time: float, radius: float = 10.0, depth: float = 1.0, slope: float = 0.0, gravity: float = GRAVITY):
+def cap(
+    x: ArrayLike,
+    y: ArrayLike,
+    time: float,
+    radius: float = 10.0,
+    depth: float = 1.0,
+    slope: float = 0.0,
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, ...]:
     """Return thickness and velocities of a circular parabolic cap that spreads while it slides, without friction.
 
     The equations on a plane are those on a flat bed in a frame that falls with ``g sin(slope)``; there it is the
@@ -126,15 +145,21 @@ def cap(x, y, time: float, radius: float = 10.0, depth: float = 1.0, slope: floa
     ----------
     Thacker (1981).
     """
-    wide, pull = cap_radius(time, radius, depth, slope, gravity), gravity * np.sin(slope)
+    wide, pull = cap_radius(time, radius, depth, slope, gravity), plane_gravity(slope, 0.0, gravity)[1]
     x, y = np.asarray(x, dtype=float) - 0.5 * pull * time**2, np.asarray(y, dtype=float)
     rate = 2.0 * gravity * np.cos(slope) * depth * time / wide**2  # R'/R
     h = depth * (radius / wide) ** 2 * (1.0 - (x**2 + y**2) / wide**2)
     return cut_dry(h, pull * time + rate * x, rate * y)
 
 
-def similarity_scales(time: float, length: float = 80.0, height: float = 4.0, slope: float = np.radians(35.0),
-                      friction: float = np.tan(np.radians(25.0)), gravity: float = GRAVITY):  # fmt: skip
+def similarity_scales(
+    time: float,
+    length: float = 80.0,
+    height: float = 4.0,
+    slope: float = np.radians(35.0),
+    friction: float = np.tan(np.radians(25.0)),
+    gravity: float = GRAVITY,
+) -> np.ndarray:
     """Return the lengths of `similarity` along and across the slope over the first one, and their rates.
 
     ``g'' = 2 B/(g^2 f)`` and ``f'' = 2 B/(g f^2) - C f'/((A - C) tau)`` with ``tau = t (gravity/length)^(1/2)``,
@@ -168,8 +193,16 @@ def similarity_scales(time: float, length: float = 80.0, height: float = 4.0, sl
     return start * np.array([1.0, 1.0, *2 * [np.sqrt(gravity / length)]])
 
 
-def similarity(x, y, time: float, length: float = 80.0, height: float = 4.0, slope: float = np.radians(35.0),
-               friction: float = np.tan(np.radians(25.0)), gravity: float = GRAVITY):  # fmt: skip
+def similarity(
+    x: ArrayLike,
+    y: ArrayLike,
+    time: float,
+    length: float = 80.0,
+    height: float = 4.0,
+    slope: float = np.radians(35.0),
+    friction: float = np.tan(np.radians(25.0)),
+    gravity: float = GRAVITY,
+) -> tuple[np.ndarray, ...]:
     """Return thickness and velocities of a parabolic cap with Coulomb friction in two dimensions.
 
     Exact for friction linearised about the motion of the centre, ``-friction g cos(slope) (1, v/u_c)``; against full

@@ -1,6 +1,7 @@
 """Dam breaks: a reservoir of uniform depth is set free at ``x = 0``."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from .plane import GRAVITY, cut_dry, plane_gravity
@@ -9,7 +10,7 @@ START = 1e-200
 """A time so short that a dam break is still the step it starts from [s]."""
 
 
-def ritter(x, time: float, depth: float = 1.0, gravity: float = GRAVITY):
+def ritter(x: ArrayLike, time: float, depth: float = 1.0, gravity: float = GRAVITY) -> tuple[np.ndarray, ...]:
     """Return depth and velocity of a dam break on a dry flat bed without friction.
 
     Parameters
@@ -41,7 +42,9 @@ def ritter(x, time: float, depth: float = 1.0, gravity: float = GRAVITY):
     return mangeney(x, time, depth, 0.0, 0.0, gravity)
 
 
-def mangeney(x, time: float, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0, gravity: float = GRAVITY):
+def mangeney(
+    x: ArrayLike, time: float, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0, gravity: float = GRAVITY
+) -> tuple[np.ndarray, ...]:
     """Return thickness and velocity of a dam break on a dry plane with Coulomb friction below its slope.
 
     Ritter's solution in a frame that falls with ``m = g cos(slope) (tan(slope) - friction)``: the reservoir as a
@@ -85,7 +88,9 @@ def mangeney(x, time: float, depth: float = 1.0, slope: float = 0.0, friction: f
     return cut_dry(wave**2 / normal, 2.0 * (celerity - wave) + pull * time)
 
 
-def mangeney_front(time, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0, gravity: float = GRAVITY):
+def mangeney_front(
+    time: ArrayLike, depth: float = 1.0, slope: float = 0.0, friction: float = 0.0, gravity: float = GRAVITY
+) -> np.ndarray:
     """Return the position of the front of `mangeney` [m].
 
     Parameters
@@ -99,11 +104,11 @@ def mangeney_front(time, depth: float = 1.0, slope: float = 0.0, friction: float
     -------
     ndarray, shape of `time`
     """
-    normal, pull = plane_gravity(slope, friction, gravity)
+    (normal, pull), time = plane_gravity(slope, friction, gravity), np.asarray(time, dtype=float)
     return 2.0 * np.sqrt(normal * depth) * time + 0.5 * pull * time**2
 
 
-def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float = GRAVITY):
+def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float = GRAVITY) -> tuple[float, float, float]:
     """Return depth and velocity between rarefaction and shock of `stoker`, and the speed of the shock.
 
     Parameters
@@ -130,7 +135,9 @@ def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float =
     return middle, velocity, middle * velocity / (middle - depth_ahead)
 
 
-def stoker(x, time: float, depth: float = 1.0, depth_ahead: float = 0.1, gravity: float = GRAVITY):
+def stoker(
+    x: ArrayLike, time: float, depth: float = 1.0, depth_ahead: float = 0.1, gravity: float = GRAVITY
+) -> tuple[np.ndarray, ...]:
     """Return depth and velocity of a dam break on a wet flat bed without friction.
 
     Parameters

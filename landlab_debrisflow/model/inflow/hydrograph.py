@@ -1,4 +1,4 @@
-"""What flows in across a line: discharge, velocity and pore pressure against time."""
+"""Inflow across a line: discharge, velocity and pore pressure against time."""
 
 import itertools
 
@@ -124,7 +124,7 @@ class Hydrograph:
 
     @property
     def largest_thickness(self) -> float:
-        """Largest slope-normal thickness of what enters, discharge / (velocity x width) [m].
+        """Largest slope-normal thickness of the entering flow, discharge / (velocity x width) [m].
 
         Between two times it is the quotient of two linear functions, so it is largest at one of them.
         """

@@ -114,7 +114,7 @@ class Source:
 
 
 class Inflow:
-    """All that enters a simulation.
+    """Inflow of a simulation: its sources and the rows of particles that enter.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ class Inflow:
             self.directions = np.array([source.direction(surface) for source in self.sources])
 
     def enter(self, p, surface, columns: ColumnPhysics, time: float) -> bool:
-        """Let in what crosses the line until `time` [s], moved on to where it is then, and set free what has passed.
+        """Add the rows that cross the line until `time` [s], moved on to their place then; free rows beyond the strip.
 
         Returns
         -------
@@ -227,7 +227,7 @@ class Inflow:
         p.next_smoothing_length[which] = _smoothing_length(p.volume[which], thickness, p.least_thickness[which])
 
     def prescribed(self, p):
-        """Return the places of particles that move as prescribed; they are awake."""
+        """Return the places of particles with prescribed motion, which are awake."""
         return np.flatnonzero(p.inflow_row[: p.awake] != FREE) if self.sources else NONE
 
     def _motion(self, rows, time):

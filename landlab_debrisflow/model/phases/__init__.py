@@ -1,1 +1,1 @@
-"""One phase or two: what the number of phases changes in a step."""
+"""One phase or two: stages of a step that depend on the number of phases."""

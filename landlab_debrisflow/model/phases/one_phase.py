@@ -1,4 +1,4 @@
-"""A flow of one phase, whose grains carry their pore water."""
+"""Flow of one phase, whose grains carry their pore water."""
 
 import numpy as np
 
@@ -63,7 +63,7 @@ class OnePhaseDynamics:
         """Leave the erosion rate as it is: every particle can take soil."""
 
     def share_entrained(self, p, exchange) -> None:
-        """Leave the soil where it is: all of it is the particle's own."""
+        """Leave the entrained soil where it is: the eroding particle takes all of it."""
 
     def column_forcing(self, p, forcing, prescribed, dt: float):
         """Return the forcing of the columns as it is: porosity changes by erosion only."""
@@ -73,5 +73,5 @@ class OnePhaseDynamics:
         """Leave the mean pore pressure unknown: the pressure of the flow does not depend on it."""
 
     def celerity_squared(self, p, dt: float):
-        """Return 0, shape (1,) [m2 s-2]: nothing but weight drives waves."""
+        """Return 0, shape (1,) [m2 s-2]: only weight drives waves."""
         return NOT_STIFF

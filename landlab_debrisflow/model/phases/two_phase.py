@@ -1,4 +1,4 @@
-"""What a flow of two phases does besides: grains and water drag each other, share the soil, and squeeze the pores.
+"""Flow of two phases: grains and water drag each other, share the entrained soil, and squeeze the pores.
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
 is dragged along. All is exchanged between grains and their partners among the water
@@ -78,7 +78,7 @@ class TwoPhaseDynamics:
         self.solid_fraction = 1.0 - material.soil_porosity
 
     def density(self, p):
-        """Return the density of what each particle is of, shape (n,) [kg m-3]."""
+        """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
         return np.where(p.phase == WATER, self.material.water_density, self.material.solid_density)
 
     def solid_volume(self, p):
@@ -90,7 +90,7 @@ class TwoPhaseDynamics:
         return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
 
     def after_summation(self, p, exchange, cells) -> None:
-        """Write thickness, porosity and drag from the sums; `cells` are those of grains and of water."""
+        """Write thickness, porosity and drag from the sums; `cells` are the cells of grains and of water."""
         material, law = self.material, self.law
         _find_mixture(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
         np.divide(p.own_thickness, p.share, out=p.thickness)
@@ -231,7 +231,7 @@ def _size(vectors):
 
 
 def _hold_back(velocity, light) -> None:
-    """Let light particles be no faster than the fastest of the others, in place.
+    """Limit the speed of light particles to that of the fastest particle that is not light, in place.
 
     Drag is exchanged with the mean of the partners, in which what weighs next to nothing does not count.
     """
@@ -242,7 +242,7 @@ def _hold_back(velocity, light) -> None:
 
 
 def _reached(x):
-    """Return (1 - exp(-x))/x: what of a gain is left after a time in which x times of it are lost."""
+    """Return (1 - exp(-x))/x [-]: the fraction of a constant gain that is left when it decays x times meanwhile."""
     x = np.maximum(x, 1e-12)
     return -np.expm1(-x) / x
 

@@ -1,4 +1,4 @@
-"""Where particles were released, and of what cells: what never moved goes back just where it came from."""
+"""Origins of released particles, by node: a particle that never moved settles exactly where it was released."""
 
 import numpy as np
 
@@ -53,7 +53,7 @@ class Origins:
         return first + np.arange(count)
 
     def unmoved(self, origin, x, y, spacing, core):
-        """Return which part of each particle goes back, shape (n,): all, if it never moved, none from a spacing on.
+        """Return the fraction of a particle that returns to its origin, shape (n,) [-]: 1 unmoved, 0 from a spacing on.
 
         Parameters
         ----------

@@ -29,7 +29,7 @@ are rounded, the nearest node is a failing one."""
 
 
 class Placed(NamedTuple):
-    """Particles of a release, and what of which cell each stands for."""
+    """Particles of a release, and the failing cells that each stands for."""
 
     x: np.ndarray  # (n,) from the lower left node [m]
     y: np.ndarray
@@ -98,7 +98,7 @@ def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
 
 
 def fill_cells(sites: Sites, counts) -> Samples:
-    """Fill every failing cell with samples, sloping with its neighbours; they are grouped by site.
+    """Fill every failing cell with samples, its depth sloping as its neighbours' do; samples are grouped by site.
 
     A cell has as many as an even site would, and at least one for each particle that it makes. The slope inside a cell
     is limited (monotonised central), so no depth is negative and the volume of every cell is kept.

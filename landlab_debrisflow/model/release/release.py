@@ -68,7 +68,7 @@ def release_particles(p, origins, nodes, depth, bed, status, phases, numerics) -
 
 
 def _particle_volume(whole, area: float, nodes, depth, numerics) -> float:
-    """Return the volume of a particle that is aimed at [m3]: that of what is there already, if that is more."""
+    """Return the target volume of a particle [m3], at least the volume of the particles already there."""
     wanted = depth.sum() * area / numerics.count_for(nodes.size * area)
     return max(wanted, float(np.median(whole))) if whole.size else wanted
 

@@ -11,7 +11,8 @@ class ALE(Consolidating):
     """dp/dt + (e_R/h)(1 - xi) dp/dxi = (c_v/h^2) d2p/dxi2 + S: a column that grows at its base.
 
     A grain keeps its depth below the surface while the column erodes. At the base the bed prescribes the
-    pressure of a column that erodes; it is impermeable to one that does not. S is what changes of the load add.
+    pressure of a column that erodes; the base of a column that does not erode is impermeable. S is the source
+    by changes of the load.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""Columns that spread what they erode over their whole depth: the model before the ALE one."""
+"""Columns without advection by erosion: entrained soil spreads over the whole depth, as before the ALE model."""
 
 from typing import ClassVar
 
@@ -10,7 +10,7 @@ from .consolidating import Consolidating
 class Classical(Consolidating):
     """dp/dt = (c_v/h^2) d2p/dxi2 + S: a column without the advection by erosion, kept for comparison.
 
-    Base and sources are those of `ALE`; a grain keeps its fraction of the depth while the column grows.
+    Base and sources are as in `ALE`; a grain keeps its fraction of the depth while the column grows.
 
     References
     ----------

@@ -11,7 +11,7 @@ from .schemes.registry import MEMORY_SIZE, advance, check_scheme, synchronise
 
 @declared
 class Consolidating:
-    """Columns whose excess pore pressure diffuses, and is loaded by changes of thickness and porosity."""
+    """Columns whose excess pore pressure diffuses and is loaded by changes of thickness and porosity."""
 
     levels: int = parameter("-", "levels of a column, base and surface included", 11, (3, 1001), kind=int)
     loading_source: str = parameter(

@@ -1,4 +1,4 @@
-"""Columns whose basal pressure follows the load."""
+"""Columns whose basal pressure is a constant fraction of the load."""
 
 from typing import ClassVar
 

@@ -16,7 +16,7 @@ def initial_profile(liquefaction_pressure, levels: int, ratio, profile: str, bas
         Basal excess pore pressure over its liquefaction value [-].
     profile : {"linear", "uniform", "basal_layer"}
         Falling linearly to the surface; the same everywhere; or the same within a layer at the base
-        and 0 above. Nowhere more than what liquefies the grains there.
+        and 0 above. At no level more than the liquefaction pressure there.
     basal_layer_fraction : float
         Thickness of that layer over that of the column [-].
 

@@ -11,8 +11,8 @@ class ShearExcess:
     """e_R = rate, while the eroded depth is below (dz/dtau) (tau - tau_c): down to a depth that shear stress sets.
 
     tau = rho g h_n sin(theta) drives the flow; it is not the resistance of a friction law, with which it agrees where
-    the flow neither gains nor loses speed. What has been eroded is that of the event, at the node nearest to a
-    particle. An event is over when no particle is left and none will flow in. At rest nothing erodes.
+    the flow neither gains nor loses speed. The eroded depth counts from the beginning of the event, at the node nearest
+    to a particle. An event is over when no particle is left and none will flow in. At rest nothing erodes.
 
     References
     ----------

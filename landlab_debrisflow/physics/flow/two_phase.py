@@ -61,7 +61,7 @@ class TwoPhase:
         return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
-        """Write the sums of each phase and what the mixture is; return the cells of grains and those of water."""
+        """Write the sums and the mixture of each phase; return the cells of grains and the cells of water."""
         mixture, material = state.mixture, state.mixture.material
         water = mixture.phase == WATER
         of_phases = cells_of_phase(cells, ~water), cells_of_phase(cells, water)
@@ -103,7 +103,7 @@ class TwoPhase:
 
     @staticmethod
     def _pressure_coefficients(state: FlowState, water, normal_gravity, thickness):
-        """Return thrust over own thickness squared and Omega, and that over total thickness squared [N m-3].
+        """Return thrust over own thickness squared and Omega, and thrust over total thickness squared [N m-3].
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
         """

@@ -29,7 +29,7 @@ class Bingham:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa], and what of tau_b exceeds it over speed [Pa s m-1]."""
+        """Write the yield stress [Pa], and the excess of tau_b over it divided by speed [Pa s m-1]."""
         here = state.parameters
         strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
         velocity, rate = shearing(state)
@@ -41,7 +41,7 @@ class Bingham:
 
 @kernel
 def stress_beyond_yield(yield_stress, twice_newtonian, out):
-    """Write w = tau_b - tau_y [Pa], from f = 6 mu v/h > 0, twice what a fluid without yield stress would have [Pa].
+    """Write w = tau_b - tau_y [Pa], from f = 6 mu v/h > 0, twice the stress of a fluid without yield stress [Pa].
 
     The cubic in w, w^2 (3 tau_y + 2 w) = f (tau_y + w)^2, has one root > 0 and no cancellation near it: w is
     (f tau_y/3)^(1/2) for small f and (f + tau_y)/2 for large. The start is within 12 % of it for every f;

@@ -8,10 +8,10 @@ from ..contracts import BasalState
 from .shear import shearing, strength
 
 STEPS = 2
-"""Of Halley's method; they leave 2e-5 and only rounding, for every index from 0.1 to 2."""
+"""Number of steps of Halley's method: the first leaves an error of 2e-5, the second only rounding."""
 
 NO_STRESS = 1e-37
-"""What has a logarithm in single precision and changes nothing [Pa]."""
+"""Stress that has a logarithm in single precision but is negligible [Pa]."""
 
 
 @declared
@@ -39,7 +39,7 @@ class HerschelBulkley:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa], and what of tau_b exceeds it over speed [Pa s m-1]."""
+        """Write the yield stress [Pa], and the excess of tau_b over it divided by speed [Pa s m-1]."""
         here = state.parameters
         strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
         velocity, rate = shearing(state)

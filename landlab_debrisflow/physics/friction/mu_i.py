@@ -17,7 +17,7 @@ class MuI:
 
     At the base of a flow with Bagnold's profile, u(z) - v_b ~ h^(3/2) - (h - z)^(3/2), whose mean shears it,
     I = (5/2) (v - v_b) d/(h_n (sigma'/rho_s)^(1/2)). Pore pressure enters through sigma', in the friction and in I:
-    what is nearly liquefied is inertial. The angles and I_0 are those of glass beads.
+    a nearly liquefied flow is inertial. Angles and I_0 are by default the values of glass beads.
 
     References
     ----------
@@ -48,7 +48,7 @@ class MuI:
             )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write static friction [Pa], and what the inertial number adds over speed [Pa s m-1]."""
+        """Write static friction [Pa], and the friction added by the inertial number over speed [Pa s m-1]."""
         here, stress = state.parameters, state.stress.effective_normal
         static = np.tan(here.static_friction_angle)
         np.multiply(static, stress, out=yield_stress)

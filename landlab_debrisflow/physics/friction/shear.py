@@ -1,4 +1,4 @@
-"""What laws share: cohesion and friction, the velocity that shears a flow, and where formulas that divide by it end.
+"""Terms shared by friction laws: cohesion and friction, velocity of shear, lower bounds of divisors.
 
 A basal slip ratio s leaves (1 - s) v of the mean velocity to the shear: v_b = s v slides, as a block does.
 """
@@ -8,11 +8,12 @@ import numpy as np
 from ..contracts import BasalState
 
 SLOWEST = 1e-9
-"""Three centimetres a year [m s-1]: below, drag is that at this speed. The drag per speed of what has a yield stress,
-or thins under shear, goes to infinity at rest; held there, a body that starts finds its speed in a few kicks."""
+"""Three centimetres a year [m s-1]: at lower speeds the drag is that at this speed. The drag per speed of a fluid with
+a yield stress, or one that thins under shear, goes to infinity at rest; with this bound a body that starts finds its
+speed in a few kicks."""
 
 THINNEST = 1e-6
-"""A grain of clay [m]: what is thinner shears like this. No rate of shear is divided by nothing."""
+"""A grain of clay [m]: least thickness in a rate of shear, so that none divides by 0."""
 
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:
@@ -22,6 +23,6 @@ def strength(cohesion, friction_angle, state: BasalState, out) -> None:
 
 
 def shearing(state: BasalState):
-    """Return the velocity (1 - s) v of the mean [m s-1], and that over thickness [s-1], each (n,) and > 0."""
+    """Return the velocity of shear (1 - s) v [m s-1] and its ratio to thickness [s-1], each (n,) and > 0."""
     velocity = np.maximum((1.0 - state.material.basal_slip_ratio) * state.speed, SLOWEST)
     return velocity, velocity / np.maximum(state.thickness, THINNEST)

@@ -18,7 +18,7 @@ def check_scheme(law) -> None:
     Raises
     ------
     ParameterError
-        If the paper's scheme is to take only what flows in from the bed.
+        If the paper's scheme is combined with ``bed_contact="flux"``.
     """
     if law.scheme == "lax_wendroff" and law.bed_contact == "flux":
         raise ParameterError(

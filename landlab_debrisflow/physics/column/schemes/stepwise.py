@@ -32,7 +32,7 @@ def is_prescribed(contact):
 
 @inner
 def begin_step(columns, forcing, dt, scheme):
-    """Load all columns and return what else the step does to them, shape (n, 3) [-]."""
+    """Load all columns and return contact, growth and diffusion of the step, shape (n, 3) [-]."""
     # taken out of their tuples once: numba counts references at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, beds, bases = forcing.entrained, forcing.bed_pressure, forcing.base
@@ -85,7 +85,7 @@ def _loading(volume, before, load, old_load, scheme):
 
 @inner
 def _load(profile, i, eta, load_gain, scale, source_gain, prescribed):
-    """Load one column, and add what a change of porosity makes, but for a prescribed base [Pa]."""
+    """Load one column, and add the pressure by a change of porosity except at a prescribed base [Pa]."""
     profile[i, 0] = scale * profile[i, 0] + load_gain + (0.0 if prescribed else source_gain)
     for k in range(1, eta.size - 1):
         profile[i, k] = scale * profile[i, k] + load_gain * eta[k] + source_gain
@@ -94,7 +94,7 @@ def _load(profile, i, eta, load_gain, scale, source_gain, prescribed):
 
 @inner
 def end_step(columns, forcing, basal_pressure):
-    """Clip all columns to suction and liquefaction, count what that takes off [Pa m], and write the base [Pa]."""
+    """Clip all columns to suction and liquefaction, count the pressure removed [Pa m], and write the base [Pa]."""
     profile, clipped, lower = columns.profile, columns.clipped, forcing.water_to_buoyant
     loads, thicknesses, bounded = forcing.liquefaction_pressure, forcing.thickness, forcing.bounded
     cells, eta = profile.shape[1] - 1, eta_of(profile.shape[1])

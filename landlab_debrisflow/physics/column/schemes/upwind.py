@@ -4,8 +4,8 @@ Finite volumes around the levels, in time backward Euler, in space Patankar's hy
 central up to a cell Péclet number of 2, beyond it upwind and without diffusion. The matrix has no positive value
 off its diagonal and rows that sum to one, so that no new extreme appears. One solve per step.
 
-The step grows the column by ``e = V1/V0 - 1``. With that, rather than the logarithm, what enters through the base
-and leaves through the surface is what the content changes by, to rounding.
+The step grows the column by ``e = V1/V0 - 1``. With e, not log(V1/V0), the content changes by the flux through the
+base less the flux through the surface, to rounding.
 """
 
 import numpy as np
@@ -51,9 +51,9 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
 def _solve(profile, i, advection, diffusion, prescribed, inflow, bed, work):
     """Solve for one column at the end of the step, by the algorithm of Thomas from the base to the surface.
 
-    ``advection`` is the Courant number of the face that lies one cell below the surface, to which those of the
-    others are in proportion, ``diffusion`` the cell Fourier number. Through the base comes ``inflow`` times what
-    the bed has more than the base: ``c_v p_x = -e_R (p_b - p)``.
+    ``advection`` is the Courant number of the face one cell below the surface; at other faces it grows in proportion to
+    their depth. ``diffusion`` is the cell Fourier number. The flux through the base is ``inflow`` times the excess of
+    the pressure of the bed over that of the base: ``c_v p_x = -e_R (p_b - p)``.
     """
     cells = profile.shape[1] - 1
     up, down = _face(advection * (cells - 0.5), diffusion)

@@ -1,1 +1,1 @@
-"""The default scheme: columns are advanced when somebody needs them."""
+"""The default scheme: columns are advanced when their pressure is needed, not at every step."""

@@ -6,11 +6,13 @@ Most columns are left alone in most steps. This is the loop that all of them pas
 import math
 
 from .....core.jit import inner, kernel
-from ..choices import UNLOADED
+from ..choices import OVERBURDEN, PROPORTIONAL, UNLOADED
 from ..contact import IMPERMEABLE, INFLOW, contact_of
 from .boundary_layer import is_resolved
-from .impermeable_base import DIFFUSION_CAP, accumulate_in_modes
+from .impermeable_base import bounds_with_gains
 
+DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
+LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
 STRIDE = 1.5  # growth of a column in one update over the square root of the tolerance (benchmarks/column.py)
 MODES_FRACTION = 0.25  # of the tolerance: error of a column in modes between two updates
 BED_FRACTION = 0.25  # of that growth: pressure of the bed or by a source since the update, over the load
@@ -33,9 +35,53 @@ def diffusion_of(coefficient_times_dt, thickness, volume, before):
     return DIFFUSION_CAP if diffused > 0.0 else 0.0
 
 
+@inner
+def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
+    """Add one step to the account of a column in modes and estimate the pressure at its base.
+
+    Parameters
+    ----------
+    column : record of `state.LAYOUT`
+        Written.
+    diffusion : float
+        c_v t / h^2 of the step [-].
+    load, old_load : float
+        Liquefaction pressure after and before the step [Pa].
+    source : float
+        Gain of every grain by a change of porosity [Pa].
+    loading : int
+        A value of `choices.LOADING`.
+
+    Returns
+    -------
+    pressure, error : float
+        At the base, and the bound of its error [Pa].
+    low_slope, high_slope : float
+        Bounds of the column over eta [Pa].
+    lost : float
+        Fraction of an even load since the update that has gone from the base [-].
+    """
+    diffusion = min(column.diffusion + diffusion, DIFFUSION_CAP)
+    load_gain, scale, source_gain = column.load_gain, column.load_scale, column.source_gain + source
+    variation = column.load_variation + abs(source_gain - column.source_gain)
+    if loading == OVERBURDEN:
+        load_gain += load - old_load
+        variation += abs(load - old_load)
+    elif loading == PROPORTIONAL and old_load > 0.0:
+        scale *= load / old_load
+    column.diffusion, column.load_gain, column.load_scale = diffusion, load_gain, scale
+    column.source_gain, column.load_variation = source_gain, variation
+    lost = LOSS * math.sqrt(diffusion)
+    pressure = scale * (column.base_pressure + diffusion * (column.base_rate + diffusion * column.base_curvature))
+    pressure += load_gain * max(1.0 - lost, 0.0) + source_gain
+    error = column.remainder * scale * diffusion * diffusion * diffusion + lost * variation
+    low, high, low_slope, high_slope = bounds_with_gains(column)
+    return min(max(pressure, low, low_slope), high, high_slope), error, low_slope, high_slope, lost
+
+
 @kernel
 def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess_allowed):
-    """Add one step of the flow to the account of columns, write their basal pressure and list those that are due.
+    """Add one step of the flow to the account of columns, write their basal pressure and list the columns that are due.
 
     Parameters
     ----------
@@ -120,7 +166,7 @@ def _is_due_at_levels(column, volume, load, pressure, stride):
 
 @kernel
 def set_contact(columns, selected, forcing, scheme, closing):
-    """Put columns at levels on the base of this step, but for those over an impermeable one.
+    """Set the base contact of columns at levels for this step; list the columns that get an impermeable base.
 
     Parameters
     ----------

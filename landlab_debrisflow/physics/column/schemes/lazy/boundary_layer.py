@@ -1,4 +1,4 @@
-"""The boundary layer over a base whose pressure is suddenly another one, while soil comes in or not.
+"""Boundary layer over a base whose pressure has just changed, with or without inflow of soil.
 
 In the frame of the moving base, soil passes at the rate of erosion: advection and diffusion from a
 boundary held at 1, the solution of Ogata & Banks (1961, USGS Professional Paper 411-A). Depths are over
@@ -41,7 +41,7 @@ def boundary_layer(distance, growth, diffusion):
 
 @inner
 def layer_content(growth, diffusion):
-    """Return the integral of the layer over distance: what came in with the soil and what diffused in [-]."""
+    """Return the integral of the layer over distance [-]: the part carried in by soil and the part diffused in."""
     if growth <= 0.0:
         return 2.0 * math.sqrt(diffusion) / ROOT_PI
     if diffusion <= 0.0:
@@ -63,7 +63,7 @@ def is_resolved(cells, growth, diffusion):
 def basal_filling(cells, growth, diffusion):
     """Return the fraction of the half cell of the base level that the layer fills [-].
 
-    That is its integral less the part that the levels above have of it.
+    The filling is the integral of the layer less the part already seen by the levels above.
     """
     if diffusion <= 0.0:
         return min(2.0 * cells * growth, 1.0)

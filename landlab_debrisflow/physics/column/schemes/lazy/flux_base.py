@@ -1,4 +1,4 @@
-"""Columns that grow at a base whose pressure is not prescribed: soil that comes in brings its own and no more.
+"""Columns that grow at a base without prescribed pressure: entrained soil brings only its own pressure.
 
 Nothing diffuses in from the bed, so that the content of the column is kept to the last digit.
 """
@@ -85,7 +85,7 @@ def _effective(profile, i, load):
 
 @inner
 def _restore(profile, i, load, content, low, high):
-    """Give one column what its content lacks: nothing diffuses in from the bed, so that it must not drift.
+    """Add the missing content to one column, because nothing diffuses in from the bed and rounding must not add up.
 
     The base level takes it between ``low`` and ``high`` [Pa], and the rest goes to the levels above, none of which goes
     beyond the one below it, over eta.

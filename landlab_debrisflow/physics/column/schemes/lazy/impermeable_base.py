@@ -10,14 +10,10 @@ import math
 import numpy as np
 
 from .....core.jit import inner, kernel
-from ..choices import OVERBURDEN, PROPORTIONAL
 from ..contact import BY_EROSION, IMPERMEABLE
 from .boundary_layer import boundary_layer, layer_content, mode_of_layer
 from .modes import BRIEF, NEUMANN, bounds_of
 from .state import BANDS
-
-DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
-LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
 
 
 @inner
@@ -203,7 +199,7 @@ def _expand_base(profile, column, i, modes):
 
 @kernel
 def clip_modes(columns, selected, forcing, modes):
-    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count what that takes off.
+    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count the pressure removed.
 
     Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
@@ -255,47 +251,3 @@ def bounds_with_gains(column):
         min(column.lowest_slope * scale + load_gain + min(source_gain, 0.0), 0.0),
         max(column.highest_slope * scale + load_gain + max(source_gain, 0.0), 0.0),
     )  # fmt: skip
-
-
-@inner
-def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
-    """Add one step to the account of a column in modes and estimate the pressure at its base.
-
-    Parameters
-    ----------
-    column : record of `state.LAYOUT`
-        Written.
-    diffusion : float
-        c_v t / h^2 of the step [-].
-    load, old_load : float
-        Liquefaction pressure after and before the step [Pa].
-    source : float
-        Gain of every grain by a change of porosity [Pa].
-    loading : int
-        A value of `choices.LOADING`.
-
-    Returns
-    -------
-    pressure, error : float
-        At the base, and the bound of its error [Pa].
-    low_slope, high_slope : float
-        Bounds of the column over eta [Pa].
-    lost : float
-        Fraction of an even load since the update that has gone from the base [-].
-    """
-    diffusion = min(column.diffusion + diffusion, DIFFUSION_CAP)
-    load_gain, scale, source_gain = column.load_gain, column.load_scale, column.source_gain + source
-    variation = column.load_variation + abs(source_gain - column.source_gain)
-    if loading == OVERBURDEN:
-        load_gain += load - old_load
-        variation += abs(load - old_load)
-    elif loading == PROPORTIONAL and old_load > 0.0:
-        scale *= load / old_load
-    column.diffusion, column.load_gain, column.load_scale = diffusion, load_gain, scale
-    column.source_gain, column.load_variation = source_gain, variation
-    lost = LOSS * math.sqrt(diffusion)
-    pressure = scale * (column.base_pressure + diffusion * (column.base_rate + diffusion * column.base_curvature))
-    pressure += load_gain * max(1.0 - lost, 0.0) + source_gain
-    error = column.remainder * scale * diffusion * diffusion * diffusion + lost * variation
-    low, high, low_slope, high_slope = bounds_with_gains(column)
-    return min(max(pressure, low, low_slope), high, high_slope), error, low_slope, high_slope, lost

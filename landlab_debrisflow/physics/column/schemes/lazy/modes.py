@@ -2,7 +2,7 @@
 
 Over an impermeable base the modes are ``sin(w eta)`` with ``w = (j + 1/2) pi``, over a prescribed one
 ``w = (j + 1) pi``; ``eta = y/h``. Levels see the modes that fit between them and mistake all shorter
-ones for those. For a smooth profile nothing is lost by that. But loading, a base pressure that changes
+modes for longer ones. A smooth profile has no short modes. But loading, a base pressure that changes
 and a base that has just closed or opened each bring in the profile ``eta``, whose modes fall off slowly.
 That part gets its own coefficients, and the shorter modes in it a tail of its own.
 """
@@ -130,7 +130,7 @@ def bounds_of(profile, i, low, high, eta):
 def diffuse_profile(profile, i, condition, diffusion, base, new_base, kink, load_gain, source_gain, modes, work):
     """Diffuse one column, kept at levels, while it is loaded.
 
-    No pressure is left outside of what the column started from, neither the pressure nor the pressure over eta.
+    Neither the pressure nor the pressure over eta leaves the range of its values at the start.
 
     Parameters
     ----------

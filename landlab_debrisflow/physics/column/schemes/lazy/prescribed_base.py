@@ -1,4 +1,4 @@
-"""Columns whose base the bed prescribes: kept as pressures at levels, updated once for some steps.
+"""Columns over a prescribed base: kept as pressures at levels, updated once for several steps.
 
 A column diffuses, is stretched (`remap`), and diffuses again. How much of the diffusion comes last follows
 from how much of the stretching is left by the end, half where little diffuses; it is joined to the first
@@ -25,7 +25,7 @@ LAYER_END = 0.05  # c_v t / h^2 up to which the layer over a base that has just 
 
 @inner
 def load_strain(load, old_load, volume, start):
-    """Return the load over the old one but for erosion [-]; a column that has none left is emptied by its bounds."""
+    """Return the ratio of new to old load without erosion [-]; 1 without load, where the bounds empty the column."""
     return load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
 
 
@@ -157,7 +157,7 @@ def split_diffusion(column, stretch, condition):
 def commit(columns, selected, forcing, basal_pressure):
     """Record the present as the last update of columns at levels, and clip them to suction and liquefaction.
 
-    What that takes off is counted. The basal pressure is written where the bed does not prescribe it [Pa].
+    Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
     profile, state, clipped, lower = columns.profile, columns.state, columns.clipped, forcing.water_to_buoyant
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
@@ -199,7 +199,7 @@ def _fill_base_level(profile, column, i, change, growth, diffusion):
 def diffusion_after(diffusion, condition):
     """Return the part of the diffusion of an update that is to come after its remap [-].
 
-    The slowest mode then keeps as much of what is stretched as if the two went on together.
+    With this part the slowest mode decays as much as if diffusion and remap went on together.
     """
     rate = math.pi * math.pi * (1.0 if condition == DIRICHLET else 0.25)
     x = rate * diffusion

@@ -2,9 +2,9 @@
 
 With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before
 over the volume after: exactly, over any interval (docs/theory.md#column; eq. 35 of Pastor et al., 2022,
-integrated). What is interpolated is the effective stress where grains bear their overburden, so that a
+integrated). Effective stress is interpolated where grains bear their overburden, so that a
 liquefied grain stays so. No new extreme appears. Interpolation does not keep the content of the column
-to the last digit; to put back what it lost makes an error of the first order in the width of a level.
+to the last digit; restoring the lost content would make an error of first order in the level spacing.
 """
 
 from .....core.jit import inner

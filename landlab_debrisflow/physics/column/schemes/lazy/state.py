@@ -35,8 +35,8 @@ layer_jump            Pa     jump at the base of a boundary layer that levels do
 layer_content         -      integral of that layer over jump and thickness
 
 in modes, by bands of modes too short for the levels (`modes.Modes.bands`)
-unresolved_bands      Pa     what loading and the slope at the base put into them, as seen at the base
-layer_bands           Pa     the same of a boundary layer that was there when the base became impermeable
+unresolved_bands      Pa     input by loading and by the slope at the base, as seen at the base
+layer_bands           Pa     input by a boundary layer present when the base became impermeable, as seen at the base
 ====================  =====  ==================================================================================
 """
 
@@ -57,9 +57,8 @@ AT_LEVELS = (
 )  # fmt: skip
 IN_BANDS = ("unresolved_bands", "layer_bands")
 
-LAYOUT = np.dtype(
-    [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
-)
+MEMBERS = [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
+LAYOUT = np.dtype((np.record, MEMBERS))  # records, so that members are attributes in plain Python, too
 SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
 """Number of floats of a column in `ColumnState.memory`."""
 

@@ -1,7 +1,7 @@
 """Refusals of elevations that no ground has: voids of a DEM filled with a number, and other units.
 
-Refused is only what cannot be meant, whatever the datum: slopes of any length, pits and cliffs of some hundred metres
-are ground. Everything here is a matter of differences between neighbours, so a DEM may lie at any height.
+Slopes of any length, pits and cliffs of some hundred metres are ground and pass. Only differences between neighbours
+count, so a DEM may lie at any height, whatever the datum.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ from scipy.ndimage import label
 
 from ..core.errors import InputError
 from .checks import CLOSED, check_finite, where
-from .fills import close_them, is_fill, written
+from .fill_values import closing_call, code_of, is_fill
 
 Z = "topographic__elevation"
 
@@ -17,17 +17,17 @@ HIGHEST_CLIFF = 1500.0
 """Nothing that falls more steeply than `STEEPEST` is higher on Earth: Mount Thor has 1250 m [m]."""
 
 STEEPEST = 10.0
-"""Slope between two nodes that rasters of ground do not have over such heights [-]."""
+"""Least slope between two nodes at which a height is taken for a fault of the DEM [-]."""
 
 SUSPECT = (0.0, -1.0, -99.0, -999.0)
 """Elevations that exist, but are also used to fill voids."""
 
 HOLE, SHAFT = 50.0, 300.0
-"""Least height of the walls all round a void filled with one of those, and with any other number [m]."""
+"""Least height of the walls all round a void filled with a number of `SUSPECT`, and with any other [m]."""
 
 
 MOST_VALUES = 20
-"""Of elevations below high walls that are looked at: a filled void has one."""
+"""Most elevations below high walls that are examined: a filled void has one."""
 
 
 def check_elevation(grid, elevation) -> None:
@@ -36,7 +36,7 @@ def check_elevation(grid, elevation) -> None:
     Raises
     ------
     InputError
-        With the value, how many nodes have it, the first of them, and what to do.
+        With the value, the number of nodes that have it, the first node, and a remedy.
     """
     used = grid.status_at_node != CLOSED
     check_finite(
@@ -55,7 +55,7 @@ def check_elevation(grid, elevation) -> None:
             if low <= value <= high:
                 _check_holes(grid, elevation, used, value, HOLE)
     if high - low > SHAFT:
-        pairs = _steps(grid, elevation, used, SHAFT)[0]
+        pairs = _steep_pairs(grid, elevation, used, SHAFT)[0]
         for value in np.unique(elevation[pairs].min(axis=0))[:MOST_VALUES]:
             _check_holes(grid, elevation, used, value, SHAFT)
 
@@ -66,8 +66,8 @@ def _check_fills(grid, elevation, used):
         value = elevation[nodes[0]]
         nodes = nodes[elevation[nodes] == value]
         raise InputError(
-            f"{Z} is NODATA ({written(value)}) at {nodes.size} nodes that are not closed, the first "
-            f"is {where(grid, nodes[0])}; close them: {close_them(Z, value)}"
+            f"{Z} is NODATA ({code_of(value)}) at {nodes.size} nodes that are not closed, the first "
+            f"is {where(grid, nodes[0])}; close them: {closing_call(Z, value)}"
         )
 
 
@@ -80,18 +80,18 @@ def _neighbours(grid):
     yield np.s_[:-1], np.s_[1:], grid.number_of_node_columns, float(grid.dy)
 
 
-def _numbers(grid, pairs):
+def _first_nodes(grid, pairs):
     """Return the numbers of the first nodes of pairs, of which `pairs` says which are meant."""
     row, column = np.nonzero(pairs)
     return row * grid.number_of_node_columns + column
 
 
-def _steps(grid, elevation, used, least):
+def _steep_pairs(grid, elevation, used, least):
     """Return pairs of neighbours that are steep and differ by more than `least` [m], shape (2, n), and the most."""
     raster, pairs, most = np.where(used, elevation, np.nan).reshape(grid.shape), [], 0.0
     for one, other, step, spacing in _neighbours(grid):
         height = np.abs(raster[one] - raster[other])
-        first = _numbers(grid, height > max(least, STEEPEST * spacing))
+        first = _first_nodes(grid, height > max(least, STEEPEST * spacing))
         pairs.append(np.array([first, first + step]))
         most = max(most, float(np.nanmax(height, initial=0.0)))
     return np.concatenate(pairs, axis=1), most
@@ -99,7 +99,7 @@ def _steps(grid, elevation, used, least):
 
 def _check_cliffs(grid, elevation, used):
     """Refuse steps between neighbours that no cliff has, naming the side that is farther from the rest."""
-    pairs, fall = _steps(grid, elevation, used, HIGHEST_CLIFF)
+    pairs, fall = _steep_pairs(grid, elevation, used, HIGHEST_CLIFF)
     if pairs.size == 0:
         return
     z, middle = np.where(used, elevation, np.nan), np.median(elevation[used])
@@ -108,12 +108,12 @@ def _check_cliffs(grid, elevation, used):
     values, count = np.unique(z[suspects], return_counts=True)
     value = values[count.argmax()]
     nodes = np.flatnonzero(z == value)
-    close = close_them(Z, value)
+    close = closing_call(Z, value)
     if nodes.size == 1 < values.size:  # no one number: the rim of a void that was smoothed into its surroundings
         sign, limit = ("<", values.max()) if value < middle else (">", values.min())
-        close = f"grid.status_at_node[grid.at_node['{Z}'] {sign}= {written(limit)}] = grid.BC_NODE_IS_CLOSED"
+        close = f"grid.status_at_node[grid.at_node['{Z}'] {sign}= {code_of(limit)}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(
-        f"{Z} is {written(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, and differs from its "
+        f"{Z} is {code_of(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, and differs from its "
         f"neighbours by up to {fall:.4g} m, which no ground does; if there are no data close them: {close}; else mend "
         "the DEM (elevations and coordinates are in m)"
     )
@@ -124,7 +124,7 @@ def _check_holes(grid, elevation, used, value, deep):
     filled, raster = (used & (elevation == value)).reshape(grid.shape), elevation.reshape(grid.shape)
     usable, rim, sheer = used.reshape(grid.shape), [], []
     for one, other, step, spacing in _neighbours(grid):
-        first = _numbers(grid, (filled[one] != filled[other]) & usable[one] & usable[other])
+        first = _first_nodes(grid, (filled[one] != filled[other]) & usable[one] & usable[other])
         inside = np.where(filled.flat[first], first, first + step)
         rim.append(inside)
         outside = 2 * first + step - inside
@@ -142,11 +142,11 @@ def _check_holes(grid, elevation, used, value, deep):
     nodes = np.flatnonzero(hole[patches])
     if nodes.size == 0:
         return
-    close = close_them(Z, value)
+    close = closing_call(Z, value)
     if nodes.size < np.count_nonzero(filled):  # elsewhere it is ground
         close = f"grid.status_at_node[{nodes.tolist()}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(
-        f"{Z} is exactly {written(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, with upright "
+        f"{Z} is exactly {code_of(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, with upright "
         f"walls of {deep:g} m and more all round: a void that is filled with a number? Close them: {close}; or, if it "
         "is ground, give it another elevation"
     )

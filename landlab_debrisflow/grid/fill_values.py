@@ -2,7 +2,7 @@
 
 import numpy as np
 
-FILLS = (
+FILL_VALUES = (
     -9999.0, -32768.0, -32767.0, 32767.0, 65535.0, -99999.0, 99999.0, -999999.0, 999999.0,
     -2147483648.0, -2147483647.0, 2147483647.0, 4294967295.0,
 )  # fmt: skip
@@ -17,29 +17,29 @@ HUGE = 1e15
 
 def is_fill(values):
     """Return which values mark missing data, as an array of bool."""
-    return np.isin(values, FILLS) | (np.abs(values) >= HUGE)
+    return np.isin(values, FILL_VALUES) | (np.abs(values) >= HUGE)
 
 
-def written(value) -> str:
+def code_of(value) -> str:
     """Return a number as it is written in code, without loss.
 
     Examples
     --------
-    >>> written(-32768.0), written(np.float32(1e20)), written(0.25)
+    >>> code_of(-32768.0), code_of(np.float32(1e20)), code_of(0.25)
     ('-32768', '1.0000000200408773e+20', '0.25')
     """
     value = float(value)
     return repr(int(value)) if value.is_integer() and abs(value) < HUGE else repr(value)
 
 
-def close_them(name: str, value) -> str:
+def closing_call(name: str, value) -> str:
     """Return the call that closes all nodes at which a field has some value."""
-    return f"grid.set_nodata_nodes_to_closed(grid.at_node['{name}'], {written(value)})"
+    return f"grid.set_nodata_nodes_to_closed(grid.at_node['{name}'], {code_of(value)})"
 
 
-def replace_them(name: str, values, value) -> str:
+def replacement_remedy(name: str, values, value) -> str:
     """Return a remedy for a fill value in a field, as the end of a refusal; an empty text for any other value."""
     if not is_fill(value):
         return ""
     field, count = f"grid.at_node['{name}']", np.count_nonzero(values == value)
-    return f"; {written(value)} marks missing data, at {count} nodes: {field}[{field} == {written(value)}] = 0"
+    return f"; {code_of(value)} marks missing data, at {count} nodes: {field}[{field} == {code_of(value)}] = 0"

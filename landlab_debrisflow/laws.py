@@ -1,0 +1,62 @@
+"""Laws by class, and the names that the author of a new law needs (CONTRIBUTING.md).
+
+Examples
+--------
+>>> from landlab_debrisflow.laws import Voellmy
+>>> Voellmy(turbulent_coefficient=500.0).turbulent_coefficient
+500.0
+"""
+
+from .core.jit import inner, kernel
+from .core.parameters import declared, on_nodes, parameter
+from .core.variables import Variable
+from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
+from .physics.contracts import (
+    BasalState,
+    BaseContact,
+    ColumnForcing,
+    ColumnLaw,
+    ColumnState,
+    ErosionLaw,
+    FlowLaw,
+    FlowState,
+    FrictionLaw,
+)
+from .physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
+from .physics.flow import OnePhase, TwoPhase
+from .physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
+from .physics.registry import LAWS
+
+__all__ = [
+    "ALE",
+    "LAWS",
+    "BasalState",
+    "BaseContact",
+    "Bingham",
+    "Classical",
+    "ColumnForcing",
+    "ColumnLaw",
+    "ColumnState",
+    "ConstantRatio",
+    "Coulomb",
+    "ErosionLaw",
+    "FlowLaw",
+    "FlowState",
+    "FrictionLaw",
+    "Growth",
+    "HerschelBulkley",
+    "LiquefiedBed",
+    "MuI",
+    "NoErosion",
+    "NoExcessPressure",
+    "OnePhase",
+    "ShearExcess",
+    "TwoPhase",
+    "Variable",
+    "Voellmy",
+    "declared",
+    "inner",
+    "kernel",
+    "on_nodes",
+    "parameter",
+]
