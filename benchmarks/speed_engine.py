@@ -20,7 +20,8 @@ from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
 from landlab_debrisflow.scene import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.summation import Moving, Sums, _pack, copy_neighbourhood, sum_over_neighbours
+from landlab_debrisflow.spatial.packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
+from landlab_debrisflow.spatial.summation import SummationInput, Sums, _pack, sum_over_neighbours
 from landlab_debrisflow.terrain import bed
 from validation.cases.planes import similarity_body
 
@@ -97,11 +98,18 @@ def sums(flow, repeats) -> SumRate:
     """Time density and force of a flow as it is now: every particle, with the lengths it has."""
     sim = flow._simulation
     p, normal = sim.particles, 9.81 * sim.particles.cos_slope
-    moving = Moving(
-        p.x, p.y, p.z, p.velocity, p.volume, p.smoothing_length, np.full(p.count, np.inf),
-        0.5 * normal / p.gradient_term, np.sqrt(normal * p.thickness), p.thickness, p.thickening,
-        np.ones(p.count),
-    )  # fmt: skip
+    given = SummationInput(
+        position=Position(p.x, p.y, p.z),
+        velocity=p.velocity,
+        volume=p.volume,
+        smoothing_length=p.smoothing_length,
+        longest=np.full(p.count, np.inf),
+        pressure_coefficient=0.5 * normal / p.gradient_term,
+        celerity=np.sqrt(normal * p.thickness),
+        thickness=p.thickness,
+        convergence=p.thickening,
+        inertia=np.ones(p.count),
+    )
     found = Sums(*(np.empty(s) for s in (p.count, p.count, p.count, (3, p.count), p.count)))
     cpus, sorting, walls = [], [], {1: [], 2: []}
     for _ in range(repeats):
@@ -109,41 +117,40 @@ def sums(flow, repeats) -> SumRate:
             wall, cpu = time.perf_counter(), time.process_time()
             cells = sort_into_cells(p.x, p.y, 2.0 * p.smoothing_length)
             between = time.process_time()
-            sum_over_neighbours(cells, moving, 1.0, found, threads)
+            sum_over_neighbours(cells, given, 1.0, found, threads)
             times.append(time.perf_counter() - wall)
             if threads == 1:
                 cpus.append(time.process_time() - cpu)
                 sorting.append(between - cpu)
-    computed, acting = pairs(cells, moving)
+    computed, acting = pairs(cells, given)
     return SumRate(p.count, min(cpus), min(sorting), (min(walls[1]), min(walls[2])), computed, acting)
 
 
-def pairs(cells, moving):
+def pairs(cells, given):
     """Return how many pairs per particle are computed, and how many of them are in reach of one another."""
-    n = moving.x.size
-    places, packed = np.empty((3, n + 16), np.int32), np.empty((10, n + 16), np.float32)
-    quantum = cells.size / 2.0**23
-    _pack(cells.order, *moving[:6], *moving[7:11], quantum, places, packed)
-    most = np.empty((3, n + 32), np.int32), np.empty((10, n + 32), np.float32)
-    found = _count(cells.columns, cells.start, cells.reach, cells.box, cells.window, places, packed, *most)
+    n, packed = given.volume.size, empty_packed(cells, values=10)
+    _pack(cells.order, given, packed)
+    found = _count(cells, packed)
     return found[0] / n, found[1] / n
 
 
 @numba.njit
-def _count(columns, start, reach, box, window, places, packed, where, what):
-    computed, acting = 0, 0
+def _count(cells, packed):
+    start, places, values, room = cells.start, packed.places, packed.values, packed.places.shape[1] + LANES
+    near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
+    scratch, computed, acting = Packed(near_places, near, packed.quantum), 0, 0
     for cell in range(start.size - 1):
         if start[cell] == start[cell + 1]:
             continue
-        m = copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
+        m = copy_neighbourhood(cell, cells, packed, scratch)
         computed += m * (start[cell + 1] - start[cell])
         for k in range(start[cell], start[cell + 1]):
             for j in range(m):
                 r2 = 0.0
                 for axis in range(3):
-                    r2 += float(np.int32(places[axis, k] - where[axis, j])) ** 2
-                inverse = packed[3, k] if what[9, j] == 0.0 else min(packed[3, k], what[3, j])
-                if what[9, j] != 0.0 and r2 * inverse * inverse < 1.0:
+                    r2 += float(np.int32(places[axis, k] - near_places[axis, j])) ** 2
+                inverse = values[3, k] if near[9, j] == 0.0 else min(values[3, k], near[3, j])
+                if near[9, j] != 0.0 and r2 * inverse * inverse < 1.0:
                     acting += 1
     return computed, acting
 

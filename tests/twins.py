@@ -8,7 +8,7 @@ import numpy as np
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
 from landlab_debrisflow.record.observers import EVERY_STEP
-from landlab_debrisflow.spatial.cross_summation import Partners
+from landlab_debrisflow.spatial.partners import Partners
 from validation.grids import inclined, release_slab
 
 SURGES = {

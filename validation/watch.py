@@ -49,7 +49,7 @@ class NoThrust:
 
     def interact(self, state, cells, shock_viscosity, threads, sums):
         OnePhase().interact(state, cells, shock_viscosity, threads, sums)
-        sums.acceleration[:], sums.thickening[:] = 0.0, 0.0
+        sums.acceleration[:], sums.convergence[:] = 0.0, 0.0
 
 
 def unresolved_rise(grid):

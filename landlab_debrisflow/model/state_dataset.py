@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from ..spatial.cross_summation import Partners
+from ..spatial.partners import Partners
 from .time_step import StepLimits
 
 BESIDE = {

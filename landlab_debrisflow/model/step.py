@@ -149,7 +149,13 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
     cells = sort_into_cells(state.position.x, state.position.y, 2.0 * state.smoothing.length, changed)
     p.summed[:] = cells.computed[: p.count]
     activity.catch_up(p, time, columns, activity.disturbed(p))  # under the thickness they slept under
-    sums = Sums(p.own_thickness, p.gradient_term, p.next_smoothing_length, p.thrust, p.thickening)
+    sums = Sums(
+        thickness=p.own_thickness,
+        gradient_term=p.gradient_term,
+        next_length=p.next_smoothing_length,
+        acceleration=p.thrust,
+        convergence=p.thickening,
+    )
     cells_of_phases = flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     inflow.prescribe_thickness(p, phases.phase_fractions)
     phases.after_summation(p, exchange, cells_of_phases)

@@ -65,7 +65,7 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
 
 
 def bear(x, y, pull, sample, walls: Raster | None) -> None:
-    """Take away what walls bear of the pull on particles at rest, shape (3, n) [m s-2], in place."""
+    """Reduce the pull (3, n) on particles at rest by the reaction of walls [m s-2], in place; `sample` is their bed."""
     if walls is None:
         return
     size = np.sqrt((pull**2).sum(axis=0))

@@ -10,6 +10,8 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 
 from numpy import ndarray as Array
 
+from ..spatial.packing import Position
+
 
 class BasalStress(NamedTuple):
     """Stresses at the base of the flow under each of n particles."""
@@ -131,14 +133,6 @@ MIXTURE, WATER = 0, 1
 """What a particle is of: grains, with the water between them if the flow law has one phase; or water."""
 
 
-class Position(NamedTuple):
-    """Where n particles are, on the bed."""
-
-    x: Array  # (n,) map coordinates, from the lower left node [m]
-    y: Array
-    z: Array  # (n,) elevation of the bed [m]
-
-
 class Smoothing(NamedTuple):
     """Smoothing length of each of n particles and its cap."""
 
@@ -152,7 +146,7 @@ class MixtureState(NamedTuple):
 
     phase: Array  # (n,) MIXTURE or WATER (int8)
     share: Array  # (n,) of the thickness that is of the own phase, of the step before [-]
-    cross_term: Array  # (n,) as that of `spatial.cross_summation.Across`, of the step before [-]
+    cross_term: Array  # (n,) as that of `spatial.cross_summation.CrossPhaseSums`, of the step before [-]
     mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
     material: Any  # physics.material.Material
     written: Any  # `MixtureSums` of the moving particles, without ghosts

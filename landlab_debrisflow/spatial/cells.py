@@ -55,17 +55,30 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
     columns, rows = int(width / size) + 1, int(height / size) + 1
     cells = columns * rows
     found = Cells(
-        columns, size, np.empty(n, np.int64), np.zeros(cells + 1, np.int64), np.zeros(cells), np.empty((4, cells)),
-        np.zeros(cells, np.int64), np.zeros(cells, np.bool_), np.empty(n, np.bool_),
-    )  # fmt: skip
-    _sort(x, y, support, changed, west, south, columns, rows, size, *found[2:6], np.empty(n, np.int64), found.awake)
-    _wake(columns, rows, size, found.order, found.start, found.reach, found.window, found.awake, found.computed)
+        columns=columns,
+        size=size,
+        order=np.empty(n, np.int64),
+        start=np.zeros(cells + 1, np.int64),
+        reach=np.zeros(cells),
+        box=np.empty((4, cells)),
+        window=np.zeros(cells, np.int64),
+        awake=np.zeros(cells, np.bool_),
+        computed=np.empty(n, np.bool_),
+    )
+    _sort(x, y, support, changed, west, south, found)
+    _wake(found)
     return found
 
 
 @kernel
 def _extent(x, y, support):
-    """Return least x, extent in x, least y, extent in y, and the harmonic mean of the supports."""
+    """Return least x, extent in x, least y, extent in y, and the harmonic mean of the supports, all [m].
+
+    Parameters
+    ----------
+    x, y, support : ndarray, shape (n,)
+        [m]
+    """
     west, east, south, north, total = x[0], x[0], y[0], y[0], 0.0
     for i in range(x.size):
         west, east, south, north = min(west, x[i]), max(east, x[i]), min(south, y[i]), max(north, y[i])
@@ -74,7 +87,22 @@ def _extent(x, y, support):
 
 
 @kernel
-def _sort(x, y, support, changed, west, south, columns, rows, size, order, start, reach, box, cell, stirred):
+def _sort(x, y, support, changed, west, south, cells):
+    """Write order, start, reach and box of the cells, and into ``awake`` whether a particle inside has changed.
+
+    Parameters
+    ----------
+    x, y, support : ndarray, shape (n,)
+        Map coordinates and radius within which each particle feels others [m].
+    changed : ndarray of bool, shape (n,)
+    west, south : float
+        Lower left corner of the cells [m].
+    cells : Cells
+        Start, reach and awake are 0 on entry.
+    """
+    columns, size, order, start = cells.columns, cells.size, cells.order, cells.start
+    reach, box, stirred = cells.reach, cells.box, cells.awake
+    rows, cell = (start.size - 1) // columns, np.empty(x.size, np.int64)
     for c in range(reach.size):
         box[0, c], box[1, c], box[2, c], box[3, c] = np.inf, -np.inf, np.inf, -np.inf
     for i in range(x.size):
@@ -98,8 +126,16 @@ def _sort(x, y, support, changed, west, south, columns, rows, size, order, start
 
 
 @kernel
-def _wake(columns, rows, size, order, start, reach, window, awake, computed):
-    """Find the windows, and turn ``awake``, whether something changed in a cell, into whether its sums did."""
+def _wake(cells):
+    """Find the windows, and turn ``awake``, whether something changed in a cell, into whether its sums did.
+
+    Parameters
+    ----------
+    cells : Cells
+        Sorted by `_sort`; window, 0 on entry, awake and computed are written.
+    """
+    columns, size, order, start, reach = cells.columns, cells.size, cells.order, cells.start, cells.reach
+    window, awake, computed, rows = cells.window, cells.awake, cells.computed, (start.size - 1) // columns
     for row in range(rows):
         for column in range(columns):
             c = row * columns + column

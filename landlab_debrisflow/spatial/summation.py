@@ -8,11 +8,9 @@ with r the chord in space. The smoothing length follows the thickness, l = 1.4 (
 sums carry the corresponding gradient terms (Springel & Hernquist 2002; Price 2012): without them
 nothing converges in a spreading flow.
 
-What the pairs need is first packed in the order of the cells, in 32 bits: positions as whole numbers of a
-2^-23 of the width of a cell, so their differences are exact and the same seen from either side; the
-rest as floats, whose rounding, 6e-8, is far below what the sums are wrong by. Every cell then copies its
-neighbourhood, one stretch for every row of cells, into a small contiguous scratch and loops over it
-without branches: the compiler turns that into vector code, with one reciprocal root and no division a pair.
+Particles are first packed in the order of the cells, in 32 bits (packing.py). Every cell then copies its
+neighbourhood into a small contiguous scratch and loops over it without branches: the compiler turns that into vector
+code, with one reciprocal root and no division a pair.
 
 The formulas stand in the loops that use them: numba's cache watches only a function's own file.
 """
@@ -21,8 +19,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import approximate_kernel, inner, kernel
+from ..core.jit import approximate_kernel, kernel
 from .cells import Cells, over_cells
+from .packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
 
 SMOOTHING_RATIO = 1.4
 """Smoothing length over particle spacing (V/h)^(1/2) [-]."""
@@ -36,51 +35,48 @@ LEAST_GRADIENT_TERM = 0.4
 
 NORM = 7.0 / (4.0 * np.pi)
 SLOPE = NORM / SMOOTHING_RATIO**2
-PLACES_PER_CELL = 2.0**23  # +-2^31 of them are 256 cells: far beyond any window
-LANES = 16  # floats in the widest vector register
-_X, _Y, _Z = 0, 1, 2  # rows of what is packed as whole numbers
-_U, _V, _W, _INVERSE, _REACH, _STRENGTH, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)  # and as floats
+_X, _Y, _Z = 0, 1, 2  # rows of `Packed.places`
+_U, _V, _W, _INVERSE, _REACH, _COEFFICIENT, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)  # and of its values
 
-# numba computes in double where a constant is one; and an index that may be negative is not vectorised
-_F, _U64 = np.float32, np.uint64
+# numba computes in double where a constant is one
+_F = np.float32
 _ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12)
 
 
-class Moving(NamedTuple):
-    """What the sums read of n particles. Those beyond the size of `Sums` act on others and are not moved."""
+class SummationInput(NamedTuple):
+    """State of n particles that the sums read. Those beyond the size of `Sums` act on others and are not moved."""
 
-    x: np.ndarray  # position on the surface, (n,) [m]
-    y: np.ndarray
-    z: np.ndarray
+    position: Position  # on the surface
     velocity: np.ndarray  # (3, n) [m s-1]
     volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release/release.py
     smoothing_length: np.ndarray  # (n,) [m]
     longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
-    strength: np.ndarray  # (n,) thrust over thickness^2, Omega and reference density: inertia g_n / (2 Omega) [m s-2]
+    pressure_coefficient: np.ndarray  # (n,) depth-integrated pressure over thickness^2, Omega and reference density:
+    # inertia g_n / (2 Omega) [m s-2]
     celerity: np.ndarray  # (n,) of waves [m s-1]
     thickness: np.ndarray  # (n,) slope-normal, of the last time [m]
-    thickening: np.ndarray  # (n,) -h div v, of the last time [m s-1]
+    convergence: np.ndarray  # (n,) -h div v, of the last time [m s-1]
     inertia: np.ndarray  # (n,) density over a reference density [-]
 
 
 class Sums(NamedTuple):
-    """What they write, where cells are awake."""
+    """Results of the sums, written where cells are awake."""
 
     thickness: np.ndarray  # (n,) slope-normal [m]
     gradient_term: np.ndarray  # (n,) Omega of the grad-h formulation [-]
     next_length: np.ndarray  # (n,) smoothing length for the next time [m]
     acceleration: np.ndarray  # (3, n) [m s-2]
-    thickening: np.ndarray  # (n,) -h div v, the rate at which converging flow thickens, without grad-h term [m s-1]
+    convergence: np.ndarray  # (n,) -h div v, the rate at which converging flow thickens, without grad-h term [m s-1]
 
 
-def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Sums, threads: int = 1) -> None:
+def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, sums: Sums, threads: int = 1) -> None:
     """Sum thickness and pressure gradient, with shock viscosity.
 
     Parameters
     ----------
     cells : Cells
         Built with support 2 ``smoothing_length``.
-    moving : Moving
+    given : SummationInput
     viscosity : float
         Strength of the shock viscosity [-].
     sums : Sums
@@ -97,17 +93,11 @@ def sum_over_neighbours(cells: Cells, moving: Moving, viscosity: float, sums: Su
 
     The sum S(l) of thickness wants to be h(l) = ratio^2 V / l^2. Newton on h - S(l(h)) = 0 has the slope
     Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
-    length was set: one pass per time step is enough. The strength has Omega of the pass before.
+    length was set: one pass per time step is enough. The pressure coefficient has Omega of the pass before.
     """
-    n = moving.x.size
-    places, packed = np.empty((3, n + LANES), np.int32), np.empty((10, n + LANES), np.float32)
-    quantum = cells.size / PLACES_PER_CELL
-    _pack(cells.order, *moving[:6], *moving[7:11], quantum, places, packed)
-    over_cells(
-        _sum, cells, threads, cells.columns, cells.order, cells.start, cells.reach, cells.box, cells.window,
-        cells.awake, places, packed, quantum, viscosity, moving.volume, moving.smoothing_length, moving.longest,
-        moving.inertia, *sums,
-    )  # fmt: skip
+    packed = empty_packed(cells, values=10)
+    _pack(cells.order, given, packed)
+    over_cells(_sum, cells, threads, cells, packed, given, viscosity, sums)
 
 
 def plain_thickness(volume, smoothing_length, sums: Sums):
@@ -133,109 +123,106 @@ def plain_thickness(volume, smoothing_length, sums: Sums):
 
 
 @kernel
-def _pack(
-    order, x, y, z, velocity, volume, length, strength, celerity, thickness, thickening, quantum, places, packed
-):  # fmt: skip
-    """Put particles in the order of cells; lengths become numbers of quanta."""
+def _pack(order, given, packed):
+    """Put particles in the order of cells; lengths become numbers of quanta.
+
+    Parameters
+    ----------
+    order : ndarray of int, shape (m,)
+        Particle at each sorted place, of the n of `given`.
+    given : SummationInput
+    packed : Packed
+        Written, ten values of each particle.
+    """
+    x, y, z = given.position
+    velocity, volume, length, coefficient = (
+        given.velocity, given.volume, given.smoothing_length, given.pressure_coefficient
+    )  # fmt: skip
+    celerity, thickness, convergence = given.celerity, given.thickness, given.convergence
+    places, values, quantum = packed
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
     for k in range(order.size):
         i = order[k]
         places[_X, k] = np.int32(np.int64((x[i] - x0) * per_metre))  # wraps around, and so do differences
         places[_Y, k] = np.int32(np.int64((y[i] - y0) * per_metre))
         places[_Z, k] = np.int32(np.int64((z[i] - z0) * per_metre))
-        packed[_U, k], packed[_V, k], packed[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
+        values[_U, k], values[_V, k], values[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
         l2 = length[i] * length[i]
-        packed[_INVERSE, k] = 0.5 * quantum / length[i]
-        packed[_REACH, k] = volume[i] * (5.0 * NORM) / (l2 * l2)
-        packed[_STRENGTH, k], packed[_CELERITY, k] = strength[i], celerity[i]
+        values[_INVERSE, k] = 0.5 * quantum / length[i]
+        values[_REACH, k] = volume[i] * (5.0 * NORM) / (l2 * l2)
+        values[_COEFFICIENT, k], values[_CELERITY, k] = coefficient[i], celerity[i]
         thinness = 1.0 / thickness[i]
-        packed[_THINNESS, k], packed[_VOLUME, k] = thinness, volume[i]
-        packed[_CONVERGENCE, k] = 0.5 * quantum * max(0.0, thickening[i] * thinness)
-
-
-@inner
-def copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what):
-    """Copy the particles that may act on a cell into the scratch; return their number, rounded up to whole vectors."""
-    rows = (start.size - 1) // columns
-    row, column, w, m = cell // columns, cell % columns, window[cell], 0
-    for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-        low, high = -1, -1
-        for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-            d = r * columns + q
-            gap_x = max(box[0, d] - box[1, cell], box[0, cell] - box[1, d], 0.0)
-            gap_y = max(box[2, d] - box[3, cell], box[2, cell] - box[3, d], 0.0)
-            distance = max(reach[d], reach[cell])
-            if gap_x * gap_x + gap_y * gap_y < distance * distance:
-                low = d if low < 0 else low
-                high = d
-        if low >= 0:  # a row of cells is one stretch of sorted particles; whole vectors of it, the rest is overwritten
-            first, here = _U64(start[low]), _U64(m)
-            count = start[high + 1] - start[low]
-            whole = _U64(count + LANES - 1) // _U64(LANES) * _U64(LANES)
-            for v in range(where.shape[0]):
-                for k in range(whole):
-                    where[v, here + k] = places[v, first + k]
-            for v in range(what.shape[0]):
-                for k in range(whole):
-                    what[v, here + k] = packed[v, first + k]
-            m += count
-    for k in range(m, m + LANES):  # fill up with what weighs nothing
-        where[_X, k], where[_Y, k], where[_Z, k] = 0, 0, 0
-        for v in range(what.shape[0]):
-            what[v, k] = _ZERO
-    return (m + LANES - 1) // LANES * LANES
+        values[_THINNESS, k], values[_VOLUME, k] = thinness, volume[i]
+        values[_CONVERGENCE, k] = 0.5 * quantum * max(0.0, convergence[i] * thinness)
 
 
 @approximate_kernel
-def _sum(
-    first, last, columns, order, start, reach, box, window, awake, places, packed, quantum, viscosity,
-    volumes, lengths, longest, inertia, thickness, gradient_term, next_length, acceleration, thickening,
-):  # fmt: skip
-    where, what = np.empty((3, order.size + 2 * LANES), np.int32), np.empty((10, order.size + 2 * LANES), np.float32)
+def _sum(first, last, cells, packed, given, viscosity, sums):
+    """Sum over the neighbours of the particles of cells ``first`` to ``last`` - 1 that are awake.
+
+    Parameters
+    ----------
+    first, last : int
+    cells : Cells
+    packed : Packed
+        Of all particles, by `_pack`.
+    given : SummationInput
+        With n particles.
+    viscosity : float
+        Of shocks [-].
+    sums : Sums
+        Written, for at most n particles.
+    """
+    order, start, awake, places, values = cells.order, cells.start, cells.awake, packed.places, packed.values
+    volumes, lengths, longest, inertia = given.volume, given.smoothing_length, given.longest, given.inertia
+    thickness, gradient_term, next_length, acceleration, convergence = sums
+    room, quantum = order.size + 2 * LANES, packed.quantum
+    near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
+    scratch = Packed(near_places, near, quantum)
     quarter = _F(0.25 * viscosity)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
             continue
-        m = copy_neighbourhood(cell, columns, start, reach, box, window, places, packed, where, what)
+        m = copy_neighbourhood(cell, cells, packed, scratch)
         for k in range(start[cell], start[cell + 1]):
             i = order[k]
             if i >= thickness.size:
                 continue
             volume, length = volumes[i], lengths[i]
             xi, yi, zi = places[_X, k], places[_Y, k], places[_Z, k]
-            ui, vi, wi = packed[_U, k], packed[_V, k], packed[_W, k]
-            inverse, own = packed[_INVERSE, k], packed[_REACH, k] / packed[_VOLUME, k]
-            si, ci = packed[_STRENGTH, k], packed[_CELERITY, k]
-            thin, uniform = packed[_THINNESS, k], packed[_CONVERGENCE, k]
+            ui, vi, wi = values[_U, k], values[_V, k], values[_W, k]
+            inverse, own = values[_INVERSE, k], values[_REACH, k] / values[_VOLUME, k]
+            si, ci = values[_COEFFICIENT, k], values[_CELERITY, k]
+            thin, uniform = values[_THINNESS, k], values[_CONVERGENCE, k]
             total, change, ax, ay, az, inflow = _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
             for j in range(m):
-                dx = _F(np.int32(xi - where[_X, j]))
-                dy = _F(np.int32(yi - where[_Y, j]))
-                dz = _F(np.int32(zi - where[_Z, j]))
+                dx = _F(np.int32(xi - near_places[_X, j]))
+                dy = _F(np.int32(yi - near_places[_Y, j]))
+                dz = _F(np.int32(zi - near_places[_Z, j]))
                 r2 = dx * dx + dy * dy + dz * dz + _TINY
                 inverse_r = _ONE / np.sqrt(r2)
                 r = r2 * inverse_r
                 q = r * inverse
-                ti, tj = max(_ZERO, _ONE - q), max(_ZERO, _ONE - r * what[_INVERSE, j])
-                closing = (what[_U, j] - ui) * dx + (what[_V, j] - vi) * dy + (what[_W, j] - wi) * dz
-                approach = max(_ZERO, closing - min(uniform, what[_CONVERGENCE, j]) * r2) * inverse_r
+                ti, tj = max(_ZERO, _ONE - q), max(_ZERO, _ONE - r * near[_INVERSE, j])
+                closing = (near[_U, j] - ui) * dx + (near[_V, j] - vi) * dy + (near[_W, j] - wi) * dz
+                approach = max(_ZERO, closing - min(uniform, near[_CONVERGENCE, j]) * r2) * inverse_r
                 shock = (
-                    quarter * (ci + what[_CELERITY, j] + _THREE * approach) * approach
-                    * min(thin, what[_THINNESS, j])
+                    quarter * (ci + near[_CELERITY, j] + _THREE * approach) * approach
+                    * min(thin, near[_THINNESS, j])
                 )  # fmt: skip
                 # W = norm/l^2 (1 - q)^4 (1 + 4 q), grad W = -5 norm/l^4 (1 - q)^3 r
-                pull = what[_VOLUME, j] * ti * ti * ti
+                pull = near[_VOLUME, j] * ti * ti * ti
                 total += pull * ti * (_ONE + _FOUR * q)
                 change += pull * q * q
                 pull *= own
-                push = pull * (si + shock) + what[_REACH, j] * tj * tj * tj * (what[_STRENGTH, j] + shock)
+                push = pull * (si + shock) + near[_REACH, j] * tj * tj * tj * (near[_COEFFICIENT, j] + shock)
                 ax += push * dx
                 ay += push * dy
                 az += push * dz
                 inflow += pull * closing
             scale = quantum / inertia[i]
             acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax * scale, ay * scale, az * scale
-            thickening[i] = inflow * quantum
+            convergence[i] = inflow * quantum
             # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3; with h = ratio^2 V / l^2
             # the slope l/(2h) dS/dl of the sum has no l left
             mass = total + (SELF_WEIGHT - 1.0) * volume

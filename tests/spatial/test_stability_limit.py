@@ -5,7 +5,8 @@ import pytest
 
 from landlab_debrisflow import Numerics
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
+from landlab_debrisflow.spatial.packing import Position
+from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, SummationInput, Sums, sum_over_neighbours
 
 SHIFT = 3e-3  # of one particle, in spacings: second-order terms are 1e-5, positions are rounded to 1e-7
 
@@ -28,8 +29,9 @@ def response(x, y, middle, axis):
         cells = sort_into_cells(*moved, np.full(n, 2.0 * SMOOTHING_RATIO))
         one, zero, sums = np.ones(n), np.zeros(n), Sums(*np.empty((3, n)), np.empty((3, n)), np.empty(n))
         length = SMOOTHING_RATIO * one
-        moving = Moving(*moved, zero, np.zeros((3, n)), one, length, length, 0.5 * one, one, one, zero, one)
-        sum_over_neighbours(cells, moving, 0.0, sums)
+        position, rest = Position(*moved, zero), np.zeros((3, n))
+        given = SummationInput(position, rest, one, length, length, 0.5 * one, one, one, zero, one)
+        sum_over_neighbours(cells, given, 0.0, sums)
         found.append(sums.acceleration[:2])
     return (found[0] - found[1]) / (2.0 * SHIFT)
 

@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.summation import SELF_WEIGHT, SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
+from landlab_debrisflow.spatial.packing import Position
+from landlab_debrisflow.spatial.summation import (
+    SELF_WEIGHT,
+    SMOOTHING_RATIO,
+    SummationInput,
+    Sums,
+    sum_over_neighbours,
+)
 
 VISCOSITY = 0.8
 
@@ -32,11 +39,11 @@ def sums(c, longest, threads=1, changed=None, out=None):
     n = c["x"].size
     out = [np.empty(n), np.empty(n), np.empty(n), np.empty((3, n)), np.empty(n)] if out is None else out
     cells = sort_into_cells(c["x"], c["y"], 2.0 * c["length"], changed)
-    moving = Moving(
-        c["x"], c["y"], c["z"], c["velocity"], c["volume"], c["length"], longest, c["strength"], c["celerity"],
-        c["thickness"], c["thickening"], c.get("inertia", np.ones(n)),
+    given = SummationInput(
+        Position(c["x"], c["y"], c["z"]), c["velocity"], c["volume"], c["length"], longest, c["strength"],
+        c["celerity"], c["thickness"], c["thickening"], c.get("inertia", np.ones(n)),
     )  # fmt: skip
-    sum_over_neighbours(cells, moving, VISCOSITY, Sums(*out), threads)
+    sum_over_neighbours(cells, given, VISCOSITY, Sums(*out), threads)
     return out
 
 

@@ -2,20 +2,23 @@
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
 is dragged along. All is exchanged between grains and their partners among the water
-(`spatial.cross_summation.find_partners`), with weights that sum to 1, so what
-one gives the other gets, to the last digit.
+(`spatial.partners.find_partners`), with weights that sum to 1, so what one gives the other gets, to the last digit.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from ...core.jit import kernel
 from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
-from ...spatial.cross_summation import find_partners
+from ...spatial.packing import Position
+from ...spatial.partners import find_partners
 from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
-from .exchange import kick_both, make_whole, share_soil
+from .exchange import distribute_soil_water, make_whole
+from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_both
 
 STEPS_BETWEEN_PROFILES = 16
 """Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
@@ -28,8 +31,19 @@ a column."""
 STEPS_WITH_PARTNERS = 4
 """Steps for which grains keep their partners among the water: in so few nothing gets far."""
 
-LEAST = 1e-6
-"""Least part of the volume that either phase is taken to have."""
+LEAST_FRACTION = 1e-6
+"""Least fraction of the volume that either phase is taken to have [-]."""
+
+
+class PoreWater(NamedTuple):
+    """Depth mean of the excess pore pressure at n particles, and its bounds and drainage."""
+
+    phase: np.ndarray  # (n,) MIXTURE, which are the grains, or WATER
+    thickness: np.ndarray  # (n,) of both phases, slope-normal [m]
+    cos_slope: np.ndarray  # (n,) [-]
+    liquefaction_pressure: np.ndarray  # (n,) [Pa]
+    drainage_rate: np.ndarray  # (n,) at which the mean is lost [s-1]
+    mean_pressure: np.ndarray  # (n,) of the grains changed in place [Pa]
 
 
 class TwoPhaseDynamics:
@@ -50,7 +64,8 @@ class TwoPhaseDynamics:
         Variable("porosity_before", "-", "before the flow of the step changed it", written=False),
         Variable("phase_drag", "Pa s m-1", "drag between the phases, per area and relative velocity", written=False,
                  scratch=True),
-        Variable("bed_drag", "s-1", "drag of the bed on water, over its speed and mass", written=False, scratch=True),
+        Variable("bed_drag", "m-1", "drag of the bed on water, over its mass and speed squared", written=False,
+                 scratch=True),
         Variable("drainage_rate", "s-1", "rate at which the mean pressure drains", written=False, scratch=True),
     )  # fmt: skip
 
@@ -77,7 +92,7 @@ class TwoPhaseDynamics:
     def after_summation(self, p, exchange, cells) -> None:
         """Write thickness, porosity and drag from the sums; `cells` are the cells of grains and of water."""
         material, law = self.material, self.law
-        _mix(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
+        _find_mixture(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
         np.divide(p.own_thickness, p.share, out=p.thickness)
         p.phase_drag[:] = law.drag_coefficient(p.porosity, material) * p.thickness
         p.drainage_rate[:] = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
@@ -85,8 +100,8 @@ class TwoPhaseDynamics:
             roughness = material.gravity * law.manning_coefficient**2
             p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
         if p.generation != exchange.generation or exchange.age == STEPS_WITH_PARTNERS:
-            partners = find_partners(*cells, p.x, p.y, p.z, p.volume, p.smoothing_length)
-            make_whole(*partners, p.porosity, p.volume)
+            partners = find_partners(*cells, Position(p.x, p.y, p.z), p.volume, p.smoothing_length)
+            make_whole(partners, p.porosity, p.volume)
             exchange.partners, exchange.generation, exchange.age = partners, p.generation, 0
         exchange.age += 1
 
@@ -105,11 +120,29 @@ class TwoPhaseDynamics:
             [s]
         """
         material = self.material
-        kick_both(
-            *exchange.partners, p.phase, velocity, p.thrust, p.surface_sample, p.cos_slope, yield_stress, drag,
-            p.phase_drag, p.porosity, p.bed_drag, p.thickness, p.volume, material.solid_density,
-            material.water_density, material.gravity, rest_speed, dt,
-        )  # fmt: skip
+        motion = Motion(
+            velocity=velocity,
+            pressure_acceleration=p.thrust,
+            slope_x=p.slope_x,
+            slope_y=p.slope_y,
+            cos_slope=p.cos_slope,
+        )
+        mixture = GrainsAndWater(
+            phase=p.phase,
+            volume=p.volume,
+            thickness=p.thickness,
+            porosity=p.porosity,
+            solid_density=material.solid_density,
+            water_density=material.water_density,
+        )
+        resistance = MixtureResistance(
+            yield_stress=yield_stress,
+            drag=drag,
+            phase_drag=p.phase_drag,
+            water_drag=p.bed_drag,
+            rest_speed=rest_speed,
+        )
+        kick_both(exchange.partners, motion, mixture, resistance, material.gravity, dt)
         _hold_back(velocity, p.light)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
@@ -136,9 +169,9 @@ class TwoPhaseDynamics:
     def share_entrained(self, p, exchange) -> None:
         """Give water its part of the soil of which the grains took theirs; from here on the flow changes porosity."""
         if p.entrained_volume.any():
-            water = 1.0 / self.solid_fraction - 1.0  # over the grains in the soil
+            water_ratio = 1.0 / self.solid_fraction - 1.0  # over the grains in the soil
             exponent = 1.0 - self.material.basal_slip_ratio
-            share_soil(*exchange.partners, p.entrained_volume, water, p.volume, p.velocity, exponent)
+            distribute_soil_water(exchange.partners, p.entrained_volume, water_ratio, p.volume, p.velocity, exponent)
         p.porosity_before[:] = p.porosity
 
     def column_forcing(self, p, forcing, prescribed, dt: float):
@@ -166,10 +199,15 @@ class TwoPhaseDynamics:
             dt = 0.0
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.stores_pressure else 0.0
-        _follow(
-            p.phase, gained, forcing.porosity_source, weight, p.thickness, p.cos_slope, p.liquefaction_pressure,
-            p.drainage_rate, p.mean_excess_pore_pressure,
-        )  # fmt: skip
+        pore_water = PoreWater(
+            phase=p.phase,
+            thickness=p.thickness,
+            cos_slope=p.cos_slope,
+            liquefaction_pressure=p.liquefaction_pressure,
+            drainage_rate=p.drainage_rate,
+            mean_pressure=p.mean_excess_pore_pressure,
+        )
+        _follow_source(pore_water, forcing.porosity_source, weight, gained)
         exchange.steps += 1
 
     def celerity_squared(self, p, dt: float):
@@ -209,22 +247,47 @@ def _reached(x):
 
 
 @kernel
-def _mix(phase, share, solid_density, water_density, porosity, density):
+def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity, density):
+    """Write porosity and density of the mixture at each particle, and keep the fraction of its phase within (0, 1).
+
+    Parameters
+    ----------
+    phase : ndarray of int8, shape (n,)
+        MIXTURE, which are the grains, or WATER.
+    phase_fraction : ndarray, shape (n,)
+        Of the thickness that is of the particle's own phase, changed in place [-].
+    solid_density, water_density : float
+        [kg m-3]
+    porosity, density : ndarray, shape (n,)
+        Written [-], [kg m-3].
+    """
     for i in range(phase.size):
-        share[i] = min(max(share[i], LEAST), 1.0 - LEAST)
-        porosity[i] = share[i] if phase[i] == WATER else 1.0 - share[i]
+        phase_fraction[i] = min(max(phase_fraction[i], LEAST_FRACTION), 1.0 - LEAST_FRACTION)
+        porosity[i] = phase_fraction[i] if phase[i] == WATER else 1.0 - phase_fraction[i]
         # water presses on no grains: with its own density there is nothing that could be liquefied
         mixed = solid_density + porosity[i] * (water_density - solid_density)
         density[i] = water_density if phase[i] == WATER else mixed
 
 
 @kernel
-def _follow(phase, dt, source, weight, thickness, cosine, liquefaction_pressure, drainage, mean):
-    """Add the source to the mean of grains while it drains, and hold it between suction and liquefaction."""
+def _follow_source(pore_water, source, unit_weight, dt):
+    """Add the source to the mean pressure of grains while it drains, and clip it between suction and liquefaction.
+
+    Parameters
+    ----------
+    pore_water : PoreWater
+    source : ndarray, shape (n,) or (1,)
+        [Pa s-1]
+    unit_weight : float
+        Of water [N m-3].
+    dt : float
+        [s]
+    """
+    phase, thickness, cosine, liquefaction_pressure, drainage, mean = pore_water
     for i in range(phase.size):
         if phase[i] != WATER:
             x = dt * drainage[i]
             lost = -np.expm1(-x)
             gained = (1.0 - lost) * mean[i] + dt * source[min(i, source.size - 1)] * (lost / x if x > 1e-12 else 1.0)
-            lowest, highest = -0.5 * weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
+            lowest, highest = -0.5 * unit_weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
             mean[i] = min(max(gained, lowest), highest)

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ...spatial.cells import sort_into_cells
+from ...spatial.packing import Position
 from ...spatial.raster import nearest_line
-from ...spatial.summation import SMOOTHING_RATIO, Moving, Sums, sum_over_neighbours
+from ...spatial.summation import SMOOTHING_RATIO, SummationInput, Sums, sum_over_neighbours
 from ...terrain.surface import Surface
 from .sites import Sites
 
@@ -230,7 +231,13 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     sample_length, _, sample_z = length_and_ground(samples.x, samples.y, samples.group)
     volumes = np.concatenate([volume, -samples.volume])
     rest, ones = np.zeros((3, volumes.size)), np.ones(volumes.size)
-    sums = Sums(np.empty(n), np.empty(n), np.empty(n), np.empty((3, n)), np.empty(n))  # holes are not moved
+    sums = Sums(  # holes are not moved
+        thickness=np.empty(n),
+        gradient_term=np.empty(n),
+        next_length=np.empty(n),
+        acceleration=np.empty((3, n)),
+        convergence=np.empty(n),
+    )
     push = sums.acceleration
     for _ in range(SWEEPS):
         length, cosine, z = length_and_ground(x, y, site)
@@ -238,8 +245,19 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
         px, py = np.concatenate([x, samples.x]), np.concatenate([y, samples.y])
         pz = np.concatenate([z, sample_z])
         cells = sort_into_cells(px, py, 2.0 * lengths)
-        moving = Moving(px, py, pz, rest, volumes, lengths, lengths, 0.5 * ones, ones, ones, rest[0], ones)
-        sum_over_neighbours(cells, moving, 0.0, sums)
+        given = SummationInput(
+            position=Position(px, py, pz),
+            velocity=rest,
+            volume=volumes,
+            smoothing_length=lengths,
+            longest=lengths,
+            pressure_coefficient=0.5 * ones,
+            celerity=ones,
+            thickness=ones,
+            convergence=rest[0],
+            inertia=ones,
+        )
+        sum_over_neighbours(cells, given, 0.0, sums)
         step = STEP * length**2 / (sites.at(x, y)[1] * cosine)
         step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0], push[1]), 1e-300))
         new_x, new_y = x + step * push[0], y + step * push[1]

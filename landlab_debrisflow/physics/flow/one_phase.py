@@ -5,7 +5,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.parameters import declared
-from ...spatial.summation import Moving, sum_over_neighbours
+from ...spatial.summation import SummationInput, sum_over_neighbours
 from ..contracts import FlowState
 
 
@@ -23,9 +23,16 @@ class OnePhase:
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums) -> None:
         """Write thickness, smoothing length, acceleration by pressure and thickening rate."""
         normal_gravity, inertia = state.gravity * state.cos_slope, state.density / state.density.max()
-        moving = Moving(
-            *state.position, state.velocity, state.volume, state.smoothing.length, state.smoothing.longest,
-            0.5 * inertia * normal_gravity / state.smoothing.gradient_term, np.sqrt(normal_gravity * state.thickness),
-            state.thickness, state.thickening, inertia,
-        )  # fmt: skip
-        sum_over_neighbours(cells, moving, shock_viscosity, sums, threads)
+        given = SummationInput(
+            position=state.position,
+            velocity=state.velocity,
+            volume=state.volume,
+            smoothing_length=state.smoothing.length,
+            longest=state.smoothing.longest,
+            pressure_coefficient=0.5 * inertia * normal_gravity / state.smoothing.gradient_term,
+            celerity=np.sqrt(normal_gravity * state.thickness),
+            thickness=state.thickness,
+            convergence=state.thickening,
+            inertia=inertia,
+        )
+        sum_over_neighbours(cells, given, shock_viscosity, sums, threads)

@@ -5,8 +5,8 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.cross_summation import Across, Crossing, cells_of, sum_across
-from ...spatial.summation import Moving, plain_thickness, sum_over_neighbours
+from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, cells_of_phase, sum_over_other_phase
+from ...spatial.summation import SummationInput, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 
 MOST_CROSSED = 4.0
@@ -64,30 +64,45 @@ class TwoPhase:
         """Write the sums and the mixture of each phase; return the cells of grains and the cells of water."""
         mixture, material = state.mixture, state.mixture.material
         water = mixture.phase == WATER
-        parts = cells_of(cells, ~water), cells_of(cells, water)
+        of_phases = cells_of_phase(cells, ~water), cells_of_phase(cells, water)
         normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / mixture.share
         density = np.where(water, material.water_density, material.solid_density)
-        within, shared = self._strengths(state, water, normal_gravity, thickness)
-        moving = Moving(
-            *state.position, state.velocity, state.volume, state.smoothing.length, state.smoothing.longest,
-            within / density, np.sqrt(normal_gravity * thickness), state.thickness, state.thickening,
-            np.ones(density.size),
-        )  # fmt: skip
-        crossing = Crossing(*state.position, state.volume, state.smoothing.length, shared, mixture.mean_pressure)
+        within, shared = self._pressure_coefficients(state, water, normal_gravity, thickness)
+        given = SummationInput(
+            position=state.position,
+            velocity=state.velocity,
+            volume=state.volume,
+            smoothing_length=state.smoothing.length,
+            longest=state.smoothing.longest,
+            pressure_coefficient=within / density,
+            celerity=np.sqrt(normal_gravity * thickness),
+            thickness=state.thickness,
+            convergence=state.thickening,
+            inertia=np.ones(density.size),
+        )
+        given_cross = CrossPhaseInput(
+            position=state.position,
+            volume=state.volume,
+            smoothing_length=state.smoothing.length,
+            pressure_coefficient=shared,
+            averaged=mixture.mean_pressure,
+        )
         n, written = sums.thickness.size, mixture.written
         computed = cells.computed[:n]
-        across = Across(np.zeros(n), written.cross_term, np.zeros(n), np.zeros((3, n)))
-        for phase in parts:
-            sum_over_neighbours(phase, moving, shock_viscosity, sums, threads)
-        sum_across(*parts, crossing, across, threads)
-        np.add(sums.acceleration, across.force / density[:n], out=sums.acceleration, where=computed)
+        cross_sums = CrossPhaseSums(
+            thickness=np.zeros(n), cross_term=written.cross_term, mean=np.zeros(n), force=np.zeros((3, n))
+        )
+        for phase_cells in of_phases:
+            sum_over_neighbours(phase_cells, given, shock_viscosity, sums, threads)
+        sum_over_other_phase(*of_phases, given_cross, cross_sums, threads)
+        np.add(sums.acceleration, cross_sums.force / density[:n], out=sums.acceleration, where=computed)
         own = plain_thickness(state.volume[:n], state.smoothing.length[:n], sums)
-        np.divide(own, own + across.thickness, out=written.share, where=computed)
-        np.copyto(written.mean_pressure, across.mean, where=computed & water[:n])
-        return parts
+        np.divide(own, own + cross_sums.thickness, out=written.share, where=computed)
+        np.copyto(written.mean_pressure, cross_sums.mean, where=computed & water[:n])
+        return of_phases
 
     @staticmethod
-    def _strengths(state: FlowState, water, normal_gravity, thickness):
+    def _pressure_coefficients(state: FlowState, water, normal_gravity, thickness):
         """Return thrust over own thickness squared and Omega, and thrust over total thickness squared [N m-3].
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.

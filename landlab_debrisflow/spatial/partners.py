@@ -1,0 +1,103 @@
+"""Partners: the particles of the other phase with whom a particle exchanges momentum, and their weights."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.jit import kernel
+from .cells import Cells
+from .packing import Position
+
+MOST_PARTNERS = 32
+"""Room for the partners of a particle; there are some 6, and the rest counts for those beyond."""
+
+PARTNER_RADIUS = 1.0
+"""Distance to the farthest partner over smoothing length [-]."""
+
+NEAREST = 0.1
+"""Distance over that of the farthest within which all partners count alike. The weights are those of Franke & Nielson
+(1980), ((R - r)/(R r))^2, but finite: most of all counts who is nearest. A mean over all around lies behind where the
+velocity grows towards an edge, as it does at every front, and would hold grains back there, and push water ahead."""
+
+
+class Partners(NamedTuple):
+    """With which particles of the other phase each particle of one exchanges momentum, and with which weights."""
+
+    of: np.ndarray  # (m,) those that have partners
+    count: np.ndarray  # (m,) how many
+    index: np.ndarray  # (m, MOST_PARTNERS) which
+    weight: np.ndarray  # (m, MOST_PARTNERS) their weights, which sum to 1 [-]
+
+
+def find_partners(targets: Cells, sources: Cells, position: Position, volume, smoothing_length) -> Partners:
+    """Find the partners of some particles among others.
+
+    Parameters
+    ----------
+    targets, sources : Cells
+        Of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+    position : Position
+        Of the n particles that have and may be partners; the cells may have more behind them.
+    volume, smoothing_length : ndarray, shape (n,)
+        [m3], [m]
+    """
+    grains = targets.order[targets.order < position.x.size]
+    partners = Partners(
+        of=grains,
+        count=np.zeros(grains.size, np.int64),
+        index=np.empty((grains.size, MOST_PARTNERS), np.int64),
+        weight=np.empty((grains.size, MOST_PARTNERS)),
+    )
+    _find(targets, sources, position, volume, smoothing_length, partners)
+    return partners
+
+
+@kernel
+def _find(targets, sources, position, volume, length, partners):
+    """Write index, weight and count of the partners.
+
+    Parameters
+    ----------
+    targets, sources : Cells
+    position : Position
+    volume, length : ndarray, shape (n,)
+        Volume [m3] and smoothing length [m].
+    partners : Partners
+        Written but for ``of``, which is in the order of the targets.
+    """
+    columns, order, start, box, window = targets.columns, targets.order, targets.start, targets.box, targets.window
+    source_order, source_start = sources.order, sources.start
+    x, y, z, count, index, weight = position.x, position.y, position.z, partners.count, partners.index, partners.weight
+    n, rows, row_of = x.size, (start.size - 1) // columns, 0
+    for cell in range(start.size - 1):
+        if start[cell] == start[cell + 1]:
+            continue
+        w = window[cell]
+        row, column = cell // columns, cell % columns
+        for k in range(start[cell], start[cell + 1]):
+            i = order[k]
+            if i >= n:
+                continue
+            radius, found, total = PARTNER_RADIUS * length[i], 0, 0.0
+            nearest = (NEAREST * radius) ** 2
+            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+                    d = r * columns + q
+                    gap_x = max(box[0, d] - x[i], x[i] - box[1, d], 0.0)
+                    gap_y = max(box[2, d] - y[i], y[i] - box[3, d], 0.0)
+                    if gap_x * gap_x + gap_y * gap_y > radius * radius:
+                        continue
+                    for s in range(source_start[d], source_start[d + 1]):
+                        j = source_order[s]
+                        if j >= n:
+                            continue
+                        r2 = (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2
+                        if r2 < radius * radius and found < MOST_PARTNERS:
+                            index[row_of, found] = j
+                            weight[row_of, found] = volume[j] * (1.0 - np.sqrt(r2) / radius) ** 2 / (r2 + nearest)
+                            total += weight[row_of, found]
+                            found += 1
+            for s in range(found):
+                weight[row_of, s] /= total
+            count[row_of] = found
+            row_of += 1
