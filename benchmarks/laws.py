@@ -73,7 +73,7 @@ def main(particles=10_000, turns=9):
     for _ in range(turns):
         for name, flow in flows.items():
             steps, cpu = flow.diagnostics.steps, time.process_time()
-            with timed(flow._simulation.physics) as spent:
+            with timed(flow._simulation.setup) as spent:
                 flow.run_one_step(TURN)
             per = 1e6 / (flow.diagnostics.steps - steps) / particles
             costs[name].append((time.process_time() - cpu) * per)

@@ -123,7 +123,7 @@ class DebrisFlow(Component):
                         f"continues must be the DebrisFlow before on the same grid, got {continues!r}"
                     )
                 checks.check_continued(continues, grid, entering)
-            self._simulation = Simulation(setup, setup.numerics, entering)
+            self._simulation = Simulation(setup, entering)
             self._call: GridCall = GridCall(self, None if continues is None else continues._call)
         for doubt in (*found, *doubts.parameter_doubts(grid, setup)):
             log.warning("%s", doubt)

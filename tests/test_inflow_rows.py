@@ -25,7 +25,7 @@ def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hi
     with flow._call.rollback.undo_on_failure():
         flow._call.begin()
     simulation = flow._simulation
-    simulation.inflow.enter(simulation.particles, simulation.bed.surface, simulation.columns, 50.0)
+    simulation.inflow.enter(simulation.particles, simulation.bed.surface, simulation.surroundings.columns, 50.0)
     p, cosine = simulation.particles, 1.0 / np.hypot(1.0, 0.5)
     assert p.volume.sum() == pytest.approx(2000.0, rel=0.05)
     x = np.unique(p.x.round(9))

@@ -92,8 +92,8 @@ def test_it_is_that_of_the_nearest_node():
     flow = two_bodies(Coulomb(basal_friction_angle=angle), {})
     sim = flow._simulation
     sim.particles.x[:] = [294.999, 295.001]  # half-way between columns 29 and 30
-    step.sample_bed(sim.particles, sim.bed, sim.physics.material.gravity)
-    here = basal_state(sim.particles, slice(2), sim.friction).parameters
+    step.sample_bed(sim.particles, sim.bed, sim.setup.material.gravity)
+    here = basal_state(sim.particles, slice(2), sim.surroundings.friction).parameters
     np.testing.assert_allclose(here.basal_friction_angle, np.radians([10.0, 20.0]), rtol=1e-15)
 
 

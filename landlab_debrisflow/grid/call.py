@@ -28,14 +28,14 @@ class GridCall:
         grid = flow.grid
         self.flow, self._simulation = flow, flow._simulation
         self.interruption = Interruption()
-        self._reader = GridReader(grid, self._simulation.physics)
+        self._reader = GridReader(grid, self._simulation.setup)
         self._writer = FieldWriter(grid, self._simulation, self.interruption)
         self._listener = CallListener(flow, self._writer, self.interruption)
         if continues is not None:
             self._writer.continue_from(continues._writer)
         # last, because a component that is refused changes nothing
         before = None if continues is None else continues._outputs
-        two_phases = self._simulation.physics.two_phases
+        two_phases = self._simulation.setup.two_phases
         self._outputs = Outputs(grid, two_phases, self._writer.carried_volume, before)
         self.rollback = Rollback(grid, self._reader.laws, self._writer, self.interruption, self._outputs)
 
@@ -91,7 +91,7 @@ class GridCall:
     @property
     def budget_by_phase(self) -> dict[str, dict[str, float]]:
         """Volumes of grains and water so far [m3]."""
-        material = self._simulation.physics.material
+        material = self._simulation.setup.material
         return self._writer.state.budget.terms_by_phase(self._writer.model_volumes(), material)
 
     def maps(self) -> dict:

@@ -102,10 +102,10 @@ def check_parameters(grid, laws) -> None:
             )  # fmt: skip
 
 
-def check_phases(physics) -> None:
+def check_phases(setup) -> None:
     """Refuse materials in which the two phases of a flow law cannot be told apart."""
-    material = physics.material
-    if not physics.two_phases:
+    material = setup.material
+    if not setup.two_phases:
         return
     for name, allowed in (("water_density", "> 0"), ("porosity", "> 0"), ("water_table_ratio", "1")):
         value = getattr(material, name)
@@ -114,7 +114,7 @@ def check_phases(physics) -> None:
                 f"flow: two phases need a material whose {name} is {allowed}, got {value:g}; "
                 "use flow='one_phase' for debris that is not saturated"
             )
-    law = physics.flow
+    law = setup.flow
     derived = getattr(law, "drag", "") == "darcy" and law.hydraulic_conductivity is None
     if derived and (material.coefficient_of_consolidation == 0.0 or law.stiffness == 0.0):
         raise InputError(

@@ -26,10 +26,10 @@ FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 # ---- parameters ----
 
 
-def parameter_doubts(grid, physics) -> Iterator[str]:
+def parameter_doubts(grid, setup) -> Iterator[str]:
     """Yield doubts about parameters of laws and material; a 0 that means "none" is not doubted."""
     for kind in ("flow", "friction", "erosion", "column", "material"):
-        law = getattr(physics, kind)
+        law = getattr(setup, kind)
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
             values = _nonzero_values(grid, law, field)
             if values.size and (words := _parameter_doubt(field, values)):
@@ -117,9 +117,9 @@ LEAST_SIMILARITY = 0.85
 """Similarity of two names without common words from which on one may stand for the other [-]."""
 
 
-def name_doubts(grid, physics) -> Iterator[str]:
+def name_doubts(grid, setup) -> Iterator[str]:
     """Yield fields that look like inputs of ours which are missing; the release may come later."""
-    laws = (physics.friction, physics.erosion)
+    laws = (setup.friction, setup.erosion)
     read = {getattr(law, f.name) for law in laws if dataclasses.is_dataclass(law) for f in dataclasses.fields(law)}
     missing = [f.name for f in NODE_FIELDS if "in" in f.intent and f.name not in grid.at_node and f.name != RELEASE]
     for name in sorted(set(grid.at_node) - set(OUR_NAMES) - read):

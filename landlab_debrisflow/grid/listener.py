@@ -47,7 +47,7 @@ class CallListener:
         """Write results, settle mass at rest, log messages at the end of a run."""
         sim = self._writer.simulation
         with self._interruption.deferred():
-            self._writer.close(settle=sim.at_rest and sim.numerics.settle)
+            self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
             self._reports.log_messages(stop_at_rest)
 
     def _show(self, observers) -> None:

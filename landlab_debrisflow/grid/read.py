@@ -63,15 +63,15 @@ class GridReader:
     ----------
     grid : RasterModelGrid
         Gets the field of the bed's pore pressure if the material asks for it and it is missing.
-    physics : Physics
+    setup : Setup
     """
 
-    def __init__(self, grid, physics):
+    def __init__(self, grid, setup):
         self._grid = grid
-        self._loaded = physics.material.bed_loading_coefficient > 0.0
+        self._loaded = setup.material.bed_loading_coefficient > 0.0
         if self._loaded and BED_PRESSURE not in grid.at_node:
             grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
-        self.laws = {kind: getattr(physics, kind) for kind in ("friction", "erosion")}
+        self.laws = {kind: getattr(setup, kind) for kind in ("friction", "erosion")}
         checks.check_parameters(grid, self.laws)
 
     def read(self, grid_bed, inflow, carried: bool, warned: tuple, with_release: bool = True) -> GridInput:

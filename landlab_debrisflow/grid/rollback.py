@@ -33,7 +33,7 @@ class Moment:
         self.rows, self._writer = rows, writer
         self._draining = NodeBackup(writer.draining, slice(None))
         self._border, self._model = writer.state.copy(), simulation.state.copy()
-        self._simulation = dict(vars(simulation))  # the bed it lies on and what belongs to that, replaced by each call
+        self._surroundings = simulation.surroundings  # replaced as a whole by each call
 
     def restore(self) -> None:
         """Go back, as often as wanted."""
@@ -41,10 +41,10 @@ class Moment:
         surface = writer.state.grid_bed.surface
         self._draining.restore()
         self.rows.restore()
-        vars(simulation).update(self._simulation)
         writer.state, simulation.state = self._border.copy(), self._model.copy()
-        if writer.state.bed is not None:
-            simulation.bed = writer.state.bed
+        simulation.surroundings = self._surroundings
+        if writer.state.bed is not None:  # with its accounts as they were between two steps
+            simulation.surroundings = self._surroundings._replace(bed=writer.state.bed)
         if writer.state.grid_bed.surface is surface:  # else it was made in the call that is undone
             writer.state.grid_bed.restore_surface(writer.elevation, self.rows.nodes)
 

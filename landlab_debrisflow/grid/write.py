@@ -38,7 +38,7 @@ class FieldWriter:
         self._grid, self.simulation, self._interruption = grid, simulation, interruption
         eroded, settled = np.zeros(grid.number_of_nodes), np.zeros(grid.number_of_nodes)
         budget = VolumeBudget(grid.dx * grid.dy)
-        self.state = GridState(GridBed(simulation.physics.material, eroded), settled, budget, slice(0, 0))
+        self.state = GridState(GridBed(simulation.setup.material, eroded), settled, budget, slice(0, 0))
         self.rows = None
 
     @property
@@ -65,9 +65,9 @@ class FieldWriter:
         """Prepare maps and accounts of a call, after the simulation was put on its bed."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         bed = state.bed = sim.bed
-        names = CURRENT + PEAKS + (PHASES if sim.physics.two_phases else ())
+        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
         fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = PeakMaps(bed.raster, fields, sim.numerics.arrival_depth, sim.time)
+        state.peak_maps = PeakMaps(bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
         soil = None if bed.soil is None else RowBackup([bed.soil], bed.raster.columns)
         state.budget.measure_erosion(bed.raster.core, soil)
         self.keep_rows()

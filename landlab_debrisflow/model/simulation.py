@@ -4,15 +4,13 @@ import numpy as np
 
 from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
-from ..spatial.raster import CLOSED
 from ..terrain.bed import Bed
 from . import activity, step
-from .basal import BasalLaw, ColumnPhysics, held_at_rest, present_profiles
+from .basal import held_at_rest, present_profiles
 from .bed_load import load_bed
 from .deposit import resting_depth
 from .diagnostics import Diagnostics
 from .inflow.source import Inflow
-from .numerics import Numerics
 from .particles import Particles
 from .phases.one_phase import OnePhaseDynamics
 from .phases.two_phase import TwoPhaseDynamics
@@ -21,7 +19,7 @@ from .release.release import release_particles
 from .rest import Bodies
 from .schedule import RunListener
 from .state import State
-from .time_step import viscous_share
+from .surroundings import Surroundings, surround
 from .variables import particle_variables
 
 FIRST_SWEEPS = 8
@@ -33,34 +31,38 @@ class Simulation:
 
     Parameters
     ----------
-    physics : Setup
-        Laws and material.
-    numerics : Numerics
+    setup : Setup
+        Laws, material and numerics.
     inflow : Inflow, optional
 
     Attributes
     ----------
     state : State
         All that changes in a run but the bed: to go back is to put a copy of it here.
+    surroundings : Surroundings or None
+        Inputs of the call; None before the first one.
     phases : Phases
-    bed, walls, friction, erosion, columns, courant_number
-        What `set_bed` was given, and how the stages of a step want it.
     """
 
-    def __init__(self, physics, numerics: Numerics, inflow: Inflow | None = None):
-        self.physics, self.numerics, flow, column = physics, numerics, physics.flow, physics.column
-        self.phases = OnePhaseDynamics(physics.material)
-        if physics.two_phases:
-            self.phases = TwoPhaseDynamics(flow, physics.material, column.stores_pressure)
-        laws = (flow, physics.friction, physics.erosion, column, self.phases)
+    def __init__(self, setup, inflow: Inflow | None = None):
+        self.setup, flow, column = setup, setup.flow, setup.column
+        self.phases = OnePhaseDynamics(setup.material)
+        if setup.two_phases:
+            self.phases = TwoPhaseDynamics(flow, setup.material, column.stores_pressure)
+        laws = (flow, setup.friction, setup.erosion, column, self.phases)
         particles = Particles(column.levels, particle_variables(column, laws))
         self.state = State(particles, inflow or Inflow())
-        self.bed = self.walls = self.friction = self.erosion = self.columns = self.courant_number = None
+        self.surroundings: Surroundings | None = None
 
     @property
     def particles(self) -> Particles:
         """The moving mass."""
         return self.state.particles
+
+    @property
+    def bed(self) -> Bed | None:
+        """Bed of the call, or of the last one; None before the first one."""
+        return None if self.surroundings is None else self.surroundings.bed
 
     @property
     def inflow(self) -> Inflow:
@@ -88,19 +90,11 @@ class Simulation:
         changed : bool
             Whether the terrain differs from what the last call left.
         """
-        material, raster = self.physics.material, bed.raster
-        self.courant_number = self.numerics.courant_number * viscous_share(self.numerics.shock_viscosity)
-        self.bed, self.walls = bed, raster if np.any(raster.status == CLOSED) else None
-        self.friction, self.erosion = (
-            BasalLaw(law, parameters[kind], material, raster.spacing, getattr(law, "variables", ()))
-            for kind, law in (("friction", self.physics.friction), ("erosion", self.physics.erosion))
-        )
-        water_to_buoyant = material.bearing_density / material.buoyant_density
-        self.columns = ColumnPhysics(self.physics.column, material, self.phases, bed.drained, water_to_buoyant)
+        self.surroundings = surround(self.setup, self.phases, bed, parameters)
         self.state.outdated |= changed
         if changed:
             self.set_free()
-        load_bed(self.particles, bed.pore_pressure, material, self.time)
+        load_bed(self.particles, bed.pore_pressure, self.setup.material, self.time)
 
     def begin(self, bed: Bed, given, listener: RunListener) -> None:
         """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
@@ -127,8 +121,8 @@ class Simulation:
         depth : ndarray
             Vertical thickness that fails there [m].
         """
-        state, p, material, bed = self.state, self.particles, self.physics.material, self.bed
-        new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.numerics)
+        state, p, material, bed = self.state, self.particles, self.setup.material, self.bed
+        new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.setup.numerics)
         self._refresh(FIRST_SWEEPS)
         load_bed(p, bed.pore_pressure, material, self.time)
         p.excess_pore_pressure[new] = initial_profile(
@@ -142,25 +136,27 @@ class Simulation:
 
     def _refresh(self, sweeps: int = 1) -> None:
         """Find bed, thickness and forces anew where particles or terrain changed by other hands."""
-        state, p, phases = self.state, self.particles, self.phases
-        activity.wake_all(p, state.time, self.columns)
+        state, p, phases, near = self.state, self.particles, self.phases, self.surroundings
+        setup = self.setup
+        activity.wake_all(p, state.time, near.columns)
         p.entrained_volume[:], p.entrained_ratio[:] = 0.0, 0.0
-        step.sample_bed(p, self.bed, self.physics.material.gravity)
+        step.sample_bed(p, near.bed, self.setup.material.gravity)
         p.still_steps[:] = 0
         for _ in range(sweeps):
             step.interact(
-                p, state.exchange, self.physics.flow, self.numerics, self.columns, state.inflow, self.walls, state.time
+                p, state.exchange, setup.flow, setup.numerics, near.columns, state.inflow, near.walls, state.time
             )
         self._find_limits()
         phases.share_entrained(p, state.exchange)  # nothing; and what the porosity is now, it is not by the flow
         state.outdated = False
 
     def _find_limits(self) -> None:
-        self.state.limits = step.find_limits(self.particles, self.phases, self.courant_number, self.friction, self.time)
+        near = self.surroundings
+        self.state.limits = step.find_limits(self.particles, self.phases, near.courant_number, near.friction, self.time)
 
     def _consolidate(self, dt: float) -> None:
         prescribed = self.inflow.prescribed(self.particles)
-        step.consolidate(self.particles, self.state.exchange, self.columns, prescribed, dt)
+        step.consolidate(self.particles, self.state.exchange, self.surroundings.columns, prescribed, dt)
 
     @property
     def idle(self) -> bool:
@@ -221,8 +217,9 @@ class Simulation:
         state, p = self.state, self.particles
         due = state.counters.steps % activity.STEPS_BETWEEN_CHECKS == 0
         if self.phases.sleeps and due and p.count:
-            activity.fall_asleep(p, state.time, self.columns, self.friction, state.exchange, self.walls)
-        slow = state.bodies.judge(p, self.numerics.rest_energy)
+            near = self.surroundings
+            activity.fall_asleep(p, state.time, near.columns, near.friction, state.exchange, near.walls)
+        slow = state.bodies.judge(p, self.setup.numerics.rest_energy)
         if slow is not None:
             awake = slice(p.awake)
             held = self.held_at_rest(awake, p.basal_excess_pore_pressure[awake])
@@ -230,7 +227,7 @@ class Simulation:
 
     def catch_up(self) -> None:
         """Bring the columns of particles asleep to the present."""
-        activity.catch_up(self.particles, self.time, self.columns)
+        activity.catch_up(self.particles, self.time, self.surroundings.columns)
 
     def idle_until(self, end: float) -> None:
         """While nothing moves, let time pass until `end` [s] or until something flows in."""
@@ -238,7 +235,7 @@ class Simulation:
         if self.idle and self.time < end:
             self._pass_time(max(self.time, min(end, self.inflow.next_time)))
             p, state = self.particles, self.state
-            if self.inflow.enter(p, self.bed.surface, self.columns, self.time):
+            if self.inflow.enter(p, self.bed.surface, self.surroundings.columns, self.time):
                 state.outdated = True
                 state.bodies.separate(p)
                 self._refresh_if_outdated()
@@ -266,9 +263,8 @@ class Simulation:
 
     def held_at_rest(self, which: slice, pressure):
         """Return which particles friction would hold at rest under some basal excess pore pressure [Pa], shape (n,)."""
-        return held_at_rest(
-            self.particles, which, pressure, self.friction, self.phases, self.state.exchange, self.walls
-        )
+        near, exchange = self.surroundings, self.state.exchange
+        return held_at_rest(self.particles, which, pressure, near.friction, self.phases, exchange, near.walls)
 
     def set_free(self) -> None:
         """Set arrested particles free."""
@@ -283,7 +279,7 @@ class Simulation:
         p = self.particles
         if p.count == 0:  # also before there is a bed
             return p.excess_pore_pressure
-        return present_profiles(p, slice(p.count), self.columns)
+        return present_profiles(p, slice(p.count), self.surroundings.columns)
 
     def settle(self):
         """Lay the mass into the bed and forget the particles; return nodes and the depth laid on each [m]."""

@@ -30,21 +30,22 @@ KICK, ENTRAINMENT, DRIFT, SUMMATION, COLUMNS, LIMITS = range(6)
 
 def advance(simulation, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
-    state, bed, walls, material = simulation.state, simulation.bed, simulation.walls, simulation.physics.material
-    p, exchange, inflow, columns = state.particles, state.exchange, state.inflow, simulation.columns
-    phases, friction, end = simulation.phases, simulation.friction, state.time + dt
+    state, phases, setup = simulation.state, simulation.phases, simulation.setup
+    p, exchange, inflow, end = state.particles, state.exchange, state.inflow, state.time + dt
+    bed, walls, friction, erosion, columns, courant_number = simulation.surroundings
+    material = setup.material
     clock = state.counters.clock()
     friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, state.time + 0.5 * dt)
     clock.lap(KICK)
     prescribed = inflow.prescribed(p)
-    velocity_ratio = entrain(p, exchange, bed, simulation.erosion, phases, prescribed, state.time, dt)
+    velocity_ratio = entrain(p, exchange, bed, erosion, phases, prescribed, state.time, dt)
     clock.lap(ENTRAINMENT)
     move(p, bed, velocity_ratio, state.outflow, phases, state.time, dt)
     inflow.enter(p, bed.surface, columns, end)
     sample_bed(p, bed, material.gravity, dt)
     clock.lap(DRIFT)
-    interact(p, exchange, simulation.physics.flow, simulation.numerics, columns, inflow, walls, state.time)
+    interact(p, exchange, setup.flow, setup.numerics, columns, inflow, walls, state.time)
     activity.wake(p, activity.disturbed(p))
     clock.lap(SUMMATION)
     load_bed(p, bed.pore_pressure, material, end, dt)
@@ -53,7 +54,7 @@ def advance(simulation, dt: float) -> None:
     friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, simulation.courant_number, friction, state.time, dt)
+    state.limits = find_limits(p, phases, courant_number, friction, state.time, dt)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)

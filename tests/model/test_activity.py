@@ -30,7 +30,8 @@ def asleep(flow):
 
 
 def fall_asleep(sim):
-    activity.fall_asleep(sim.particles, sim.time, sim.columns, sim.friction, sim.state.exchange, sim.walls)
+    near = sim.surroundings
+    activity.fall_asleep(sim.particles, sim.time, near.columns, near.friction, sim.state.exchange, near.walls)
 
 
 @pytest.fixture
@@ -68,7 +69,7 @@ def test_who_falls_asleep(slope, base, above, sleeps):
     assert np.unique(p.identity).size == p.count
     assert np.all(sim.held_at_rest(slice(p.awake, p.count), np.zeros(lie)))
     # who moves, or has a neighbour that does, does not sleep
-    activity.wake_all(p, sim.time, sim.columns)
+    activity.wake_all(p, sim.time, sim.surroundings.columns)
     p.velocity[0, :] = 1e-9
     fall_asleep(sim)
     p.velocity[:], p.summed[:] = 0.0, True

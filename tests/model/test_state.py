@@ -53,7 +53,7 @@ def build(scene, particles=60):
     laws, hydrographs = SCENES[scene]
     numerics = Numerics(particle_count=particles)
     inflow = Inflow([Hydrograph(**each) for each in hydrographs], numerics)
-    return Simulation(Setup(**laws), numerics, inflow)
+    return Simulation(Setup(**laws, numerics=numerics), inflow)
 
 
 def call(simulation, terrain, seconds, failing=None, changed=False):
@@ -62,7 +62,7 @@ def call(simulation, terrain, seconds, failing=None, changed=False):
         terrain.elevation[failing] -= 1.0
     bed = terrain.bed()
     simulation.inflow.aim(bed.surface)
-    laws = {"friction": simulation.physics.friction, "erosion": simulation.physics.erosion}
+    laws = {"friction": simulation.setup.friction, "erosion": simulation.setup.erosion}
     simulation.set_bed(bed, {kind: on_nodes(law, {}) for kind, law in laws.items()}, changed)
     if failing is not None:
         nodes = np.flatnonzero(failing)
@@ -105,7 +105,7 @@ def test_it_runs_to_rest_on_arrays_alone():
 def test_written_read_and_continued_it_is_the_run_without_interruption(scene, tmp_path):
     simulation, terrain = begun(scene)
     p = simulation.particles
-    assert simulation.physics.two_phases or scene != "sleeps" or 0 < p.awake < p.count
+    assert simulation.setup.two_phases or scene != "sleeps" or 0 < p.awake < p.count
     assert scene != "erodes" or p.entrained_volume.any()
     assert "flow" not in scene or "in" not in scene or simulation.inflow.prescribed(p).size
     path = write_dataset(tmp_path / "state.nc", simulation.state.to_dataset())

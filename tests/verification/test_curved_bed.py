@@ -61,7 +61,8 @@ def test_the_bed_carries_weight_and_centripetal_force():
     """N/m = g cos phi + v^2/R, at the bottom g + v^2/R: 1.66 g here."""
     flow, phi, speed = through_the_dip(0.0, 20.0, 2.4)
     simulation = flow._simulation
-    normal = basal_state(simulation.particles, slice(simulation.particles.awake), simulation.friction).normal_gravity
+    p, friction = simulation.particles, simulation.surroundings.friction
+    normal = basal_state(p, slice(p.awake), friction).normal_gravity
     at_bottom = abs(phi) < np.radians(3.0)
     assert at_bottom.sum() > 10
     np.testing.assert_allclose(normal[at_bottom], G + speed[at_bottom] ** 2 / RADIUS, rtol=0.01)

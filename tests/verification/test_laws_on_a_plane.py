@@ -147,7 +147,8 @@ def test_friction_never_reverses_what_it_stops(law, velocity, gently):
     for dt in 10.0 ** np.arange(-4.0, 5.0):
         throw(flow, velocity * DOWN)
         sim = flow._simulation
-        step.friction_and_kick(sim.particles, sim.state.exchange, sim.friction, sim.phases, sim.walls, dt)
+        near = sim.surroundings
+        step.friction_and_kick(sim.particles, sim.state.exchange, near.friction, sim.phases, near.walls, dt)
         after = speed(flow)
         assert 0.0 <= after * velocity <= velocity * velocity * (1.0 + 1e-12)
 

@@ -1,0 +1,49 @@
+"""Inputs of a call as the stages of a step want them: the bed, its walls, and the laws at the base."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..spatial.raster import CLOSED, Raster
+from ..terrain.bed import Bed
+from .basal import BasalLaw, ColumnPhysics
+from .time_step import viscous_share
+
+
+class Surroundings(NamedTuple):
+    """Bed of a call and laws on it; replaced as a whole by the next call."""
+
+    bed: Bed
+    walls: Raster | None  # None where no node is closed
+    friction: BasalLaw
+    erosion: BasalLaw
+    columns: ColumnPhysics
+    courant_number: float  # [-]
+
+
+def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surroundings:
+    """Return the surroundings of a flow on a bed.
+
+    Parameters
+    ----------
+    setup : Setup
+    phases : Phases
+    bed : Bed
+    parameters : mapping of str to NamedTuple
+        Parameters of the laws of friction and erosion (`core.parameters.on_nodes`).
+    """
+    material, numerics, raster = setup.material, setup.numerics, bed.raster
+    friction, erosion = (
+        BasalLaw(law, parameters[kind], material, raster.spacing, getattr(law, "variables", ()))
+        for kind, law in (("friction", setup.friction), ("erosion", setup.erosion))
+    )
+    water_to_buoyant = material.bearing_density / material.buoyant_density
+    return Surroundings(
+        bed=bed,
+        walls=raster if np.any(raster.status == CLOSED) else None,
+        friction=friction,
+        erosion=erosion,
+        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant),
+        courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
+    )
