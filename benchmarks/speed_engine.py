@@ -20,7 +20,7 @@ from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
 from landlab_debrisflow.scene import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
+from landlab_debrisflow.spatial.packing import LANES, Position, copy_neighbourhood, empty_packed
 from landlab_debrisflow.spatial.summation import SummationInput, Sums, _pack, sum_over_neighbours
 from landlab_debrisflow.terrain import bed
 from validation.cases.planes import similarity_body
@@ -129,16 +129,18 @@ def sums(flow, repeats) -> SumRate:
 def pairs(cells, given):
     """Return how many pairs per particle are computed, and how many of them are in reach of one another."""
     n, packed = given.volume.size, empty_packed(cells, values=10)
-    _pack(cells.order, given, packed)
-    found = _count(cells, packed)
+    _pack(cells.order, (tuple(given.position), *given[1:]), packed)
+    found = _count(tuple(cells), packed)
     return found[0] / n, found[1] / n
 
 
 @numba.njit
 def _count(cells, packed):
-    start, places, values, room = cells.start, packed.places, packed.values, packed.places.shape[1] + LANES
+    _, _, _, start, _, _, _, _, _ = cells
+    places, values, quantum = packed
+    room = places.shape[1] + LANES
     near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
-    scratch, computed, acting = Packed(near_places, near, packed.quantum), 0, 0
+    scratch, computed, acting = (near_places, near, quantum), 0, 0
     for cell in range(start.size - 1):
         if start[cell] == start[cell + 1]:
             continue

@@ -50,7 +50,7 @@ def first_start(tmp_path_factory):
 def test_every_kernel_of_an_event_is_compiled_for_one_signature(first_start):
     found = {(module, name): int(count) for module, name, count in first_start[1][:-1]}
     used = {name for (_, name), count in found.items() if count}
-    assert {"account", "stand", "close", "look", "open_up", "grow", "settle"} <= used
+    assert {"accumulate", "set_contact", "to_modes", "advance_modes", "to_levels", "grow", "commit"} <= used
     assert {name: count for name, count in found.items() if count > 1} == {}
 
 

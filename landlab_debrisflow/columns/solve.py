@@ -14,6 +14,7 @@ from ..physics.contracts import BaseContact
 from .arguments import History, Inputs, read_inputs, refuse
 from .dataset import dataset
 
+DRAINED, PRESCRIBED = np.int8(BaseContact.DRAINED), np.int8(BaseContact.PRESCRIBED)
 CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
 TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
 BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
@@ -217,9 +218,9 @@ class _History:
         """Return the members of `ColumnForcing` that come from the bed, in a step that ends at `time` [s]."""
         inputs = self.inputs
         base, bed = inputs.base.at(middle), inputs.bed_pressure(time, thickness)
-        drained = base == BaseContact.DRAINED
+        drained = base == DRAINED
         return {
-            "base": np.where(drained, BaseContact.PRESCRIBED, base),
+            "base": np.where(drained, PRESCRIBED, base),
             "bed_pressure": np.where(drained, 0.0, bed),
             "porosity_source": inputs.porosity_source.at(middle),
         }

@@ -55,6 +55,7 @@ class BasalLaw(NamedTuple):
     material: Any  # physics.material.Material
     spacing: float  # smaller node spacing of the raster [m]
     variables: tuple  # of Variable, those that the law brought
+    varies: bool  # whether a parameter varies in space
 
 
 class ColumnPhysics(NamedTuple):
@@ -96,7 +97,10 @@ def basal_state(
     speed, normal_gravity, effective = press_on_bed(
         first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
     )  # fmt: skip
-    here = (values if values.size == 1 else values[p.nearest_node[which]] for values in basal.parameters)
+    parameters = basal.parameters
+    if basal.varies:
+        here = (values if values.size == 1 else values[p.nearest_node[which]] for values in parameters)
+        parameters = type(parameters)(*here)
     return BasalState(
         depth=depth,
         thickness=thickness,
@@ -106,7 +110,7 @@ def basal_state(
         stress=BasalStress(effective, p.liquefaction_pressure[which], pressure),
         eroded_depth=eroded_depth,
         material=material,
-        parameters=type(basal.parameters)(*here),
+        parameters=parameters,
         variables=_variables(p, which, basal, asking) if basal.variables else NO_VARIABLES,
     )
 

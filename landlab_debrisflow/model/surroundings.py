@@ -35,7 +35,14 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
     """
     material, numerics, raster = setup.material, setup.numerics, bed.raster
     friction, erosion = (
-        BasalLaw(law, parameters[kind], material, raster.spacing, getattr(law, "variables", ()))
+        BasalLaw(
+            law=law,
+            parameters=parameters[kind],
+            material=material,
+            spacing=raster.spacing,
+            variables=getattr(law, "variables", ()),
+            varies=any(values.size > 1 for values in parameters[kind]),
+        )
         for kind, law in (("friction", setup.friction), ("erosion", setup.erosion))
     )
     water_to_buoyant = material.bearing_density / material.buoyant_density

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
 from .cells import Cells, over_cells
-from .packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
+from .packing import LANES, Position, copy_neighbourhood, empty_packed
 from .summation import NORM, SLOPE
 
 _X, _Y, _Z = 0, 1, 2
@@ -72,10 +72,11 @@ def sum_over_other_phase(
     f_i = - sum_j V_j [s_i grad W(l_i) + s_j grad W(l_j)]: V_i f_i and V_j f_j are equal and opposite.
     """
     packed_one, packed_other = empty_packed(one, values=5), empty_packed(other, values=5)
-    _pack(one.order, given, packed_one)
-    _pack(other.order, given, packed_other)
-    over_cells(_sum, one, threads, one, other, packed_one, packed_other, sums)
-    over_cells(_sum, other, threads, other, one, packed_other, packed_one, sums)
+    plain, found = (tuple(given.position), *given[1:]), tuple(sums)  # calls kernels faster (core/structs.py)
+    _pack(one.order, plain, packed_one)
+    _pack(other.order, plain, packed_other)
+    over_cells(_sum, one, threads, tuple(one), tuple(other), packed_one, packed_other, found)
+    over_cells(_sum, other, threads, tuple(other), tuple(one), packed_other, packed_one, found)
 
 
 @kernel
@@ -90,8 +91,8 @@ def _pack(order, given, packed):
     packed : Packed
         Written, five values of each particle.
     """
-    x, y, z = given.position
-    volume, length, coefficient, averaged = given[1:]
+    position, volume, length, coefficient, averaged = given
+    x, y, z = position
     places, values, quantum = packed
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
     for k in range(order.size):
@@ -119,11 +120,12 @@ def _sum(first, last, targets, sources, packed, packed_sources, sums):
     sums : CrossPhaseSums
         Written, the force added to.
     """
-    order, start, awake, places, values = targets.order, targets.start, targets.awake, packed.places, packed.values
+    _, _, order, start, _, _, _, awake, _ = targets
+    places, values, quantum = packed
     thickness, cross_term, mean, force = sums
-    room, quantum = packed_sources.places.shape[1] + LANES, packed.quantum
+    room = packed_sources[0].shape[1] + LANES
     near_places, near = np.empty((3, room), np.int32), np.empty((5, room), np.float32)
-    scratch = Packed(near_places, near, quantum)
+    scratch = near_places, near, quantum
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:
             continue

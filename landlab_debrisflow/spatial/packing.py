@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import inner
+from ..core.structs import struct
 from .cells import Cells
 
 PLACES_PER_CELL = 2.0**23
@@ -30,6 +31,7 @@ class Position(NamedTuple):
     z: np.ndarray  # (n,) elevation of the bed [m]
 
 
+@struct
 class Packed(NamedTuple):
     """Particles in the order of their cells, with room for one more vector behind the last."""
 
@@ -38,10 +40,13 @@ class Packed(NamedTuple):
     quantum: float  # length of a place [m]
 
 
-def empty_packed(cells: Cells, values: int) -> Packed:
-    """Return room for the particles of some cells, with so many values of each."""
+def empty_packed(cells: Cells, values: int) -> tuple:
+    """Return a `Packed` with room for the particles of some cells, with so many values of each."""
     room = cells.order.size + LANES
-    return Packed(np.empty((3, room), np.int32), np.empty((values, room), np.float32), cells.size / PLACES_PER_CELL)
+    return Packed(
+        places=np.empty((3, room), np.int32), values=np.empty((values, room), np.float32),
+        quantum=cells.size / PLACES_PER_CELL,
+    )  # fmt: skip
 
 
 @inner
@@ -56,8 +61,9 @@ def copy_neighbourhood(cell, cells, packed, scratch):
     packed, scratch : Packed
         The scratch has one vector more than the particles that act.
     """
-    columns, start, reach, box, window = cells.columns, cells.start, cells.reach, cells.box, cells.window
-    places, values, near_places, near_values = packed.places, packed.values, scratch.places, scratch.values
+    columns, _, _, start, reach, box, window, _, _ = cells
+    places, values, _ = packed
+    near_places, near_values, _ = scratch
     rows = (start.size - 1) // columns
     row, column, w, m = cell // columns, cell % columns, window[cell], 0
     for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):

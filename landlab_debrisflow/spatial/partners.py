@@ -48,7 +48,7 @@ def find_partners(targets: Cells, sources: Cells, position: Position, volume, sm
         index=np.empty((grains.size, MOST_PARTNERS), np.int64),
         weight=np.empty((grains.size, MOST_PARTNERS)),
     )
-    _find(targets, sources, position, volume, smoothing_length, partners)
+    _find(tuple(targets), tuple(sources), tuple(position), volume, smoothing_length, tuple(partners))
     return partners
 
 
@@ -65,9 +65,10 @@ def _find(targets, sources, position, volume, length, partners):
     partners : Partners
         Written but for ``of``, which is in the order of the targets.
     """
-    columns, order, start, box, window = targets.columns, targets.order, targets.start, targets.box, targets.window
-    source_order, source_start = sources.order, sources.start
-    x, y, z, count, index, weight = position.x, position.y, position.z, partners.count, partners.index, partners.weight
+    columns, _, order, start, _, box, window, _, _ = targets
+    _, _, source_order, source_start, _, _, _, _, _ = sources
+    x, y, z = position
+    _, count, index, weight = partners
     n, rows, row_of = x.size, (start.size - 1) // columns, 0
     for cell in range(start.size - 1):
         if start[cell] == start[cell + 1]:

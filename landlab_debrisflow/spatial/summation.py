@@ -21,7 +21,7 @@ import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
 from .cells import Cells, over_cells
-from .packing import LANES, Packed, Position, copy_neighbourhood, empty_packed
+from .packing import LANES, Position, copy_neighbourhood, empty_packed
 
 SMOOTHING_RATIO = 1.4
 """Smoothing length over particle spacing (V/h)^(1/2) [-]."""
@@ -96,8 +96,9 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
     length was set: one pass per time step is enough. The pressure coefficient has Omega of the pass before.
     """
     packed = empty_packed(cells, values=10)
-    _pack(cells.order, given, packed)
-    over_cells(_sum, cells, threads, cells, packed, given, viscosity, sums)
+    plain = tuple(given.position), *given[1:]  # a kernel is called faster with plain tuples (core/structs.py)
+    _pack(cells.order, plain, packed)
+    over_cells(_sum, cells, threads, tuple(cells), packed, plain, viscosity, tuple(sums))
 
 
 def plain_thickness(volume, smoothing_length, sums: Sums):
@@ -134,11 +135,8 @@ def _pack(order, given, packed):
     packed : Packed
         Written, ten values of each particle.
     """
-    x, y, z = given.position
-    velocity, volume, length, coefficient = (
-        given.velocity, given.volume, given.smoothing_length, given.pressure_coefficient
-    )  # fmt: skip
-    celerity, thickness, convergence = given.celerity, given.thickness, given.convergence
+    position, velocity, volume, length, _, coefficient, celerity, thickness, convergence, _ = given
+    x, y, z = position
     places, values, quantum = packed
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
     for k in range(order.size):
@@ -173,12 +171,13 @@ def _sum(first, last, cells, packed, given, viscosity, sums):
     sums : Sums
         Written, for at most n particles.
     """
-    order, start, awake, places, values = cells.order, cells.start, cells.awake, packed.places, packed.values
-    volumes, lengths, longest, inertia = given.volume, given.smoothing_length, given.longest, given.inertia
+    _, _, order, start, _, _, _, awake, _ = cells
+    places, values, quantum = packed
+    _, _, volumes, lengths, longest, _, _, _, _, inertia = given
     thickness, gradient_term, next_length, acceleration, convergence = sums
-    room, quantum = order.size + 2 * LANES, packed.quantum
+    room = order.size + 2 * LANES
     near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
-    scratch = Packed(near_places, near, quantum)
+    scratch = near_places, near, quantum
     quarter = _F(0.25 * viscosity)
     for cell in range(first, last):
         if start[cell] == start[cell + 1] or not awake[cell]:

@@ -50,17 +50,20 @@ def forcing_at_rest(
         "water_to_buoyant": water_to_buoyant,
         "bounded": bounded,
     }
-    return ColumnForcing(**_arrays(members, np.size(volume)))
+    arrays = _arrays(members, np.size(volume))
+    return ColumnForcing(**{name: value.copy() if name not in SWITCHES else value for name, value in arrays.items()})
 
 
 def _arrays(members, count: int) -> dict:
-    """Return members of `ColumnForcing` as new arrays of their type and shape."""
+    """Return members of `ColumnForcing` in their type and shape; arrays that have these already are not copied."""
     arrays = {}
     for name, value in members.items():
-        if name in PER_COLUMN:
-            value = np.array(np.broadcast_to(value, (count,)), float)
-        elif name not in SWITCHES:
-            value = np.array(value, np.int8 if name == "base" else float, ndmin=1)
+        if name not in SWITCHES:
+            value = np.asarray(value, np.int8 if name == "base" else float)
+            if name in PER_COLUMN and value.shape != (count,):
+                value = np.full(count, value)
+            elif value.ndim == 0:
+                value = value.reshape(1)
         arrays[name] = value
     return arrays
 
@@ -120,7 +123,7 @@ class Columns:
             Volume that comes in at the base [m3].
         **changes
             Members of `ColumnForcing` that are not as before. Without them the thickness grows as the volume does, and
-            the liquefaction pressure as the thickness.
+            the liquefaction pressure as the thickness. Arrays are kept, not copied: they must not change any more.
 
         Returns
         -------
