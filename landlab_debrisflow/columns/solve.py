@@ -210,8 +210,8 @@ class _History:
         self.first_eroded = np.where(np.isnan(self.first_eroded) & (rate > 0.0), self.time, self.first_eroded)
         self.time = end
         self.columns.step(
-            dt, entrained, thickness=thickness, liquefaction_pressure=inputs.liquefaction_pressure(thickness),
-            **self._base(end, middle, thickness),
+            dt, entrained, volume=volume, thickness=thickness,
+            liquefaction_pressure=inputs.liquefaction_pressure(thickness), **self._base(end, middle, thickness),
         )  # fmt: skip
 
     def _base(self, time: float, middle: float, thickness) -> dict[str, np.ndarray]:

@@ -132,9 +132,10 @@ class Columns:
         """
         old = self.forcing
         changes = _arrays({"entrained": entrained, **changes}, old.volume.size)
-        volume = changes.setdefault("volume", old.volume + changes["entrained"])
+        if "volume" not in changes:
+            changes["volume"] = old.volume + changes["entrained"]
         if "thickness" not in changes:
-            changes["thickness"] = old.thickness * (volume / old.volume)
+            changes["thickness"] = old.thickness * (changes["volume"] / old.volume)
         if "liquefaction_pressure" not in changes:
             changes["liquefaction_pressure"] = old.liquefaction_pressure * (changes["thickness"] / old.thickness)
         self.forcing = old._replace(**changes)

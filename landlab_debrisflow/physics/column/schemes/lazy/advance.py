@@ -16,7 +16,7 @@ from .flux_base import grow_by_flux, impermeable_inflow
 from .impermeable_base import advance_modes, clip_modes, to_levels, to_modes
 from .modes import modes_of
 from .prescribed_base import commit, diffuse, grow
-from .state import LazyColumns, records
+from .state import LazyColumns, Present, records
 
 ROUNDING = 1e-9
 """Pressure out of bounds over the load that a column in modes may have just after an update [-]."""
@@ -44,7 +44,7 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     counts = accumulate(state, every, forcing, dt, basal_pressure, scheme, due, EXCESS)
     if counts == NONE_DUE:
         return
-    columns = LazyColumns(columns.profile, state, columns.clipped)
+    columns = LazyColumns(profile=columns.profile, state=state, clipped=columns.clipped)
     if count := counts[CHANGED]:
         changed, due_then = due[CHANGED, :count], np.empty((3, count), np.int64)
         _switch(columns, changed, forcing, basal_pressure, scheme)
@@ -55,7 +55,8 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
 
 def synchronise_columns(columns, forcing, scheme):
     """Turn every column into pressures at levels, as they are now; arguments as in `advance_columns`."""
-    count, columns = columns.profile.shape[0], LazyColumns(columns.profile, records(columns.memory), columns.clipped)
+    count, state = columns.profile.shape[0], records(columns.memory)
+    columns = LazyColumns(profile=columns.profile, state=state, clipped=columns.clipped)
     _synchronise(columns, np.arange(count), forcing, np.empty(count), scheme)
 
 
@@ -67,18 +68,20 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
         selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
         advance_modes(columns, selected, modes)
         # the base as it is now, and the columns that are out of bounds
-        counts = accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
+        _, state, _ = columns
+        counts = accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
         if count := counts[IN_MODES]:
             selected = due[IN_MODES, :count].copy()
             clip_modes(columns, selected, forcing, modes)
-            accumulate(columns.state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
+            accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
 
 
 def _switch(columns, selected, forcing, basal_pressure, scheme):
     """Put some columns on another base."""
+    _, state, _ = columns
     before = forcing._replace(
-        volume=forcing.volume - forcing.entrained, liquefaction_pressure=columns.state["load"].copy()
-    )
+        volume=forcing.volume - forcing.entrained, liquefaction_pressure=state["load"].copy()
+    )  # fmt: skip
     _synchronise(columns, selected, before, basal_pressure, scheme)
     closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
     if count := set_contact(columns, selected, forcing, scheme, closing):
@@ -88,7 +91,8 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
 
 def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     """Turn some columns into pressures at levels, as they are now."""
-    contact = columns.state["contact"][selected]
+    _, state, _ = columns
+    contact = state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
         modes = modes_of(scheme.levels)
         advance_modes(columns, in_modes, modes)
@@ -105,15 +109,16 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     ends, the jump at a base that has just changed, which levels do not see yet, and the content of the layer over it,
     over that jump and the thickness, are remembered.
     """
-    contact, volume = columns.state["contact"][selected], forcing.volume[selected]
-    modes = modes_of(scheme.levels)
+    _, state, _ = columns
+    contact, modes = state["contact"][selected], modes_of(scheme.levels)
+    present = Present(volume=forcing.volume, load=forcing.liquefaction_pressure)
     if (some := selected[contact == SEALED]).size:
-        impermeable_inflow(columns, some, forcing, scheme)
-    growing = scheme.moves_with_grains & (volume > columns.state["volume_at_update"][selected])
+        impermeable_inflow(columns, some, present, scheme)
+    growing = scheme.moves_with_grains & (forcing.volume[selected] > state["volume_at_update"][selected])
     if (some := selected[growing & (contact < INFLOW)]).size:
-        grow(columns, some, forcing, ending, scheme, modes)
+        grow(columns, some, present, ending, scheme, modes)
     if (some := selected[growing & (contact >= INFLOW)]).size:
-        grow_by_flux(columns, some, forcing, scheme, modes)
+        grow_by_flux(columns, some, present, scheme, modes)
     if (some := selected[~growing]).size:
-        diffuse(columns, some, forcing, ending, scheme, modes)
+        diffuse(columns, some, present, ending, scheme, modes)
     commit(columns, selected, forcing, basal_pressure)

@@ -187,7 +187,7 @@ def set_contact(columns, selected, forcing, scheme, closing):
         Number of columns over an impermeable base.
     """
     loads, volumes, entrained = forcing.liquefaction_pressure, forcing.volume, forcing.entrained
-    beds, bases, state, count = forcing.bed_pressure, forcing.base, columns.state, 0
+    (_, state, _), beds, bases, count = columns, forcing.bed_pressure, forcing.base, 0
     for i in selected:
         contact = contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux)
         if contact == IMPERMEABLE:

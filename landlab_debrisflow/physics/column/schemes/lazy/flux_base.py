@@ -13,10 +13,10 @@ from .remap import remap_profile
 
 
 @kernel
-def impermeable_inflow(columns, selected, forcing, scheme):
+def impermeable_inflow(columns, selected, present, scheme):
     """Give the soil that comes into columns the pressure of their base, and load it; arguments as in `grow_by_flux`."""
-    profile, state = columns.profile, columns.state
-    volumes, loads = forcing.volume, forcing.liquefaction_pressure
+    profile, state, _ = columns
+    volumes, loads = present
     for i in selected:
         column, volume, load = state[i], volumes[i], loads[i]
         start = column.volume_at_update
@@ -29,7 +29,7 @@ def impermeable_inflow(columns, selected, forcing, scheme):
 
 
 @kernel
-def grow_by_flux(columns, selected, forcing, scheme, modes):
+def grow_by_flux(columns, selected, present, scheme, modes):
     """Diffuse columns that grow by soil that brings its own pressure alone; see `prescribed_base.grow`.
 
     Parameters
@@ -38,15 +38,14 @@ def grow_by_flux(columns, selected, forcing, scheme, modes):
         Written in place.
     selected : ndarray of int
         Indices of the columns.
-    forcing : ColumnForcing
-        Volume and load of the present.
+    present : Present
     scheme : Scheme
         Choices of the law.
     modes : Modes
         Of columns of so many levels.
     """
-    profile, state = columns.profile, columns.state
-    volumes, loads = forcing.volume, forcing.liquefaction_pressure
+    profile, state, _ = columns
+    volumes, loads = present
     cells = profile.shape[1] - 1
     work = np.empty((2, cells + 1))
     for i in selected:

@@ -41,7 +41,7 @@ def to_modes(columns, selected, modes):
     modes : Modes
         Of columns of so many levels.
     """
-    profile, state = columns.profile, columns.state
+    profile, state, _ = columns
     cells = profile.shape[1] - 1
     levels, of_layer = np.empty(cells), np.empty(cells)
     for i in selected:
@@ -102,7 +102,7 @@ def _forget_loads(column):
 @kernel
 def to_levels(columns, selected, modes):
     """Turn columns in modes, just updated, into pressures at levels; arguments as in `to_modes`."""
-    profile, state = columns.profile, columns.state
+    profile, state, _ = columns
     cells = profile.shape[1] - 1
     levels = np.empty(cells)
     for i in selected:
@@ -123,7 +123,7 @@ def to_levels(columns, selected, modes):
 @kernel
 def advance_modes(columns, selected, modes):
     """Update columns in modes: let them decay under the loads since the last update; arguments as in `to_modes`."""
-    profile, state = columns.profile, columns.state
+    profile, state, _ = columns
     ramp, uniform = modes.ramp[NEUMANN], modes.uniform[NEUMANN]
     cells = profile.shape[1] - 1
     factors = np.empty(cells)
@@ -203,7 +203,7 @@ def clip_modes(columns, selected, forcing, modes):
 
     Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
-    profile, state, clipped = columns.profile, columns.state, columns.clipped
+    profile, state, clipped = columns
     loads, thicknesses, lower = forcing.liquefaction_pressure, forcing.thickness, forcing.water_to_buoyant
     cells = profile.shape[1] - 1
     levels = np.empty(cells)

@@ -30,10 +30,10 @@ def load_strain(load, old_load, volume, start):
 
 
 @kernel
-def diffuse(columns, selected, forcing, ending, scheme, modes):
+def diffuse(columns, selected, present, ending, scheme, modes):
     """Diffuse and load columns whose grains keep their place; arguments as in `grow`."""
-    profile, state = columns.profile, columns.state
-    volumes, loads = forcing.volume, forcing.liquefaction_pressure
+    profile, state, _ = columns
+    volumes, loads = present
     cells = profile.shape[1] - 1
     work = np.empty(cells)
     for i in selected:
@@ -71,7 +71,7 @@ def diffuse(columns, selected, forcing, ending, scheme, modes):
 
 
 @kernel
-def grow(columns, selected, forcing, ending, scheme, modes):
+def grow(columns, selected, present, ending, scheme, modes):
     """Diffuse columns that grow by soil that comes in at a prescribed base.
 
     Carried along with the grains is ``weight * load * eta - p``, the effective stress or less the
@@ -83,8 +83,7 @@ def grow(columns, selected, forcing, ending, scheme, modes):
         Written in place.
     selected : ndarray of int
         Indices of the columns.
-    forcing : ColumnForcing
-        Volume and load of the present.
+    present : Present
     ending : bool
         Whether this is the last update over this contact.
     scheme : Scheme
@@ -92,8 +91,8 @@ def grow(columns, selected, forcing, ending, scheme, modes):
     modes : Modes
         Of columns of so many levels.
     """
-    profile, state = columns.profile, columns.state
-    volumes, loads = forcing.volume, forcing.liquefaction_pressure
+    profile, state, _ = columns
+    volumes, loads = present
     cells = profile.shape[1] - 1
     work = np.empty((2, cells + 1))
     for i in selected:
@@ -159,7 +158,8 @@ def commit(columns, selected, forcing, basal_pressure):
 
     Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
-    profile, state, clipped, lower = columns.profile, columns.state, columns.clipped, forcing.water_to_buoyant
+    profile, state, clipped = columns
+    lower = forcing.water_to_buoyant
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     cells = profile.shape[1] - 1
     for i in selected:

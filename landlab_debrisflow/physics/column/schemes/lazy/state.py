@@ -44,6 +44,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .....core.structs import struct
+
 BANDS = 4  # of modes too short for the levels, seen at an impermeable base
 
 ALWAYS = ("contact", "load", "diffusion", "source_gain", "base_pressure")
@@ -63,12 +65,21 @@ SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
 """Number of floats of a column in `ColumnState.memory`."""
 
 
+@struct
 class LazyColumns(NamedTuple):
     """The arrays of n columns, `ColumnState` with its memory as records."""
 
     profile: np.ndarray  # (n, levels) pressure at levels, or in all but the last the amplitudes of modes [Pa]
     state: np.ndarray  # (n,) of `LAYOUT`
     clipped: np.ndarray  # (n,) pressure taken off by the bounds times thickness, so far [Pa m]
+
+
+@struct
+class Present(NamedTuple):
+    """What n columns bear now."""
+
+    volume: np.ndarray  # (n,) [m3]
+    load: np.ndarray  # (n,) liquefaction pressure [Pa]
 
 
 def records(memory) -> np.ndarray:
