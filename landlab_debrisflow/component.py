@@ -172,7 +172,7 @@ class DebrisFlow(Component):
             self._call.run(dt, stop_at_rest=False)
 
     def run_until_rest(self, max_duration: float = 3600.0) -> bool:
-        """Run the whole event.
+        """Run the event until everything is at rest and no inflow is left, or for a longest time.
 
         Parameters
         ----------

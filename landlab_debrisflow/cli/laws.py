@@ -36,15 +36,33 @@ HEADINGS = ("parameter", "unit", "default", "allowed", "in space", "meaning")
 
 
 class Entry(typing.NamedTuple):
-    """Declaration of one class in words."""
+    """Declaration of one class in words.
 
-    title: str  # "friction: voellmy", or a keyword that is no law
+    Attributes
+    ----------
+    title : str
+        "friction: voellmy", or a keyword that is no law.
+    cls : type
+        The declared class.
+    formula : str
+        Formula of a law; else "".
+    summary : str
+        Meaning in a line; may be empty for a law.
+    details : str
+        Further paragraphs.
+    source : str
+        Publications; "" if there is none.
+    rows : list of tuple of str
+        One row for each parameter, with a cell for each of `HEADINGS`.
+    """
+
+    title: str
     cls: type
-    formula: str  # of a law, else ""
-    summary: str  # meaning in a line; may be empty for a law
-    details: str  # further paragraphs
-    source: str  # "" if there is none
-    rows: list  # of its parameters, one str for each of HEADINGS
+    formula: str
+    summary: str
+    details: str
+    source: str
+    rows: list
 
 
 def law_entries(kind: str) -> list[Entry]:

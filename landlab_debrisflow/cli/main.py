@@ -77,7 +77,10 @@ def _info(arguments):
 
 
 def _show(console, entry, remark=""):
-    """Print formula, source and parameters of a declared class."""
+    """Print formula, source and parameters of a declared class.
+
+    `console` is of rich, `entry` an `Entry` of cli/laws.py, `remark` text behind its title.
+    """
     words = ": ".join(filter(None, (entry.formula, entry.summary)))
     console.print(f"[bold]{entry.title}{remark}[/bold]  {escape(words)}", highlight=False)
     if entry.source:

@@ -56,7 +56,10 @@ class History:
 def checked_numbers(
     name: str, argument: dataclasses.Field, value: Any, when: str = "", each: str = "column"
 ) -> np.ndarray:
-    """Return one number, or one for ``each``, as an array of 0 or 1 dimensions, or raise ParameterError."""
+    """Return `value`, one number or one for ``each``, as array (0 or 1 dimensions); else raise ParameterError.
+
+    `argument` declares the argument `name`: unit, bounds, remedy. `when` is text on the time, for the message.
+    """
     array, meta = _float_array(value), argument.metadata
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
@@ -71,7 +74,7 @@ def checked_numbers(
 
 
 def _float_array(value):
-    """Return real numbers as an array of floats; None for anything else."""
+    """Return real numbers, one or a sequence, as an array of floats of that shape; None for anything else."""
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different lengths
@@ -89,23 +92,57 @@ def _contacts(value, when="") -> np.ndarray:
 
 
 class Inputs(NamedTuple):
-    """Arguments of `solve_column`, checked and spread over n columns."""
+    """Arguments of `solve_column`, checked and spread over n columns.
 
-    times: np.ndarray  # of output [s]
-    law: Any  # a ColumnLaw
-    profile: np.ndarray  # (n, levels), at time 0 [Pa]
-    thickness: np.ndarray  # (n,), at time 0 [m]
-    coefficient_of_consolidation: np.ndarray  # (n,) [m2 s-1]
-    loading: np.ndarray  # (n,), all 0 or all > 0 [Pa m-1]
-    pressure_scale: np.ndarray  # (n,), stands for the liquefaction pressure where there is no loading [Pa]
-    entrainment_rate: History  # [m s-1]
-    divergence_rate: History  # [s-1]
-    porosity_source: History  # [Pa s-1]
-    base: History  # values of BASE
-    bed: History  # pressure [Pa], or ratio [-]
+    Attributes
+    ----------
+    times : ndarray, shape (times,)
+        Times of output [s].
+    law : ColumnLaw
+        Law of the columns.
+    profile : ndarray, shape (n, levels)
+        Excess pore pressure at time 0 [Pa].
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness at time 0 [m].
+    coefficient_of_consolidation : ndarray, shape (n,)
+        c_v [m2 s-1].
+    loading : ndarray, shape (n,)
+        Liquefaction pressure over thickness [Pa m-1]; all 0 or all > 0.
+    pressure_scale : ndarray, shape (n,)
+        Stands for the liquefaction pressure where there is no loading [Pa].
+    entrainment_rate : History
+        Slope-normal [m s-1].
+    divergence_rate : History
+        Rate at which divergence thins the column, over its thickness [s-1].
+    porosity_source : History
+        Pressure made by a change of porosity [Pa s-1].
+    base : History
+        Values of `BASE`.
+    bed : History
+        Pressure [Pa], or ratio [-], of the bed.
+    bed_is_ratio : bool
+        Whether `bed` is a ratio.
+    bounded : bool
+        Whether pressure is kept between suction and liquefaction.
+    step : float or None
+        Longest step asked for [s]; None: the choice of the solver.
+    """
+
+    times: np.ndarray
+    law: Any
+    profile: np.ndarray
+    thickness: np.ndarray
+    coefficient_of_consolidation: np.ndarray
+    loading: np.ndarray
+    pressure_scale: np.ndarray
+    entrainment_rate: History
+    divergence_rate: History
+    porosity_source: History
+    base: History
+    bed: History
     bed_is_ratio: bool
     bounded: bool
-    step: float | None  # longest step asked for [s]
+    step: float | None
 
     def liquefaction_pressure(self, thickness: np.ndarray) -> np.ndarray:
         """Return the load at the base [Pa]."""

@@ -146,7 +146,10 @@ def solve_column(
 
 
 class _History:
-    """Columns under way; their volumes are over 1 m2 at time 0, so that only erosion makes them grow."""
+    """Columns under way; their volumes are over 1 m2 at time 0, so that only erosion makes them grow.
+
+    `inputs` are the checked arguments of `solve_column`.
+    """
 
     def __init__(self, inputs: Inputs):
         self.inputs, self.time = inputs, 0.0
@@ -160,7 +163,7 @@ class _History:
         self.varies = any(isinstance(field, History) and field.varies for field in inputs)
 
     def advance_to(self, end: float) -> None:
-        """Take steps that land on `end` [s]."""
+        """Advance the columns in place by steps of which the last one ends at the time `end` [s]."""
         while self.time < end:
             left = end - self.time
             dt = self._longest_step(left)
@@ -215,7 +218,10 @@ class _History:
         )  # fmt: skip
 
     def _base(self, time: float, middle: float, thickness) -> dict[str, np.ndarray]:
-        """Return the members of `ColumnForcing` that come from the bed, in a step that ends at `time` [s]."""
+        """Return the members of `ColumnForcing` that come from the bed, in a step that ends at `time` [s].
+
+        `middle` is the middle of the step [s], `thickness` that at its end, shape (n,) [m].
+        """
         inputs = self.inputs
         base, bed = inputs.base.at(middle), inputs.bed_pressure(time, thickness)
         drained = base == DRAINED

@@ -2,15 +2,28 @@
 
 
 class ParameterError(ValueError):
-    """A parameter of a law, of the material or of the numerics is not usable."""
+    """A parameter of a law, of the material or of the numerics is not usable.
+
+    The message names class and parameter, the value given, the values allowed with their unit, and a remedy.
+    """
 
 
 class InputError(ValueError):
-    """A field of the grid or an argument of a call is not usable; nothing was changed."""
+    """A field of the grid or an argument of a call is not usable; nothing was changed.
+
+    The message names field or argument, the value given, the node, the values allowed with their unit, and a remedy.
+    """
 
 
 class SimulationError(RuntimeError):
     """The state stopped being finite, or steps became too short to get on.
+
+    Parameters
+    ----------
+    variable, particle, time
+        As the attributes.
+    value : float
+        Value of the variable then, nan or inf, in its unit.
 
     Attributes
     ----------

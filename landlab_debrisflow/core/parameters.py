@@ -120,6 +120,14 @@ def declared(cls: type[T]) -> type[T]:
 
     A method ``_agree`` of the class is called last, to check parameters against each other. The docstring gets a
     section ``Parameters`` from the declarations.
+
+    Parameters
+    ----------
+    cls : type, whose fields are made by `parameter`
+
+    Returns
+    -------
+    type, which raises ParameterError where an instance is built with a value that is not allowed
     """
 
     def check(self):

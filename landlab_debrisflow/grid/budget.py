@@ -10,7 +10,23 @@ CARRIED_OVER = ("released", "inflow", "eroded")
 
 
 class ModelVolumes(NamedTuple):
-    """Volumes measured by the model [m3]: particles, inflow and outflow, and their grains."""
+    """Volumes measured by the model [m3]: particles, inflow and outflow, and their grains.
+
+    Attributes
+    ----------
+    moving : float
+        Volume of all particles, also of those at rest [m3].
+    inflow : float
+        Volume that has entered by hydrographs [m3].
+    outflow : float
+        Volume that has left over open boundaries [m3].
+    moving_solid : float
+        Volume of the grains in all particles [m3].
+    settled_solid : float
+        Volume of the grains laid into the terrain [m3].
+    outflow_solid : float
+        Volume of the grains that have left [m3].
+    """
 
     moving: float
     inflow: float
@@ -57,12 +73,26 @@ class VolumeBudget:
         self.released, self._eroded, self.deposited = (whole[name] for name in ("released", "eroded", "deposited"))
 
     def measure_erosion(self, core, soil: RowBackup | None) -> None:
-        """Measure erosion as the decrease of the soil depth at `core` nodes from now on; with None, stop measuring."""
+        """Measure erosion as the decrease of the soil depth [m] at core nodes from now on.
+
+        Parameters
+        ----------
+        core : ndarray of bool, shape (nodes,)
+            Nodes that count.
+        soil : RowBackup or None
+            Of the soil depth, as its first array; None: stop measuring.
+        """
         self._eroded = self.eroded
         self._core, self._soil = core, soil
 
     def keep_rows(self, first: int, last: int) -> None:
-        """Keep rows of the soil that is measured, if any; see `RowBackup.keep_rows`."""
+        """Copy soil depths of some rows of the raster before erosion changes them, if erosion is measured.
+
+        Parameters
+        ----------
+        first, last : int
+            Rows from `first` up to but not including `last`; rows copied before are left as they are.
+        """
         if self._soil is not None:
             self._soil.keep_rows(first, last)
 
@@ -72,7 +102,7 @@ class VolumeBudget:
         return self._eroded + (0.0 if self._soil is None else self._soil.decrease(0, self._core) * self._area)
 
     def count_deposit(self, core, elevation: RowBackup) -> None:
-        """Add the volume by which a kept elevation has risen at `core` nodes."""
+        """Add the volume [m3] by which the first array of a backup, elevation [m], has risen at `core` nodes."""
         self.deposited -= elevation.decrease(0, core) * self._area
 
     def terms(self, volumes: ModelVolumes) -> dict[str, float]:

@@ -40,7 +40,7 @@ class GridCall:
         self.rollback = Rollback(grid, self._reader.laws, self._writer, self.interruption, self._outputs)
 
     def run(self, duration: float, stop_at_rest: bool) -> None:
-        """Run for `duration` seconds, or until rest.
+        """Run for `duration` seconds, or until rest if `stop_at_rest` is set and rest comes first.
 
         Raises
         ------
@@ -68,11 +68,17 @@ class GridCall:
             self._writer.close(settle=True)
 
     def begin(self, with_release: bool = True) -> None:
-        """Read the grid and put the simulation on its bed."""
+        """Read the grid and put the simulation on its bed.
+
+        `with_release` tells whether values > 0 in the release field fail now.
+        """
         self._simulation.begin(*self._prepare(with_release), self._listener)
 
     def _prepare(self, with_release: bool = True):
-        """Return the bed of the call, and the input."""
+        """Return the bed of the call, and the input.
+
+        `with_release` tells whether values > 0 in the release field fail now; their volume is then counted.
+        """
         model, state = self._simulation.state, self._writer.state
         carried = model.particles.volume.size > 0
         given = self._reader.read(state.grid_bed, model.inflow, carried, state.warned, with_release)

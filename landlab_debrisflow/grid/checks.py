@@ -15,7 +15,10 @@ from .fill_values import LEAST_FILL, is_fill, replacement_remedy
 
 
 def check_duration(value, name: str = "dt") -> float:
-    """Return a duration in seconds, or raise InputError."""
+    """Return a duration in seconds, or raise InputError.
+
+    `value` is a number >= 0 and finite [s]; `name` is that of the argument, for the message.
+    """
     value = python_value(value)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InputError(f"{name} must be a number of seconds >= 0, got {value!r}{give_number(value)}")
@@ -49,7 +52,7 @@ def check_boundaries(grid) -> None:
 
 
 def check_bed(grid, soil, ratio, drained) -> None:
-    """Refuse soil depths, pressure ratios and drains of a bed; each is an array over nodes or None."""
+    """Refuse soil depths [m], pressure ratios [-] and drains (0 or 1) of a bed; each is of shape (nodes,), or None."""
     if soil is not None:
         check_finite(grid, "soil__depth", soil, "close the node or set a depth >= 0")
         _check_range(grid, "soil__depth", soil, 0.0, np.inf, "m")
@@ -145,6 +148,7 @@ def check_continued(earlier, grid, inflow) -> None:
     ----------
     earlier : DebrisFlow
     grid : RasterModelGrid
+        Grid of the component.
     inflow : Inflow
         Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
 
@@ -174,7 +178,11 @@ def check_continued(earlier, grid, inflow) -> None:
 
 
 def check_finite(grid, name, values, remedy):
-    """Refuse a field that is not finite at every node that is not closed."""
+    """Refuse a field that is not finite at every node that is not closed.
+
+    `name` is that of the field, `values` are its values, shape (nodes,), in any unit; `remedy` is the end of the
+    message.
+    """
     if np.isfinite(values).all():
         return
     good = np.isfinite(values) | (grid.status_at_node == CLOSED)
@@ -192,7 +200,10 @@ def _check_range(grid, name, values, low, high, unit):
 
 
 def _first_of_all(grid, more=lambda node: ""):
-    """Return a function that puts the first of some nodes, and how many they are, into words; `more` of the first."""
+    """Return a function that puts the first of some nodes, and how many they are, into words; `more` of the first.
+
+    The function takes an array of int, the nodes; `more` takes one node and returns text.
+    """
     return lambda bad: f" at {where(grid, bad[0])}, the first of {bad.size}{more(bad[0])}"
 
 

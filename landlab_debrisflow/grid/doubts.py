@@ -27,7 +27,10 @@ FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 
 
 def parameter_doubts(grid, setup) -> Iterator[str]:
-    """Yield doubts about parameters of laws and material; a 0 that means "none" is not doubted."""
+    """Yield doubts about parameters of laws and material; a 0 that means "none" is not doubted.
+
+    `grid` is the RasterModelGrid, `setup` the `Setup`; a doubt is a sentence.
+    """
     for kind in ("flow", "friction", "erosion", "column", "material"):
         law = getattr(setup, kind)
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
@@ -37,7 +40,10 @@ def parameter_doubts(grid, setup) -> Iterator[str]:
 
 
 def _nonzero_values(grid, law, field):
-    """Return the values of a parameter at nodes in use, or its one value, without zeros, shape (n,)."""
+    """Return the values of a parameter at nodes in use, or its one value, without zeros, shape (n,).
+
+    `field` is the declaration of the parameter of `law`; values are in its declared unit.
+    """
     value, used = getattr(law, field.name), grid.status_at_node != CLOSED
     if isinstance(value, str) and field.metadata.get("varies"):
         value = grid.at_node[value][used]
@@ -118,7 +124,10 @@ LEAST_SIMILARITY = 0.85
 
 
 def name_doubts(grid, setup) -> Iterator[str]:
-    """Yield fields that look like inputs of ours which are missing; the release may come later."""
+    """Yield fields that look like inputs of ours which are missing; the release may come later.
+
+    `grid` is the RasterModelGrid, `setup` the `Setup`; a doubt is a sentence.
+    """
     laws = (setup.friction, setup.erosion)
     read = {getattr(law, f.name) for law in laws if dataclasses.is_dataclass(law) for f in dataclasses.fields(law)}
     missing = [f.name for f in NODE_FIELDS if "in" in f.intent and f.name not in grid.at_node and f.name != RELEASE]
@@ -132,7 +141,10 @@ def name_doubts(grid, setup) -> Iterator[str]:
 
 
 def misnamed_fields(grid, ours: str) -> list[str]:
-    """Return names of fields with values > 0 that resemble one of our names."""
+    """Return names of fields with values > 0 that resemble one of our names.
+
+    `grid` is the RasterModelGrid, `ours` the name of an input.
+    """
     alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _similarity(name, ours) >= LEAST_SIMILARITY]
     return [name for name in alike if np.any(np.nan_to_num(grid.at_node[name]) > 0)]
 
@@ -148,7 +160,10 @@ def _similarity(name: str, ours: str) -> float:
 
 
 def missing_release_reason(grid, soil) -> str:
-    """Return the likely reason why no release was found, as the end of a sentence."""
+    """Return the likely reason why no release was found, as the end of a sentence.
+
+    `grid` is the RasterModelGrid, `soil` the erodible depth, shape (nodes,) [m], or None.
+    """
     if names := misnamed_fields(grid, RELEASE):
         return f"; {names[0]!r} is not read: was it meant? grid.at_node[{RELEASE!r}][:] = grid.at_node[{names[0]!r}]"
     ids = "mass__wasting_id"

@@ -34,6 +34,8 @@ MOST_VALUES = 20
 def check_elevation(grid, elevation) -> None:
     """Refuse elevations that cannot be computed with or cannot be meant, at every node that is not closed.
 
+    `elevation` has shape (nodes,) [m].
+
     Raises
     ------
     InputError
@@ -88,7 +90,11 @@ def _first_nodes(grid, pairs):
 
 
 def _steep_pairs(grid, elevation, used, least):
-    """Return pairs of neighbours that are steep and differ by more than `least` [m], shape (2, n), and the most."""
+    """Return pairs of neighbours that are steep and differ by more than `least` [m], shape (2, n), and the most.
+
+    `elevation` [m] and `used` (bool: the node counts) have shape (nodes,). Second value: largest difference of any pair
+    [m].
+    """
     raster, pairs, most = np.where(used, elevation, np.nan).reshape(grid.shape), [], 0.0
     for one, other, step, spacing in _neighbours(grid):
         height = np.abs(raster[one] - raster[other])
@@ -99,7 +105,10 @@ def _steep_pairs(grid, elevation, used, least):
 
 
 def _check_cliffs(grid, elevation, used):
-    """Refuse steps between neighbours that no cliff has, naming the side that is farther from the rest."""
+    """Refuse steps between neighbours that no cliff has, naming the side that is farther from the rest.
+
+    `elevation` [m] and `used` (bool: the node counts) have shape (nodes,).
+    """
     pairs, fall = _steep_pairs(grid, elevation, used, HIGHEST_CLIFF)
     if pairs.size == 0:
         return
@@ -121,7 +130,10 @@ def _check_cliffs(grid, elevation, used):
 
 
 def _check_holes(grid, elevation, used, value, deep):
-    """Refuse voids of two nodes and more inside the grid that are filled with `value`, `deep` [m] below all around."""
+    """Refuse voids of two nodes and more inside the grid that are filled with `value`, `deep` [m] below all around.
+
+    `elevation` [m] and `used` (bool: the node counts) have shape (nodes,); `value` is an elevation [m].
+    """
     filled, raster = (used & (elevation == value)).reshape(grid.shape), elevation.reshape(grid.shape)
     usable, rim, sheer = used.reshape(grid.shape), [], []
     for one, other, step, spacing in _neighbours(grid):

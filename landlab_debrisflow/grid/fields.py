@@ -5,7 +5,25 @@ from typing import NamedTuple
 
 
 class NodeField(NamedTuple):
-    """One field of the grid, at nodes; `_info` of the component is made of these."""
+    """One field of the grid, at nodes; `_info` of the component is made of these.
+
+    Attributes
+    ----------
+    name : str
+        Name of the field on the grid.
+    intent : str
+        "in", "out" or "inout".
+    unit : str
+        Unit as Landlab writes it, such as "m s-1".
+    doc : str
+        Meaning in a few words.
+    optional : bool
+        Whether the component does without it.
+    dtype : type
+        Type of a value.
+    start : float
+        Value of an output where nothing has come [unit].
+    """
 
     name: str
     intent: str
@@ -13,7 +31,7 @@ class NodeField(NamedTuple):
     doc: str
     optional: bool = False
     dtype: type = float
-    start: float = 0.0  # of an output, where nothing has come
+    start: float = 0.0
 
     @property
     def info(self) -> dict:
@@ -89,7 +107,7 @@ NODE_FIELDS = (
 
 @contextmanager
 def no_new_fields(grid):
-    """Take the fields that were added to a grid away again if anything is refused in the block."""
+    """Enter a block at whose failure all fields that were added to `grid` in it are taken away again."""
     before = set(grid.at_node)
     try:
         yield

@@ -38,7 +38,10 @@ def closing_call(name: str, value) -> str:
 
 
 def replacement_remedy(name: str, values, value) -> str:
-    """Return a remedy for a fill value in a field, as the end of a refusal; an empty text for any other value."""
+    """Return a remedy for a fill value in a field, as the end of a refusal; an empty text for any other value.
+
+    `values` are those of the field `name`, shape (nodes,); `value` is the number refused.
+    """
     if not is_fill(value):
         return ""
     field, count = f"grid.at_node['{name}']", np.count_nonzero(values == value)

@@ -18,14 +18,29 @@ class GridBed:
     """The ground a component works on, from call to call.
 
     Arrays over nodes are changed in place, everything else is replaced.
+
+    Attributes
+    ----------
+    material : Material
+        Densities and porosities of the component.
+    eroded : ndarray, shape (nodes,)
+        Depth eroded in all calls, whatever becomes of its field [m].
+    event_eroded : ndarray, shape (nodes,), or None
+        Depth eroded in the event before the present call [m].
+    elevation : ndarray, shape (nodes,), or None
+        As the last call left it [m]; None before the first.
+    status : ndarray of uint8, shape (nodes,), or None
+        Node statuses as the last call left them; None before the first.
+    surface : Surface or None
+        Surface of that elevation.
     """
 
     material: Material
-    eroded: np.ndarray  # (nodes,) depth eroded in all calls, whatever becomes of its field [m]
-    event_eroded: np.ndarray | None = None  # (nodes,) depth eroded in the event before the present call [m]
-    elevation: np.ndarray | None = None  # (nodes,) as the last call left it [m]
-    status: np.ndarray | None = None  # (nodes,) as the last call left it
-    surface: Surface | None = None  # of that elevation
+    eroded: np.ndarray
+    event_eroded: np.ndarray | None = None
+    elevation: np.ndarray | None = None
+    status: np.ndarray | None = None
+    surface: Surface | None = None
 
     def copy(self) -> "GridBed":
         """Return a copy that shares the arrays."""

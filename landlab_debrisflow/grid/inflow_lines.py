@@ -26,7 +26,10 @@ def check_strips(terrain, inflow: Inflow) -> None:
 
 
 def _line(terrain, source):
-    """Return points on the line from the lower left node, a quarter of a node spacing apart, shape (2, n) [m]."""
+    """Return points on the line from the lower left node, a quarter of a node spacing apart, shape (2, n) [m].
+
+    `terrain` is a `Terrain`, `source` the source of an inflow.
+    """
     along = source.end - source.start
     count = 2 + int(4.0 * np.hypot(*along) / min(terrain.spacing))
     return source.start[:, None] + np.linspace(0.0, 1.0, count) * along[:, None]

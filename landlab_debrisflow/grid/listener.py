@@ -16,6 +16,7 @@ class CallListener:
     flow : DebrisFlow
         Is shown to its observers.
     writer : FieldWriter
+        Writes the fields of the component.
     interruption : Interruption
     """
 

@@ -59,7 +59,7 @@ class Outputs:
             _holders[self._grid] = ref(self)
 
     def show(self) -> None:
-        """Put the outputs into the fields of the grid."""
+        """Put the outputs of this component into the fields of the grid, where another one may have put its own."""
         if self._aside is None:
             return
         holder, at, standing = _holders.get(self._grid, lambda: None)(), self._grid.at_node, _not_at_start(self._grid)
@@ -101,7 +101,7 @@ class Outputs:
         return shown | accounts
 
     def restart_peaks(self) -> None:
-        """Put peaks and arrival time back to their start."""
+        """Put the fields of peaks back to 0 and that of the arrival time to -1 [s], in place."""
         self.show()
         for field in self._fields():
             if field.name.removeprefix(OUTPUT_PREFIX) in PEAKS:

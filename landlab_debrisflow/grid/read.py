@@ -21,14 +21,30 @@ BED_PRESSURE = "bed__excess_pore_pressure"
 
 
 class Terrain(NamedTuple):
-    """Shape of the ground."""
+    """Shape of the ground.
 
-    elevation: np.ndarray  # (nodes,) [m]
-    status: np.ndarray  # (nodes,) uint8, as Landlab numbers node statuses
-    shape: tuple  # rows, columns
-    spacing: tuple  # dx, dy [m]
-    lower_left: tuple  # map coordinates of the first node [m]
-    changed: bool  # whether elevation or status differ from what the last call left
+    Attributes
+    ----------
+    elevation : ndarray, shape (nodes,)
+        Elevation of the ground [m].
+    status : ndarray of uint8, shape (nodes,)
+        As Landlab numbers node statuses.
+    shape : tuple of int
+        Rows and columns.
+    spacing : tuple of float
+        dx, dy [m].
+    lower_left : tuple of float
+        Map coordinates of the first node [m].
+    changed : bool
+        Whether elevation or status differ from what the last call left.
+    """
+
+    elevation: np.ndarray
+    status: np.ndarray
+    shape: tuple
+    spacing: tuple
+    lower_left: tuple
+    changed: bool
 
     @property
     def core(self):
@@ -37,23 +53,51 @@ class Terrain(NamedTuple):
 
 
 class Soil(NamedTuple):
-    """State of the ground below the flow; each may be None: not given."""
+    """State of the ground below the flow; each may be None: not given.
 
-    depth: np.ndarray | None  # (nodes,) erodible depth [m]
-    pressure_ratio: np.ndarray | None  # (nodes,) excess pore pressure over its liquefaction value [-]
-    pressure: np.ndarray | None  # (nodes,) excess pore pressure that follows the load [Pa]
-    drained: np.ndarray | None  # (nodes,) bool
+    Attributes
+    ----------
+    depth : ndarray, shape (nodes,), or None
+        Erodible depth [m].
+    pressure_ratio : ndarray, shape (nodes,), or None
+        Excess pore pressure over its liquefaction value [-].
+    pressure : ndarray, shape (nodes,), or None
+        Excess pore pressure that follows the load [Pa].
+    drained : ndarray of bool, shape (nodes,), or None
+        Where a drain holds the excess pore pressure at 0.
+    """
+
+    depth: np.ndarray | None
+    pressure_ratio: np.ndarray | None
+    pressure: np.ndarray | None
+    drained: np.ndarray | None
 
 
 class GridInput(NamedTuple):
-    """Input of one call."""
+    """Input of one call.
+
+    Attributes
+    ----------
+    terrain : Terrain
+        Elevation, statuses and shape of the raster.
+    soil : Soil
+        State of the ground below the flow.
+    release : Release
+        Ground that is about to fail.
+    parameters : dict
+        NamedTuple of arrays, (nodes,) or (1,), in SI units, by kind of law.
+    new_event : bool
+        Whether nothing was moving and nothing had yet to flow in.
+    warned : tuple of str
+        Kinds of doubt that have been logged so far.
+    """
 
     terrain: Terrain
     soil: Soil
     release: Release
-    parameters: dict  # by kind of law, NamedTuple of arrays (nodes,) or (1,) in SI units
-    new_event: bool  # whether nothing was moving and nothing had yet to flow in
-    warned: tuple  # kinds of doubt that have been logged so far
+    parameters: dict
+    new_event: bool
+    warned: tuple
 
 
 class GridReader:
@@ -64,6 +108,7 @@ class GridReader:
     grid : RasterModelGrid
         Gets the field of the bed's pore pressure if the material asks for it and it is missing.
     setup : Setup
+        Laws, material and numerics.
     """
 
     def __init__(self, grid, setup):
@@ -82,6 +127,7 @@ class GridReader:
         grid_bed : GridBed
             Terrain as the last call left it.
         inflow : Inflow
+            Inflow to come.
         carried : bool
             Whether the model carries particles.
         warned : tuple of str
@@ -128,7 +174,11 @@ class GridReader:
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
     def _warn(self, release, soil, new_event, warned) -> tuple:
-        """Log doubts about the release that were not logged before; return the kinds of doubt logged."""
+        """Log doubts about the release that were not logged before; return the kinds of doubt logged.
+
+        `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
+        logged before, "depth" and "nothing".
+        """
         logged = ()
         for doubt in () if "depth" in warned else doubts.release_doubts(self._grid, release.nodes, release.depth):
             log.warning("%s", doubt)

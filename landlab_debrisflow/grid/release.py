@@ -13,12 +13,24 @@ RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id
 
 
 class Release(NamedTuple):
-    """Ground that is about to fail."""
+    """Ground that is about to fail.
 
-    nodes: np.ndarray  # (n,) int
-    depth: np.ndarray  # (n,) vertical thickness [m]
-    volume: float  # [m3]
-    requests: tuple  # fields that ask for it, each (nodes,); 0 once it has been taken
+    Attributes
+    ----------
+    nodes : ndarray of int, shape (n,)
+        Nodes that fail.
+    depth : ndarray, shape (n,)
+        Vertical thickness [m].
+    volume : float
+        Volume of all of them [m3].
+    requests : tuple of ndarray, shape (nodes,)
+        Fields that ask for the release; 0 once it has been taken.
+    """
+
+    nodes: np.ndarray
+    depth: np.ndarray
+    volume: float
+    requests: tuple
 
 
 NO_RELEASE = Release(np.zeros(0, int), np.zeros(0), 0.0, ())
@@ -30,6 +42,7 @@ def read_release(grid, soil) -> Release:
     Parameters
     ----------
     grid : RasterModelGrid
+        Grid of the component.
     soil : ndarray, shape (nodes,), or None
         Depth of the soil [m].
 
@@ -72,7 +85,11 @@ def take_off(release: Release, elevation, soil) -> None:
 
 
 def check_release(grid, name: str, nodes, depth, soil) -> None:
-    """Refuse a release that is negative, not on core nodes, or deeper than the soil."""
+    """Refuse a release that is negative, not on core nodes, or deeper than the soil.
+
+    `name` is that of the field, for the message; `nodes`, int, and `depth` [m] have shape (n,); `soil` is the erodible
+    depth [m], shape (nodes,), or None.
+    """
 
     def first(bad):
         return (depth[bad][0], nodes[bad][0]) if bad.any() else None

@@ -16,6 +16,7 @@ class Reports:
     Parameters
     ----------
     flow : DebrisFlow
+        The component whose event is reported.
     """
 
     def __init__(self, flow):

@@ -19,11 +19,12 @@ from .write import FieldWriter
 
 
 class Moment:
-    """Fields, model and border as they are now.
+    """Copy of fields, model and border between two steps, to go back to.
 
     Parameters
     ----------
     writer : FieldWriter
+        Writes the fields of the component; its simulation and grid state are copied.
     rows : RowBackup
         Node arrays that a call changes; goes on keeping rows.
     """
@@ -50,11 +51,21 @@ class Moment:
 
 
 class InterruptedCall(NamedTuple):
-    """A call that has not come to its end."""
+    """A call that has not come to its end.
 
-    moment: Moment  # between its last two steps
-    end: float  # time until which it should have gone [s]
-    fingerprint: tuple  # of the grid as it was left
+    Attributes
+    ----------
+    moment : Moment
+        State between its last two steps.
+    end : float
+        Time until which it should have gone [s].
+    fingerprint : tuple
+        Digests of the fields and statuses as they were left.
+    """
+
+    moment: Moment
+    end: float
+    fingerprint: tuple
 
 
 class Rollback:
@@ -63,9 +74,11 @@ class Rollback:
     Parameters
     ----------
     grid : RasterModelGrid
+        Grid of the component.
     laws : mapping of str to object
         Laws that may read fields.
     writer : FieldWriter
+        Writes the fields of the component.
     interruption : Interruption
     outputs : Outputs
 

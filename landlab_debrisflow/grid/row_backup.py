@@ -40,7 +40,7 @@ class RowBackup:
 
     @property
     def nodes(self) -> slice:
-        """Nodes kept so far."""
+        """Nodes of which copies have been kept so far, as a slice of whole rows."""
         return slice(self._first * self._columns, self._last * self._columns)
 
     def keep_rows(self, first: int, last: int) -> None:
@@ -100,7 +100,9 @@ class NodeBackup:
     Parameters
     ----------
     arrays : sequence of ndarray, shape (nodes,)
+        Arrays to be changed, in any unit.
     nodes : slice or ndarray of int
+        Nodes of which values are copied.
     """
 
     def __init__(self, arrays, nodes):

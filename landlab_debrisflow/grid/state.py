@@ -16,15 +16,32 @@ class GridState:
     """Memory of the border from step to step and from call to call.
 
     Arrays over nodes are changed in place and restored by rows (`row_backup`); everything else belongs to the state.
+
+    Attributes
+    ----------
+    grid_bed : GridBed
+        Ground of the component.
+    settled : ndarray, shape (nodes,)
+        Depth laid down in all calls [m].
+    budget : VolumeBudget
+        Volumes taken and given so far.
+    written : slice
+        Nodes that calls may have written so far.
+    warned : tuple of str
+        Kinds of doubt that have been logged.
+    bed : Bed or None
+        Bed of the call that runs; None between calls.
+    peak_maps : PeakMaps or None
+        Peak maps of the call that runs; None between calls.
     """
 
     grid_bed: GridBed
-    settled: np.ndarray  # (nodes,) depth laid down in all calls [m]
+    settled: np.ndarray
     budget: VolumeBudget
-    written: slice  # nodes that calls may have written so far
-    warned: tuple = ()  # kinds of doubt that have been logged
-    bed: Bed | None = None  # of the call that runs
-    peak_maps: PeakMaps | None = None  # of the call that runs
+    written: slice
+    warned: tuple = ()
+    bed: Bed | None = None
+    peak_maps: PeakMaps | None = None
 
     def copy(self) -> "GridState":
         """Return a copy that shares arrays over nodes, except the accounts of a running call."""

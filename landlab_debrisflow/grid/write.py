@@ -23,13 +23,16 @@ class FieldWriter:
     Parameters
     ----------
     grid : RasterModelGrid
+        Grid of the component.
     simulation : Simulation
+        Model of the component.
     interruption : Interruption
         Deferred while fields are put back.
 
     Attributes
     ----------
     state : GridState
+        Memory of the border.
     rows : RowBackup or None
         Rows as a call found them; None between calls.
     """
@@ -134,7 +137,10 @@ class FieldWriter:
     # ---- the end of a call ----
 
     def close(self, settle: bool = False) -> None:
-        """Write the present for good and note the terrain, so that the next call sees changes made in between."""
+        """Write the present for good and note the terrain, so that the next call sees changes made in between.
+
+        `settle` tells whether the mass at rest is laid into the terrain first.
+        """
         state = self.state
         with self._interruption.deferred():
             if settle:

@@ -32,14 +32,20 @@ def wake(p, places) -> None:
 
 
 def wake_all(p, time: float, columns: ColumnPhysics) -> None:
-    """Wake every particle, its column brought to `time` [s]."""
+    """Wake every particle, its column brought to `time` [s].
+
+    `p` are all particles; `columns` is the law of the columns and what it needs.
+    """
     places = np.arange(p.awake, p.count)
     catch_up(p, time, columns, places)
     wake(p, places)
 
 
 def catch_up(p, time: float, columns: ColumnPhysics, places=None) -> None:
-    """Advance columns of particles asleep, at some places or all, to `time` [s], under the load they slept under."""
+    """Advance columns of particles asleep, at some places or all, to `time` [s], under the load they slept under.
+
+    `p` are all particles; `places` are sorted places of particles asleep, int; None: all of these.
+    """
     places = np.arange(p.awake, p.count) if places is None else places
     since = p.asleep_since[places]
     for began in np.unique(since[since < time]):
@@ -57,12 +63,17 @@ def fall_asleep(p, time: float, columns: ColumnPhysics, friction: BasalLaw, exch
     Parameters
     ----------
     p : Particles
+        All particles.
     time : float
-        [s]
+        Elapsed time of the event [s].
     columns : ColumnPhysics
+        Law, material and boundary of the columns.
     friction : BasalLaw
+        Law of friction and its parameters.
     exchange : Exchange
+        State of the exchange between grains and water.
     walls : Raster or None
+        Raster with closed nodes; None where no node is closed.
     """
     lying = ~np.any(p.velocity[:, : p.awake], axis=0) & ~p.summed[: p.awake]
     places = np.flatnonzero(lying)
@@ -86,6 +97,6 @@ def fall_asleep(p, time: float, columns: ColumnPhysics, friction: BasalLaw, exch
 
 
 def _stretches(places):
-    """Yield slices that cover sorted places."""
+    """Yield slices of consecutive places that together cover sorted `places`, int, shape (n,)."""
     for part in np.split(places, np.flatnonzero(np.diff(places) != 1) + 1):
         yield slice(int(part[0]), int(part[-1]) + 1)

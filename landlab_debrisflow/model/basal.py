@@ -31,41 +31,91 @@ NO_VARIABLES = SimpleNamespace()
 
 @struct
 class BedLoad(NamedTuple):
-    """Flow whose weight the bed bears, at n particles."""
+    """Flow whose weight the bed bears, at n particles.
 
-    thickness: np.ndarray  # (n,) slope-normal thickness [m]
-    density: np.ndarray  # (n,) [kg m-3]
-    pressure: np.ndarray  # (n,) basal excess pore pressure [Pa]
+    Attributes
+    ----------
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness [m].
+    density : ndarray, shape (n,)
+        Density of the mixture [kg m-3].
+    pressure : ndarray, shape (n,)
+        Basal excess pore pressure [Pa].
+    """
+
+    thickness: np.ndarray
+    density: np.ndarray
+    pressure: np.ndarray
 
 
 @struct
 class Weighing(NamedTuple):
-    """Constants by which a flow weighs on the bed."""
+    """Constants by which a flow weighs on the bed.
 
-    gravity: float  # [m s-2]
-    bearing_density: float  # of which the pore water's own weight bears the flow [kg m-3]
-    least_radius: float  # of curvature of the bed [m]
+    Attributes
+    ----------
+    gravity : float
+        Acceleration by gravity [m s-2].
+    bearing_density : float
+        Hydrostatic pressure at the base over normal gravity and thickness [kg m-3].
+    least_radius : float
+        Least radius of curvature of the bed [m].
+    """
+
+    gravity: float
+    bearing_density: float
+    least_radius: float
 
 
 class BasalLaw(NamedTuple):
-    """A law of friction or erosion on the bed of a call."""
+    """A law of friction or erosion on the bed of a call.
+
+    Attributes
+    ----------
+    law : FrictionLaw or ErosionLaw
+        The law.
+    parameters : NamedTuple of ndarray, shape (nodes,) or (1,)
+        Parameters in SI units (`core.parameters.on_nodes`).
+    material : Material
+        Densities, porosity and gravity.
+    spacing : float
+        Smaller node spacing of the raster [m].
+    variables : tuple of Variable
+        Variables per particle that the law brought.
+    varies : bool
+        Whether a parameter varies in space.
+    """
 
     law: Any
-    parameters: Any  # NamedTuple of arrays over nodes, or of length 1 (`core.parameters.on_nodes`)
-    material: Any  # physics.material.Material
-    spacing: float  # smaller node spacing of the raster [m]
-    variables: tuple  # of Variable, those that the law brought
-    varies: bool  # whether a parameter varies in space
+    parameters: Any
+    material: Any
+    spacing: float
+    variables: tuple
+    varies: bool
 
 
 class ColumnPhysics(NamedTuple):
-    """Law, material and boundary by which the columns under particles are advanced in a call."""
+    """Law, material and boundary by which the columns under particles are advanced in a call.
+
+    Attributes
+    ----------
+    law : ColumnLaw
+        Law of the columns.
+    material : Material
+        Densities, porosity and gravity.
+    phases : Phases
+        Gives the coefficient of consolidation.
+    drained : ndarray of bool, shape (nodes,), or None
+        Where a drain holds the excess pore pressure at 0; None: nowhere.
+    water_to_buoyant : float
+        Density of water over buoyant density [-].
+    """
 
     law: ColumnLaw
-    material: Any  # physics.material.Material
+    material: Any
     phases: Phases
-    drained: Any  # ndarray of bool over nodes, where a drain holds the excess pore pressure at 0; None: nowhere
-    water_to_buoyant: float  # density of water over buoyant density [-]
+    drained: Any
+    water_to_buoyant: float
 
 
 def basal_state(
@@ -76,7 +126,9 @@ def basal_state(
     Parameters
     ----------
     p : Particles
+        All particles.
     which : slice
+        Places of the n particles asked for.
     basal : BasalLaw
         The law that reads it, and the parameters it has.
     pressure : ndarray, shape (n,), optional
@@ -116,7 +168,7 @@ def basal_state(
 
 
 def _variables(p, which: slice, basal: BasalLaw, asking: bool):
-    """Return the variables that a law brought, of some particles, as attributes."""
+    """Return the variables of the law `basal` at `p[which]` as attributes: copies if `asking`, else views."""
     place = {False: which, True: (slice(None), which)}
     values = {v.name: getattr(p, v.name)[place[v.components > 0]] for v in basal.variables}
     return SimpleNamespace(**{name: value.copy() if asking else value for name, value in values.items()})
@@ -142,6 +194,7 @@ def press_on_bed(first, velocity, sample, cosine, load, weighing):
     load : BedLoad
         Of the n particles asked for.
     weighing : Weighing
+        Constants by which the flow weighs on the bed.
 
     Returns
     -------
@@ -171,7 +224,11 @@ def press_on_bed(first, velocity, sample, cosine, load, weighing):
 
 
 def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False):
-    """Return yield stress [Pa] and drag [Pa s m-1] under some particles, each of shape (n,); see `basal_state`."""
+    """Return yield stress [Pa] and drag [Pa s m-1] under the particles `p[which]`, each of shape (n,).
+
+    `pressure`, shape (n,) [Pa], is supposed as basal excess pore pressure instead of the one there is (None). `asking`
+    outside a step gives the law copies of its variables, so that nothing changes; see `basal_state`.
+    """
     state = basal_state(p, which, friction, pressure, asking=asking)
     yield_stress, drag = np.empty(state.depth.size), np.empty(state.depth.size)
     friction.law.basal_resistance(state, yield_stress, drag)
@@ -184,13 +241,19 @@ def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, 
     Parameters
     ----------
     p : Particles
+        All particles.
     which : slice
+        Places of the n particles asked for.
     pressure : ndarray, shape (n,)
         Basal excess pore pressure to suppose [Pa].
     friction : BasalLaw
+        Law of friction and its parameters.
     phases : Phases
+        Stages of a step that depend on the number of phases.
     exchange : Exchange
+        State of the exchange between grains and water.
     walls : Raster or None
+        Raster with closed nodes; None where no node is closed.
     """
     yield_stress, drag = basal_resistance(p, which, friction, pressure, asking=True)
     return phases.held_at_rest(p, exchange, which, yield_stress, drag, walls)
@@ -200,7 +263,7 @@ def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, 
 
 
 def column_state(p, which: slice) -> ColumnState:
-    """Return the arrays of some particles as the column law knows them."""
+    """Return the column arrays of the particles `p[which]` as a `ColumnState` of views: pressures in Pa."""
     return ColumnState(p.excess_pore_pressure[which], p.column_memory[which], p.column_clipped[which])
 
 
@@ -236,7 +299,7 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
 
 
 def present_profiles(p, which: slice, columns: ColumnPhysics):
-    """Return the excess pore pressure of some columns at all levels now, shape (n, levels) [Pa], changing nothing."""
+    """Return the excess pore pressure of the columns of `p[which]` at levels now, (n, levels) [Pa]; change nothing."""
     state = ColumnState(*(values.copy() for values in column_state(p, which)))
     none = np.zeros(state.clipped.size)
     columns.law.synchronise(state, column_forcing(p, which, columns, none, none))

@@ -11,9 +11,11 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     Parameters
     ----------
     p : Particles
+        All particles.
     bed : BedPressure or None
         None: the pore pressure of the bed does not follow its load.
     material : Material
+        Densities, porosity, gravity.
     time : float
         Now [s].
     dt : float, optional

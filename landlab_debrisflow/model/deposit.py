@@ -9,9 +9,11 @@ def resting_depth(p, origins, bed):
     Parameters
     ----------
     p : Particles
+        All particles.
     origins : Origins
         What never moved goes back just where it came from.
     bed : Bed
+        Ground below the flow.
     """
     still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
     if not still.any():
@@ -26,7 +28,11 @@ def resting_depth(p, origins, bed):
 
 
 def extent(p, origins, inflow, raster) -> tuple[float, float]:
-    """Return least and largest y of the ground that a step may change [m]; the first is larger if there is none."""
+    """Return least and largest y of the ground that a step may change [m]; the first is larger if there is none.
+
+    `p` are the particles, `origins` the places of mass that has never moved, `inflow` the inflow to come, `raster` the
+    nodes.
+    """
     ends = [(p.y.min(), p.y.max())] if p.y.size else []
     if nodes := origins.span:  # to which may return what never moved
         ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))

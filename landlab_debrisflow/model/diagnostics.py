@@ -14,12 +14,24 @@ TIMED = 8
 
 
 class Diagnostics(NamedTuple):
-    """Cost of a run so far, without the work between steps."""
+    """Cost of a run so far, without the work between steps.
+
+    Attributes
+    ----------
+    steps : int
+        Number of steps.
+    smallest_step : float
+        Duration of the shortest step [s]; infinite before the first.
+    share_asleep : float
+        Particle-steps of particles asleep over all [-]; 0 before the first.
+    cpu : Mapping of str to float
+        CPU seconds in each stage of a step, of `STAGES`.
+    """
 
     steps: int
-    smallest_step: float  # [s], infinite before the first
-    share_asleep: float  # particle-steps of those asleep over all [-], 0 before the first
-    cpu: Mapping[str, float]  # CPU seconds in each stage of a step, of `STAGES`
+    smallest_step: float
+    share_asleep: float
+    cpu: Mapping[str, float]
 
 
 class Counters:
@@ -28,12 +40,14 @@ class Counters:
     Attributes
     ----------
     steps : int
+        Steps so far.
     smallest_step : float
-        [s]
+        Duration of the shortest step so far [s]; infinite before the first.
     particle_steps, sleeping_steps : int
         Particles summed over the steps: all, and those asleep.
     cpu : list of float
-        CPU seconds in each of `STAGES`, of this machine and no part of the state.
+        CPU time of each of `STAGES`, in their order [s]. It depends on the machine; no result of a run depends
+        on it.
     """
 
     def __init__(self):
@@ -42,14 +56,14 @@ class Counters:
         self.cpu = [0.0] * len(STAGES)
 
     def count(self, p, dt: float) -> None:
-        """Count a step of `dt` seconds."""
+        """Count a step of `dt` seconds of the particles `p`, of which some are asleep."""
         self.steps += 1
         self.smallest_step = min(self.smallest_step, dt)
         self.particle_steps += p.count
         self.sleeping_steps += p.count - p.awake
 
     def copy(self) -> "Counters":
-        """Return an independent copy."""
+        """Return an independent copy of the counts."""
         other = Counters()
         vars(other).update(vars(self) | {"cpu": self.cpu.copy()})
         return other
@@ -73,7 +87,7 @@ class StageClock:
     Parameters
     ----------
     spent : list of float
-        CPU seconds in each stage, added to.
+        CPU time in each of `STAGES` so far, to which that of the step is added [s].
     steps : int
         Steps for which the measured one stands.
     """

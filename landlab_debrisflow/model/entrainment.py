@@ -12,42 +12,90 @@ from .basal import BasalLaw, basal_state
 
 @struct
 class Soil(NamedTuple):
-    """Soil as a flow takes it up."""
+    """Soil as a flow takes it up.
 
-    solid_fraction: float  # part of its volume that a particle of grains keeps [-]
-    slip_ratio: float  # velocity at which it enters, over that of the flow [-]
-    porosity: float  # [-]
-    solid_density: float  # of its grains [kg m-3]
-    bearing_density: float  # of the water in its pores [kg m-3]
+    Attributes
+    ----------
+    solid_fraction : float
+        Part of its volume that a particle of grains keeps [-].
+    slip_ratio : float
+        Velocity at which it enters, over that of the flow [-].
+    porosity : float
+        Porosity of the soil [-].
+    solid_density : float
+        Density of its grains [kg m-3].
+    bearing_density : float
+        Density of the water in its pores [kg m-3].
+    """
+
+    solid_fraction: float
+    slip_ratio: float
+    porosity: float
+    solid_density: float
+    bearing_density: float
 
 
 @struct
 class Layer(NamedTuple):
-    """Flow over the bed, at n particles."""
+    """Flow over the bed, at n particles.
 
-    depth: np.ndarray  # (n,) vertical depth [m]
-    thickness: np.ndarray  # (n,) slope-normal thickness [m]
-    share: np.ndarray  # (n,) part of it that is of the particle's own phase [-]
-    cosine: np.ndarray  # (n,) of the slope of the bed [-]
-    coefficient_of_consolidation: np.ndarray  # (n,) or (1,) [m2 s-1]
+    Attributes
+    ----------
+    depth : ndarray, shape (n,)
+        Vertical depth [m].
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness [m].
+    share : ndarray, shape (n,)
+        Part of the thickness that is of the particle's own phase [-].
+    cosine : ndarray, shape (n,)
+        Cosine of the slope of the bed [-].
+    coefficient_of_consolidation : ndarray, shape (n,) or (1,)
+        c_v [m2 s-1].
+    """
+
+    depth: np.ndarray
+    thickness: np.ndarray
+    share: np.ndarray
+    cosine: np.ndarray
+    coefficient_of_consolidation: np.ndarray
 
 
 @struct
 class Mixture(NamedTuple):
-    """Matter of n particles, changed in place."""
+    """Matter of n particles, changed in place.
 
-    volume: np.ndarray  # (n,) [m3]
-    porosity: np.ndarray  # (n,) [-]
-    density: np.ndarray  # (n,) [kg m-3]
+    Attributes
+    ----------
+    volume : ndarray, shape (n,)
+        Volume of the particle [m3].
+    porosity : ndarray, shape (n,)
+        Pores over the whole [-].
+    density : ndarray, shape (n,)
+        Density of the mixture [kg m-3].
+    """
+
+    volume: np.ndarray
+    porosity: np.ndarray
+    density: np.ndarray
 
 
 @struct
 class Erosion(NamedTuple):
-    """Record of the erosion by n particles, written in place."""
+    """Record of the erosion by n particles, written in place.
 
-    rate: np.ndarray  # (n,) per map area [m s-1]
-    first_time: np.ndarray  # (n,) of the first erosion, NaN before [s]
-    peclet_number: np.ndarray  # (n,) of the last erosion [-]
+    Attributes
+    ----------
+    rate : ndarray, shape (n,)
+        Erosion rate per map area [m s-1].
+    first_time : ndarray, shape (n,)
+        Time of the first erosion [s]; NaN before.
+    peclet_number : ndarray, shape (n,)
+        Basal Péclet number of the last erosion [-].
+    """
+
+    rate: np.ndarray
+    first_time: np.ndarray
+    peclet_number: np.ndarray
 
 
 def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float, dt: float):
@@ -56,10 +104,15 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     Parameters
     ----------
     p : Particles
+        All particles.
     exchange : Exchange
+        State of the exchange between grains and water.
     bed : Bed
+        Ground below the flow.
     erosion : BasalLaw
+        Law of erosion and its parameters.
     phases : Phases
+        Stages of a step that depend on the number of phases.
     prescribed : ndarray of int
         Particles whose motion is prescribed: they take nothing.
     time, dt : float
@@ -109,9 +162,13 @@ def _mix(entrained, soil, layer, mixture, erosion, time, dt):
     entrained : ndarray, shape (m,)
         Soil taken by the m particles that are awake; becomes what their own phase keeps of it [m3].
     soil : Soil
+        Soil as the flow takes it up.
     layer : Layer
+        Flow over the bed, at n particles.
     mixture : Mixture
+        Matter of the n particles, changed in place.
     erosion : Erosion
+        Record of the erosion, written in place.
     time, dt : float
         Beginning and length of the step [s].
 

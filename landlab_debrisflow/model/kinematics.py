@@ -17,12 +17,24 @@ from ..spatial.raster import CLOSED, CORE, nearest_node
 
 @struct
 class Resistance(NamedTuple):
-    """Resistance of the base to the motion of n particles."""
+    """Resistance of the base to the motion of n particles.
 
-    yield_stress: np.ndarray  # (n,) [Pa]
-    drag: np.ndarray  # (n,) [Pa s m-1]
-    mass: np.ndarray  # (n,) that is slowed, per area: density times slope-normal thickness [kg m-2]
-    rest_speed: np.ndarray  # (n,) or (1,) below which a particle that is being slowed comes to rest [m s-1]
+    Attributes
+    ----------
+    yield_stress : ndarray, shape (n,)
+        Shear stress that holds a body at rest [Pa].
+    drag : ndarray, shape (n,)
+        Other resistance of the bed over speed [Pa s m-1].
+    mass : ndarray, shape (n,)
+        Mass that is slowed, per area: density times slope-normal thickness [kg m-2].
+    rest_speed : ndarray, shape (n,) or (1,)
+        Speed below which a particle that is being slowed comes to rest [m s-1].
+    """
+
+    yield_stress: np.ndarray
+    drag: np.ndarray
+    mass: np.ndarray
+    rest_speed: np.ndarray
 
 
 STILL = 1e-3
@@ -32,7 +44,11 @@ neighbours need not be done again: their error is of this order."""
 
 @inner
 def along_bed(i, push, slope_x, slope_y, cosine, gravity):
-    """Return the acceleration of particle `i` along the bed, by gravity [m s-2] and `push`, shape (3, n) [m s-2]."""
+    """Return the acceleration of particle `i` along the bed, by gravity [m s-2] and `push`, shape (3, n) [m s-2].
+
+    `slope_x`, `slope_y` (dz/dx, dz/dy) and `cosine` of the slope of the bed have shape (n,) [-]; `gravity` is in m s-2.
+    Three components are returned.
+    """
     c = cosine[i]
     nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
     across = push[0, i] * nx + push[1, i] * ny + push[2, i] * nz - gravity * nz
@@ -59,7 +75,7 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
         Its mass is as long as there are particles to kick; the other arrays may be longer. A particle that falls below
         its speed of rest stays if friction can hold it there; if that speed is infinite, whether or not.
     gravity : float
-        [m s-2]
+        Acceleration by gravity [m s-2].
     """
     yield_stress, drag, mass, rest_speed = resistance
     _, slope_x, slope_y, _, _, _ = sample
@@ -97,6 +113,7 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
     velocity_ratio : ndarray, shape (m,)
         Velocity after over velocity before entrainment [-], for the m particles to move.
     raster : Raster
+        Nodes, their statuses and spacing [m].
     expected_elevation : ndarray, shape (n,)
         Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
         `follow_bed`.
@@ -151,6 +168,7 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
     sample : SurfaceSample
         Of the bed below the particles.
     raster : Raster
+        Nodes, their statuses and spacing [m].
     touched_wall : ndarray of int8, shape (m,)
         Set to 1 where a closed node stopped the particle; as long as there are particles to stop.
     """
@@ -174,7 +192,11 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
 
 @inner
 def _is_blocked(here, node, columns, status):
-    """Return whether the way between two nodes, -1 for none, leads into a closed one or between two that touch."""
+    """Return whether the way between two nodes, -1 for none, leads into a closed one or between two that touch.
+
+    `here` and `node` are nodes that touch along a side or at a corner; `columns` are those of the raster; `status`,
+    shape (nodes,), are node statuses.
+    """
     if node < 0 or here < 0:
         return False
     if status[node] == CLOSED:
@@ -195,7 +217,8 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
     from step to step. What is missing of the fall is added to the kinetic energy. Without it a bed that bends
     within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
-    (`expected_elevation` is from `drift`; if it is empty nothing drifted).
+    (`expected_elevation`, shape (n,) [m], is from `drift`; if it is empty nothing drifted). `sample` is the
+    `SurfaceSample` of the n particles now; gravity is in m s-2, dt in s.
     """
     elevation, slope_x, slope_y, _, _, _ = sample
     for i in range(cosine.size):
@@ -221,6 +244,7 @@ def count_still_steps(position, volume, smoothing_length, reference_position, re
     Parameters
     ----------
     position : Position
+        Position of the particles [m].
     volume, smoothing_length : ndarray, shape (n,)
         [m3] and [m]
     reference_position, reference_volume : ndarray, shape (3, n) and (n,)
@@ -241,7 +265,11 @@ def count_still_steps(position, volume, smoothing_length, reference_position, re
 
 @kernel
 def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
-    """Let particles at x, y [m] that feel those that have gone within a support [m] count as changed, in place."""
+    """Let particles at x, y [m] within the support [m] of particles that have gone count as changed, in place.
+
+    `x`, `y`, `support` have shape (n,), `gone_x`, `gone_y`, `gone_support` shape (m,), all in m; `still_steps`, int,
+    shape (n,), is set to 0 for these particles.
+    """
     for k in range(gone_x.size):
         for i in range(x.size):
             reach = max(support[i], gone_support[k])

@@ -29,7 +29,18 @@ class Numerics:
             raise ParameterError("Numerics: give particle_count or particle_spacing, not both")
 
     def count_for(self, area: float) -> int:
-        """Return the number of particles for a release from some map area [m2]."""
+        """Return the number of particles for a release from some map area.
+
+        Parameters
+        ----------
+        area : float
+            Map area of the nodes that fail [m2].
+
+        Returns
+        -------
+        int
+            By `particle_spacing` if it is set, at least 1; else `particle_count`, or 2000 if neither is set.
+        """
         if self.particle_spacing is not None:
             return max(1, round(area / self.particle_spacing**2))
         return self.particle_count or self.DEFAULT_COUNT

@@ -29,7 +29,10 @@ class Outflow:
         return float(sum(self._at.values()))
 
     def by_edge(self, rows: int, columns: int) -> dict[str, float]:
-        """Return the volume that left over each side, or over open nodes inside the grid [m3]."""
+        """Return the volume that left over each side, or over open nodes inside the grid [m3].
+
+        `rows` and `columns` are the shape of the raster.
+        """
         edges = dict.fromkeys(("west", "east", "south", "north", "inside"), 0.0)
         for node, volume in self._at.items():
             r, c = divmod(node, columns)

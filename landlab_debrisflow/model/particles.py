@@ -72,7 +72,10 @@ class Particles:
         return slice(first, first + count)
 
     def exchange(self, these, those) -> None:
-        """Exchange the particles at two arrays of int with their places, which have no place in common."""
+        """Exchange the particles at two arrays of int with their places, which have no place in common.
+
+        `these` and `those` have shape (k,) and are places.
+        """
         if these.size == 0:
             return
         to, of = np.concatenate([these, those]), np.concatenate([those, these])

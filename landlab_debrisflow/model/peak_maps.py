@@ -32,42 +32,53 @@ UPDATE_FRACTION = 0.5
 
 
 class CurrentFields(NamedTuple):
-    """Fields of the flow now, each of shape (nodes,)."""
+    """Fields of the flow now, each of shape (nodes,): means over the particles at a node, weighted by volume.
 
-    depth: np.ndarray  # [m]
-    speed: np.ndarray  # [m s-1]
-    basal_excess_pore_pressure: np.ndarray  # [Pa]
-    basal_peclet_number: np.ndarray  # [-]
+    Vertical depth [m], speed along the bed [m s-1], excess pore pressure at the base [Pa], basal Péclet number [-].
+    """
+
+    depth: np.ndarray
+    speed: np.ndarray
+    basal_excess_pore_pressure: np.ndarray
+    basal_peclet_number: np.ndarray
 
 
 class PeakFields(NamedTuple):
-    """Fields of the peaks of the flow, each of shape (nodes,)."""
+    """Fields of the peaks of the flow so far, each of shape (nodes,).
 
-    max_depth: np.ndarray  # [m]
-    max_speed: np.ndarray  # [m s-1]
-    max_basal_pressure_ratio: np.ndarray  # [-]
-    max_basal_peclet_number: np.ndarray  # [-]
-    arrival_time: np.ndarray  # [s], -1 where nothing came
-    max_impact_pressure: np.ndarray  # [Pa]
-    max_run_up: np.ndarray  # [m]
+    Largest vertical depth [m], speed [m s-1], pressure ratio at the base [-], basal Péclet number [-]; elapsed time of
+    the first arrival [s], -1 where nothing came; largest impact pressure [Pa] and run-up [m].
+    """
+
+    max_depth: np.ndarray
+    max_speed: np.ndarray
+    max_basal_pressure_ratio: np.ndarray
+    max_basal_peclet_number: np.ndarray
+    arrival_time: np.ndarray
+    max_impact_pressure: np.ndarray
+    max_run_up: np.ndarray
 
 
 class Matter(NamedTuple):
-    """Matter of n particles, and its motion."""
+    """Matter of n particles, and its motion; arrays of shape (n,), except the velocity, (3, n).
 
-    volume: np.ndarray  # (n,) [m3]
-    density: np.ndarray  # (n,) [kg m-3]
-    phase: np.ndarray  # (n,)
-    velocity: np.ndarray  # (3, n) [m s-1]
-    run_up: np.ndarray  # (n,) height of the surface above the lowest bed it has come over [m]
+    Volume [m3], density [kg m-3], phase (MIXTURE or WATER), velocity tangent to the bed [m s-1], and height of the
+    surface above the lowest bed that the particle has come over [m].
+    """
+
+    volume: np.ndarray
+    density: np.ndarray
+    phase: np.ndarray
+    velocity: np.ndarray
+    run_up: np.ndarray
 
 
 class Base(NamedTuple):
-    """Base of n particles."""
+    """Base of n particles: excess pore pressure [Pa], liquefaction pressure [Pa] and Péclet number [-], each (n,)."""
 
-    pressure: np.ndarray  # (n,) excess pore pressure [Pa]
-    liquefaction_pressure: np.ndarray  # (n,) [Pa]
-    peclet_number: np.ndarray  # (n,) [-]
+    pressure: np.ndarray
+    liquefaction_pressure: np.ndarray
+    peclet_number: np.ndarray
 
 
 CURRENT, PEAKS = CurrentFields._fields, PeakFields._fields
@@ -89,6 +100,7 @@ class PeakMaps:
     Parameters
     ----------
     raster : Raster
+        Nodes, their statuses and spacing [m].
     fields : mapping of str to ndarray, shape (nodes,)
         Arrays named as in `CURRENT` and `PEAKS`, and `PHASES` if there are two, written in place; arrival_time is -1
         where nothing came.
@@ -164,12 +176,14 @@ class PeakMaps:
 
 @kernel
 def _weight_by_volume(matter, base, walled, values):
-    """Write what is averaged over the volume at the nodes, times volume [m3].
+    """Write the quantities that are averaged over the volume at the nodes, times volume [m3].
 
     Parameters
     ----------
     matter : Matter
+        Matter of n particles.
     base : Base
+        Base of the n particles.
     walled : bool
         Whether there are closed nodes: then impact towards their faces is written, too.
     values : ndarray, shape (n, k)
@@ -193,7 +207,7 @@ def _weight_by_volume(matter, base, walled, values):
 
 @kernel
 def _record_walls(nodes, sums, least, raster, peaks):
-    """Record impact pressure [Pa] and run-up [m] on closed nodes beside those with more than a least volume [m3].
+    """Record impact pressure [Pa] and run-up [m] on closed nodes beside nodes with more than a least volume [m3].
 
     Parameters
     ----------
@@ -204,7 +218,9 @@ def _record_walls(nodes, sums, least, raster, peaks):
     least : float
         [m3]
     raster : Raster
+        Nodes, their statuses and spacing [m].
     peaks : PeakFields
+        Fields of the peaks, written in place.
     """
     status, columns, rows, _, _ = raster
     max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
@@ -239,11 +255,13 @@ def _record(nodes, sums, area, time, arrival_depth, current, peaks):
     area : float
         Map area of a node [m2].
     time : float
-        [s]
+        Elapsed time of the event [s].
     arrival_depth : float
         Depth that counts as arrival, and for the peaks [m].
     current : CurrentFields
+        Fields of the flow now, written in place.
     peaks : PeakFields
+        Fields of the peaks, written in place.
     """
     depth, speed, pressure, peclet = current
     max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks

@@ -25,7 +25,7 @@ UNKNOWN = -1
 
 @struct
 class Members(NamedTuple):
-    """Particles as members of bodies; the first ones are awake."""
+    """Particles as members of bodies, arrays (n,): body, volume [m3], velocity (3, n) and rest speed [m s-1], flags."""
 
     body: np.ndarray  # (n,) int, number of the body
     volume: np.ndarray  # (n,) [m3]
@@ -37,7 +37,7 @@ class Members(NamedTuple):
 
 @struct
 class BodyEnergies(NamedTuple):
-    """Kinetic energies of bodies."""
+    """Kinetic energies of bodies: volume [m3], volume times speed squared, now and most [m5 s-2], each (bodies,)."""
 
     volume: np.ndarray  # (bodies,) [m3]
     energy: np.ndarray  # (bodies,) now [m5 s-2]; 0 before, written
@@ -45,11 +45,11 @@ class BodyEnergies(NamedTuple):
 
 
 class Spheres(NamedTuple):
-    """Neighbourhoods of n particles."""
+    """Neighbourhoods of n particles: position x, y, z and radius within which each feels its neighbours [m]."""
 
     x: np.ndarray  # (n,) position [m]
-    y: np.ndarray
-    z: np.ndarray
+    y: np.ndarray  # (n,) [m]
+    z: np.ndarray  # (n,) [m]
     support: np.ndarray  # (n,) radius within which each feels others [m]
 
 
@@ -131,7 +131,7 @@ class Bodies:
         return energy <= rest_energy * self.peak if slow else None
 
     def _measure(self, p, rest_energy: float):
-        """Return the kinetic energy of each body, and what `_measure` returns; the energy now counts for the most."""
+        """Return the kinetic energy of each body, and the result of the kernel `_measure`; the peak includes now."""
         energy = np.zeros(self.peak.size)
         members = Members(
             body=p.body, volume=p.volume, velocity=p.velocity, summed=p.summed, arrested=p.arrested,
@@ -243,10 +243,10 @@ def _root(parent, i):
 
 @inner
 def _join_cells(spheres, order, one, other, parent):
-    """Join particles of two cells that feel each other; return whether those of the first one are then of one body.
+    """Join particles of two cells that feel each other; return whether all of the first one are then of one body.
 
     A cell is the first place and the one after the last in `order`, int, shape (n,); `parent`, int, shape (n,), leads
-    from each particle to the one that stands for its body.
+    from each particle to the one that stands for its body; `spheres` are the `Spheres` of the n particles.
     """
     x, y, z, support = spheres
     first, last = one

@@ -14,7 +14,7 @@ class RunListener(Protocol):
     """Listener to `Simulation.run`."""
 
     def begun(self) -> None:
-        """The flow lies on its bed, particles of a release are made."""
+        """Take note that the flow lies on its bed and that particles of a release are made."""
 
     def started(self, idle: bool) -> None:
         """The first step is about to be made; `idle`: nothing moves yet."""

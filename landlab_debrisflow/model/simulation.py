@@ -34,6 +34,7 @@ class Simulation:
     setup : Setup
         Laws, material and numerics.
     inflow : Inflow, optional
+        Inflow to come; by default none.
 
     Attributes
     ----------
@@ -42,6 +43,7 @@ class Simulation:
     surroundings : Surroundings or None
         Inputs of the call; None before the first one.
     phases : Phases
+        Stages of a step that depend on the number of phases.
     """
 
     def __init__(self, setup, inflow: Inflow | None = None):
@@ -85,6 +87,7 @@ class Simulation:
         Parameters
         ----------
         bed : Bed
+            Ground below the flow.
         parameters : mapping of str to NamedTuple
             For friction and erosion those parameters of the law that may vary in space (`core.parameters.on_nodes`).
         changed : bool
@@ -104,7 +107,7 @@ class Simulation:
         listener.begun()
 
     def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener: RunListener) -> bool:
-        """Begin on a bed and advance; parameters and return value as of `begin` and `advance`."""
+        """Begin on a bed and advance to `end` [s]; parameters and return value as of `begin` and `advance`."""
         self.begin(bed, given, listener)
         if not (stop_at_rest and self.at_rest):
             self.start(end)
@@ -135,7 +138,7 @@ class Simulation:
         state.control.restart()
 
     def _refresh(self, sweeps: int = 1) -> None:
-        """Find bed, thickness and forces anew where particles or terrain changed by other hands."""
+        """Find bed, thickness, forces anew, in so many `sweeps`, where particles or terrain changed by other hands."""
         state, p, phases, near = self.state, self.particles, self.phases, self.surroundings
         setup = self.setup
         activity.wake_all(p, state.time, near.columns)

@@ -20,25 +20,33 @@ class State:
     Parameters
     ----------
     particles : Particles
+        All particles.
     inflow : Inflow
+        Inflow to come.
 
     Attributes
     ----------
     time : float
-        [s]
+        Elapsed time of the event [s].
     outdated : bool
         Whether terrain or particles are new: neighbours and forces must be found again.
     limits : StepLimits or None
         What limits the next step; None before particles were looked at for the first time.
     control : StepControl
+        Choice of the length of steps.
     bodies : Bodies
+        Particles connected by feeling each other.
     exchange : Exchange
+        State of the exchange between grains and water.
     origins : Origins
+        Ground of which the particles are made.
     outflow : Outflow
+        Volumes that have left [m3].
     settled_solid : float
         Grains laid into the bed so far [m3].
     stopped : Stopped
     counters : Counters
+        Counts of the run.
     """
 
     def __init__(self, particles: Particles, inflow: Inflow):
@@ -49,7 +57,7 @@ class State:
         self.counters = Counters()
 
     def copy(self) -> "State":
-        """Return an independent copy."""
+        """Return an independent copy of particles, accounts and time."""
         other = object.__new__(State)
         vars(other).update({name: _copied(value) for name, value in vars(self).items()})
         return other

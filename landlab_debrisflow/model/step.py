@@ -61,7 +61,11 @@ def advance(simulation, dt: float) -> None:
 
 
 def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float) -> None:
-    """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time)."""
+    """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time).
+
+    `p` are the particles, whose velocities of the awake ones are changed [m s-1]; `exchange` is the state of the
+    exchange between phases; `walls` is None where no node is closed; `dt` is in s.
+    """
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
@@ -74,11 +78,15 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
     Parameters
     ----------
     p : Particles
+        All particles.
     bed : Bed
+        Ground below the flow.
     velocity_ratio : ndarray, shape (awake,)
         Velocity after over velocity before entrainment [-].
     outflow : Outflow
+        Volumes that have left [m3].
     phases : Phases
+        Stages of a step that depend on the number of phases.
     time, dt : float
         Beginning and length of the step [s].
 
@@ -109,7 +117,11 @@ NO_DRIFT = np.empty(0)
 
 
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
-    """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not."""
+    """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not.
+
+    `bed` is the `Bed` of the call, `gravity` is in m s-2; `dt` is the duration of the drift [s], 0 if nothing drifted:
+    then only the bed has changed. Written are elevation, cosine, nearest node and velocity of the particles `p`.
+    """
     before = p.z.copy() if dt == 0.0 else None
     sample = np.empty(p.count), *p.surface_sample[1:]  # `follow_bed` moves z
     bed.surface.sample_into(p.x, p.y, sample)
@@ -131,11 +143,17 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
     Parameters
     ----------
     p : Particles
+        All particles.
     exchange : Exchange
+        State of the exchange between grains and water.
     flow : FlowLaw
+        Law of the flow.
     numerics : Numerics
+        Threads, shock viscosity and other numerical choices.
     columns : ColumnPhysics
+        Law, material and boundary of the columns.
     inflow : Inflow
+        Inflow to come.
     walls : Raster or None
         None: no node is closed.
     time : float
@@ -168,7 +186,10 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
 
 
 def _flow_state(p, material) -> FlowState:
-    """Return the particles as the flow law sees them, without ghosts."""
+    """Return the particles as the flow law sees them, without ghosts.
+
+    `p` are the particles, n; `material` has densities [kg m-3] and gravity [m s-2].
+    """
     longest, mixture = SMOOTHING_RATIO * np.sqrt(p.volume / p.least_thickness), None
     np.copyto(longest, p.usual_length, where=p.light)
     if hasattr(p, "cross_term"):
@@ -189,7 +210,11 @@ def _flow_state(p, material) -> FlowState:
 
 
 def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> None:
-    """Advance the pore-pressure columns by the forcing of the step."""
+    """Advance the pore-pressure columns by the forcing of the step.
+
+    `p` are the particles, `exchange` is the state of the exchange between phases; `prescribed` are the places of
+    particles whose motion is given in an inflow strip; `dt` is in s.
+    """
     awake, phases = slice(p.awake), columns.phases
     forcing = column_forcing(p, awake, columns, p.entrained_volume[awake], p.entrained_ratio[awake])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
@@ -199,6 +224,9 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
 
 def find_limits(p, phases, courant_number: float, friction: BasalLaw, time: float, dt: float = 0.0) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
+
+    `p` are the particles, `phases` gives the stiffness beside weight; the Courant number has no unit; `dt` is 0 before
+    the first step.
 
     Raises
     ------

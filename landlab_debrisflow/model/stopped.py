@@ -9,7 +9,7 @@ class Stopped:
     Attributes
     ----------
     volume : float
-        [m3]
+        Volume stopped since the account was last begun [m3].
     first, last : float
         Times of the first and the last one [s].
     where : tuple of float
@@ -24,7 +24,7 @@ class Stopped:
         self.volume, self.first, self.last, self.where = 0.0, np.inf, -np.inf, (np.nan, np.nan)
 
     def copy(self) -> "Stopped":
-        """Return an independent copy."""
+        """Return an independent copy of the account."""
         other = Stopped()
         vars(other).update(vars(self))
         return other

@@ -12,14 +12,30 @@ from .time_step import viscous_share
 
 
 class Surroundings(NamedTuple):
-    """Bed of a call and laws on it; replaced as a whole by the next call."""
+    """Bed of a call and laws on it; replaced as a whole by the next call.
+
+    Attributes
+    ----------
+    bed : Bed
+        Ground below the flow.
+    walls : Raster or None
+        Raster with closed nodes; None where no node is closed.
+    friction : BasalLaw
+        Law of friction.
+    erosion : BasalLaw
+        Law of erosion.
+    columns : ColumnPhysics
+        Law of the columns.
+    courant_number : float
+        Part of the longest stable step that is taken [-].
+    """
 
     bed: Bed
-    walls: Raster | None  # None where no node is closed
+    walls: Raster | None
     friction: BasalLaw
     erosion: BasalLaw
     columns: ColumnPhysics
-    courant_number: float  # [-]
+    courant_number: float
 
 
 def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surroundings:
@@ -28,8 +44,11 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
     Parameters
     ----------
     setup : Setup
+        Laws, material and numerics.
     phases : Phases
+        Stages of a step that depend on the number of phases.
     bed : Bed
+        Ground below the flow.
     parameters : mapping of str to NamedTuple
         Parameters of the laws of friction and erosion (`core.parameters.on_nodes`).
     """

@@ -43,43 +43,93 @@ NOT_STIFF = np.zeros(1)
 
 
 class StepLimits(NamedTuple):
-    """Limits of the next step, and further reductions over all particles that are awake."""
+    """Limits of the next step, and further reductions over all particles that are awake.
 
-    longest_step: float  # that is stable [s]
-    energy: float  # sum of volume times speed squared [m5 s-2]
-    fastest: float  # largest speed plus celerity [m s-1]
-    broken: int  # place of a particle that is not finite, or -1
+    Attributes
+    ----------
+    longest_step : float
+        Longest step that is stable [s].
+    energy : float
+        Sum of volume times speed squared [m5 s-2].
+    fastest : float
+        Largest speed plus celerity [m s-1].
+    broken : int
+        Place of a particle that is not finite; -1: none.
+    """
+
+    longest_step: float
+    energy: float
+    fastest: float
+    broken: int
 
 
 @struct
 class Waves(NamedTuple):
-    """Pressure waves and converging flow, at n particles."""
+    """Pressure waves and converging flow, at n particles.
 
-    summed: np.ndarray  # (n,) bool: not summed ones can wait, for nothing near them moves
-    light: np.ndarray  # (n,) bool: much smaller than most
-    cosine: np.ndarray  # (n,) of the slope of the bed [-]
-    thickness: np.ndarray  # (n,) slope-normal thickness [m]
-    own_thickness: np.ndarray  # (n,) that of the particle's own phase [m]
-    thickening: np.ndarray  # (n,) -h div v [m s-1]
-    smoothing_length: np.ndarray  # (n,) [m]
-    stiffness: np.ndarray  # (n,) or (1,) square of the celerity that is not by weight [m2 s-2]
+    Attributes
+    ----------
+    summed : ndarray of bool, shape (n,)
+        Whether the particle limits the step; others can wait, for nothing near them moves.
+    light : ndarray of bool, shape (n,)
+        Whether its volume is much smaller than that of most.
+    cosine : ndarray, shape (n,)
+        Cosine of the slope of the bed [-].
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness [m].
+    own_thickness : ndarray, shape (n,)
+        Slope-normal thickness of the particle's own phase [m].
+    thickening : ndarray, shape (n,)
+        -h div v [m s-1].
+    smoothing_length : ndarray, shape (n,)
+        1.4 spacings [m].
+    stiffness : ndarray, shape (n,) or (1,)
+        Square of the celerity that is not by weight [m2 s-2].
+    """
+
+    summed: np.ndarray
+    light: np.ndarray
+    cosine: np.ndarray
+    thickness: np.ndarray
+    own_thickness: np.ndarray
+    thickening: np.ndarray
+    smoothing_length: np.ndarray
+    stiffness: np.ndarray
 
 
 @struct
 class Motion(NamedTuple):
-    """Motion of n particles."""
+    """Motion of n particles.
 
-    velocity: np.ndarray  # (3, n) [m s-1]
-    thrust: np.ndarray  # (3, n) acceleration by pressure [m s-2]
-    volume: np.ndarray  # (n,) that moves [m3]
+    Attributes
+    ----------
+    velocity : ndarray, shape (3, n)
+        Velocity tangent to the bed [m s-1].
+    thrust : ndarray, shape (3, n)
+        Acceleration by pressure [m s-2].
+    volume : ndarray, shape (n,)
+        Volume that moves [m3].
+    """
+
+    velocity: np.ndarray
+    thrust: np.ndarray
+    volume: np.ndarray
 
 
 @struct
 class Growth(NamedTuple):
-    """Growth of n particles by erosion."""
+    """Growth of n particles by erosion.
 
-    rate: np.ndarray  # (n,) of erosion, per map area [m s-1]
-    depth: np.ndarray  # (n,) of the flow [m]
+    Attributes
+    ----------
+    rate : ndarray, shape (n,)
+        Erosion rate per map area [m s-1].
+    depth : ndarray, shape (n,)
+        Vertical depth of the flow [m].
+    """
+
+    rate: np.ndarray
+    depth: np.ndarray
 
 
 def reduce_particles(particles, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF):
@@ -93,7 +143,7 @@ def reduce_particles(particles, gravity: float, courant_number: float, node_spac
     particles : Particles
         Those not `summed` can wait for any time: nothing near them moves.
     gravity : float
-        [m s-2]
+        Acceleration by gravity [m s-2].
     courant_number : float
         Time step over smoothing length / celerity.
     node_spacing : float
@@ -122,19 +172,22 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow thickens 
 
 @kernel
 def _reduce(count, waves, motion, growth, pressure, gravity, way):
-    """Reduce the particles that are awake to what limits the next step.
+    """Reduce the particles that are awake to the limits of the next step.
 
     Parameters
     ----------
     count : int
         Particles that are awake.
     waves : Waves
+        Pressure waves at n particles.
     motion : Motion
+        Motion of n particles.
     growth : Growth
+        Growth by erosion at n particles.
     pressure : ndarray, shape (n,)
         Basal excess pore pressure [Pa].
     gravity : float
-        [m s-2]
+        Acceleration by gravity [m s-2].
     way : float
         Longest way of a particle in a step [m].
 

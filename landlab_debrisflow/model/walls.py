@@ -19,8 +19,9 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
     Parameters
     ----------
     state : FlowState
+        The n particles as the flow law sees them.
     changed : ndarray of bool, shape (n,)
-        Which particles have changed.
+        Whether each particle has changed in the last steps.
     walls : Raster
         With at least one closed node.
     touched : ndarray of int8, shape (n,)
@@ -29,7 +30,7 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
     Returns
     -------
     FlowState, ndarray
-        The same with ghosts behind the n particles; the arrays given if there is none.
+        `state` and `changed` with ghosts behind the n particles; the arrays given if there is none.
     """
     position, support = state.position, 2.0 * state.smoothing.length
     count = _find(position.x, position.y, support, walls, _NONE, _NOWHERE)
@@ -65,7 +66,10 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
 
 
 def bear(x, y, pull, sample, walls: Raster | None) -> None:
-    """Reduce the pull (3, n) on particles at rest by the reaction of walls [m s-2], in place; `sample` is their bed."""
+    """Reduce the pull (3, n) on particles at rest by the reaction of walls [m s-2], in place; `sample` is their bed.
+
+    `x`, `y` have shape (n,) [m], `sample` is a `SurfaceSample` there; `walls` is None where no node is closed.
+    """
     if walls is None:
         return
     size = np.sqrt((pull**2).sum(axis=0))
@@ -91,7 +95,8 @@ _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 def _find(x, y, support, raster, source, wall):
     """Return the number of ghosts of particles at x, y with a support [m], and write them if there is room.
 
-    Written are the particle of each, shape (k,), and the coordinates of its walls, shape (2, k) [m], NaN for none.
+    Written are the particle of each, `source`, shape (k,), and the coordinates of its walls, `wall`, shape (2, k) [m],
+    NaN for none; x, y and support have shape (n,).
 
     A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. In a
     corner a particle and its three ghosts in one place would sum to more than any smoothing length can make up for.

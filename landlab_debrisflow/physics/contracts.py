@@ -14,26 +14,47 @@ from ..spatial.packing import Position
 
 
 class BasalStress(NamedTuple):
-    """Stresses at the base of the flow under each of n particles."""
+    """Stresses at the base of the flow under each of n particles.
 
-    effective_normal: Array  # (n,) max(0, rho' g_n h_n - p_b): all that friction must know of pore pressure [Pa]
-    liquefaction: Array  # (n,) rho' g thickness cos(theta), static gravity [Pa]
-    excess_pore_pressure: Array  # (n,) at the base [Pa]
+    Attributes
+    ----------
+    effective_normal : ndarray, shape (n,); max(0, rho' g_n h_n - p_b), all that friction needs of pore pressure [Pa]
+    liquefaction : ndarray, shape (n,); rho' g h_n cos(theta), of static gravity g [Pa]
+    excess_pore_pressure : ndarray, shape (n,); p_b, above hydrostatic, at the base [Pa]
+    """
+
+    effective_normal: Array
+    liquefaction: Array
+    excess_pore_pressure: Array
 
 
 class BasalState(NamedTuple):
-    """The base of the flow under each of n particles, as friction and erosion laws read it."""
+    """The base of the flow under each of n particles, as friction and erosion laws read it.
 
-    depth: Array  # (n,) vertical [m]
-    thickness: Array  # (n,) slope-normal [m]
-    speed: Array  # (n,) along the slope [m s-1]
-    density: Array  # (n,) mixture [kg m-3]
-    normal_gravity: Array  # (n,) with curvature, >= 0 [m s-2]
+    Attributes
+    ----------
+    depth : ndarray, shape (n,); vertical depth of the flow [m]
+    thickness : ndarray, shape (n,); h_n, slope-normal [m]
+    speed : ndarray, shape (n,); mean over the depth, along the slope [m s-1]
+    density : ndarray, shape (n,); of the mixture [kg m-3]
+    normal_gravity : ndarray, shape (n,); g_n, with the curvature of the bed, >= 0 [m s-2]
+    stress : BasalStress; stresses at the base [Pa]
+    eroded_depth : ndarray, shape (n,); vertical, taken from the bed in this event; (1,) for friction laws [m]
+    material : Material; densities [kg m-3], porosity [-], gravity [m s-2]
+    parameters : object; the law's parameters as attributes, each (n,) or (1,), in SI units (angles in rad)
+    variables : object; the law's own variables as attributes, (n,): written in place, they are there in the next step
+    """
+
+    depth: Array
+    thickness: Array
+    speed: Array
+    density: Array
+    normal_gravity: Array
     stress: BasalStress
-    eroded_depth: Array  # (n,) vertical, taken from the bed in this event, for erosion laws; else (1,) [m]
-    material: Any  # physics.material.Material
-    parameters: Any  # all that a law reads of its own, `core.parameters.on_nodes`: (n,) or (1,), SI
-    variables: Any  # the law's own variables as attributes, (n,): written in place, they are there in the next step
+    eroded_depth: Array
+    material: Any
+    parameters: Any
+    variables: Any
 
 
 class BaseContact(IntEnum):
@@ -70,35 +91,55 @@ class ColumnState(NamedTuple):
     keep it in another form, while nothing is missed; a law's ``synchronise`` turns them into pressures.
     A new column has its pressure at equally spaced levels in ``profile``, index 0 at the base and the
     last at the surface, and zeros in ``memory``; its first ``advance``, of 0 seconds, tells it its load.
+
+    Attributes
+    ----------
+    profile : ndarray, shape (n, levels); excess pore pressure, or the law's own form of it [Pa]
+    memory : ndarray, shape (n, memory_size of the law); the law's own numbers
+    clipped : ndarray, shape (n,); pressure taken off by the bounds, times thickness, so far [Pa m]
     """
 
-    profile: Array  # (n, levels) [Pa]
-    memory: Array  # (n, memory_size of the law), the law's own
-    clipped: Array  # (n,), pressure taken off by the bounds, times thickness, so far [Pa m]
+    profile: Array
+    memory: Array
+    clipped: Array
 
 
 class ColumnForcing(NamedTuple):
-    """Change of n columns in one step of the flow; arrays have length n, arrays marked (1) n or 1."""
+    """Change of n columns in one step of the flow.
 
-    volume: Array  # after the step [m3]
-    thickness: Array  # after the step, slope-normal [m]
-    liquefaction_pressure: Array  # after the step [Pa]
-    entrained: Array  # volume granted by the bed in the step [m3]; > 0 means eroding
-    bed_pressure: Array  # (1) of the soil that came in, or of the bed below [Pa]
-    base: Array  # (1) BaseContact: BY_EROSION, IMPERMEABLE or PRESCRIBED (int8)
-    porosity_source: Array  # (1) pressure made by a change of porosity, everywhere in the column [Pa s-1]
-    coefficient_of_consolidation: Array  # (1) [m2 s-1]
-    water_to_buoyant: float  # density of water over buoyant density: lower bound of the pressure ratio [-]
-    bounded: bool  # whether pressure is kept between suction and liquefaction
+    Attributes
+    ----------
+    volume : ndarray, shape (n,); after the step [m3]
+    thickness : ndarray, shape (n,); after the step, slope-normal [m]
+    liquefaction_pressure : ndarray, shape (n,); after the step [Pa]
+    entrained : ndarray, shape (n,); volume granted by the bed in the step [m3]; > 0 means eroding
+    bed_pressure : ndarray, shape (n,) or (1,); of the soil that came in, or of the bed below [Pa]
+    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE or PRESCRIBED
+    porosity_source : ndarray, shape (n,) or (1,); pressure made by a change of porosity, at all levels [Pa s-1]
+    coefficient_of_consolidation : ndarray, shape (n,) or (1,); c_v [m2 s-1]
+    water_to_buoyant : float; density of water over buoyant density: lower bound of the pressure ratio [-]
+    bounded : bool; whether pressure is kept between suction and liquefaction
+    """
+
+    volume: Array
+    thickness: Array
+    liquefaction_pressure: Array
+    entrained: Array
+    bed_pressure: Array
+    base: Array
+    porosity_source: Array
+    coefficient_of_consolidation: Array
+    water_to_buoyant: float
+    bounded: bool
 
 
 class FrictionLaw(Protocol):
     """Resistance of the bed."""
 
     def basal_resistance(self, state: BasalState, yield_stress: Array, drag: Array) -> None:
-        """Write the yield stress, which holds a body at rest [Pa], and the other resistance over speed [Pa s m-1].
+        """Write the yield stress, which holds a body at rest [Pa], and the drag, other resistance over speed [Pa s/m].
 
-        Both are >= 0 and finite.
+        Both have shape (n,), are >= 0 and finite; `state` is the base of the flow under n particles.
         """
 
 
@@ -106,7 +147,10 @@ class ErosionLaw(Protocol):
     """How fast the flow asks soil from the bed."""
 
     def entrainment_rate(self, state: BasalState, out: Array) -> None:
-        """Write the erosion rate asked for: bed volume per map area and time [m s-1], >= 0, zero at rest."""
+        """Write the demanded erosion rate into `out`, shape (n,): bed volume per map area and time [m s-1].
+
+        The rate is >= 0, and 0 at rest; `state` is the base of the flow under n particles.
+        """
 
 
 class ColumnLaw(Protocol):
@@ -123,10 +167,10 @@ class ColumnLaw(Protocol):
         """Number of floats of a column in `ColumnState.memory`."""
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure: Array) -> None:
-        """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
+        """Advance the `columns` by `dt` [s] in place under a `forcing`; write `basal_pressure`, shape (n,) [Pa]."""
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Bring every profile to the present in place, for output, a change of volume or the end."""
+        """Turn every profile of `columns` into the pressures at levels now [Pa], in place; `forcing` is the last."""
 
 
 MIXTURE, WATER = 0, 1
@@ -134,7 +178,7 @@ MIXTURE, WATER = 0, 1
 
 
 class Smoothing(NamedTuple):
-    """Smoothing length of each of n particles and its cap."""
+    """Smoothing length, its cap [m] and the grad-h term Omega [-] of each of n particles; arrays of shape (n,)."""
 
     length: Array  # (n,) smoothing length [m]
     longest: Array  # (n,) cap of it [m]
@@ -153,7 +197,10 @@ class MixtureState(NamedTuple):
 
 
 class MixtureSums(NamedTuple):
-    """Results of a flow law of two phases for the mixture; particles in sleeping cells are left unchanged."""
+    """Results of a flow law of two phases for m particles: own share [-], cross term [-] and mean pressure [Pa], (m,).
+
+    Particles in sleeping cells are left unchanged.
+    """
 
     share: Array  # (m,) of the thickness that is of the own phase [-]
     cross_term: Array  # (m,) [-]
@@ -161,18 +208,32 @@ class MixtureSums(NamedTuple):
 
 
 class FlowState(NamedTuple):
-    """The moving mass as the flow law sees it, n particles on the surface, ghosts behind walls included."""
+    """The moving mass as the flow law sees it, n particles on the surface, ghosts behind walls included.
+
+    Attributes
+    ----------
+    position : Position; on the surface [m]
+    velocity : ndarray, shape (3, n); tangent to the bed [m s-1]
+    volume : ndarray, shape (n,); of the particle [m3]
+    smoothing : Smoothing; smoothing lengths [m] and their caps
+    thickness : ndarray, shape (n,); slope-normal, of the own phase, of the step before [m]
+    thickening : ndarray, shape (n,); -h div v, of the step before [m s-1]
+    cos_slope : ndarray, shape (n,); cosine of the slope of the bed [-]
+    density : ndarray, shape (n,); of the mixture [kg m-3]
+    gravity : float; acceleration by gravity [m s-2]
+    mixture : MixtureState or None; None in a flow of one phase
+    """
 
     position: Position
-    velocity: Array  # (3, n) [m s-1]
-    volume: Array  # (n,) [m3]
+    velocity: Array
+    volume: Array
     smoothing: Smoothing
-    thickness: Array  # (n,) slope-normal, of the own phase, of the step before [m]
-    thickening: Array  # (n,) -h div v, of the step before [m s-1]
-    cos_slope: Array  # (n,) [-]
-    density: Array  # (n,) of the mixture [kg m-3]
-    gravity: float  # [m s-2]
-    mixture: MixtureState | None  # None in a flow of one phase
+    thickness: Array
+    thickening: Array
+    cos_slope: Array
+    density: Array
+    gravity: float
+    mixture: MixtureState | None
 
 
 class FlowLaw(Protocol):
@@ -188,15 +249,15 @@ class FlowLaw(Protocol):
         """Write the sums over neighbours (`spatial.summation.Sums`) of particles in cells that are awake.
 
         The sums are thickness, smoothing length and gradient term, the acceleration by the flow's own pressure, and the
-        convergence. A law with two phases also writes ``state.mixture.written`` and returns
-        the cells of grains and of water.
+        convergence, of the n particles of `state` in a cell list `cells`. The shock viscosity has no unit. A law with
+        two phases also writes ``state.mixture.written`` and returns the cells of grains and of water.
         """
 
 
 class Phases(Protocol):
     """Stages of a step that depend on the number of phases (model/phases).
 
-    `particles` are all particles, `exchange` is the state of the exchange between grains and water.
+    `particles` are all particles, `which` some n, `exchange` is the state of the exchange between grains and water.
     """
 
     variables: tuple  # of Variable, beyond the variables of every particle
@@ -217,10 +278,10 @@ class Phases(Protocol):
         """Write thickness and mixture of the particles from sums over neighbours; `cells` has a cell list per phase."""
 
     def kick(self, particles, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
-        """Accelerate the particles that are awake along the bed for `dt` seconds, friction and drag included."""
+        """Change `velocity`, (3, n) [m s-1], of particles awake by all forces along the bed in `dt` [s]."""
 
     def held_at_rest(self, particles, exchange, which: slice, yield_stress, drag, walls) -> Array:
-        """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
+        """Return whether friction (yield stress [Pa], drag [Pa s m-1]) and walls would hold `which` at rest, (n,)."""
 
     def limit_entrainment(self, exchange, rate) -> None:
         """Set the erosion rate to 0 where no particle could take all of the soil, in place."""
@@ -229,10 +290,10 @@ class Phases(Protocol):
         """Give to other particles the volume of entrained soil that the eroding particle does not keep."""
 
     def column_forcing(self, particles, forcing: ColumnForcing, prescribed, dt: float) -> ColumnForcing:
-        """Return the forcing of the columns with the source by a change of porosity [Pa s-1]."""
+        """Return `forcing` with the source by a change of porosity in `dt` [s], not at `prescribed` places [Pa s-1]."""
 
     def update_mean_pressure(self, particles, exchange, forcing: ColumnForcing, profiles, dt: float) -> None:
-        """Update the depth-mean pore pressure from the columns; `profiles` is called to have them at levels [Pa]."""
+        """Update the mean pore pressure [Pa] by `forcing` in `dt` [s]; `profiles()` gives columns at levels [Pa]."""
 
     def celerity_squared(self, particles, dt: float) -> Array:
         """Return by how much the square of the celerity is higher than weight makes it, (n,) or (1,) [m2 s-2]."""

@@ -86,5 +86,16 @@ class Material:
         return self.porosity if self.bed_porosity is None else self.bed_porosity
 
     def density_of(self, porosity: np.ndarray | float) -> Any:
-        """Return the density of a mixture of some porosity, a number or an array [kg m-3]."""
+        """Return the density of a mixture of some porosity [kg m-3].
+
+        Parameters
+        ----------
+        porosity : float or ndarray
+            Pores over the whole [-], 0 to 1.
+
+        Returns
+        -------
+        float or ndarray
+            Density of grains and pore water, of the shape of `porosity` [kg m-3].
+        """
         return (1.0 - porosity) * self.solid_density + porosity * self.bearing_density

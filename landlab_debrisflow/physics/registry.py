@@ -37,7 +37,7 @@ METHOD = {
 
 
 def law_name(kind: str, law: Any) -> str:
-    """Return the name a law of some kind is chosen by, or module and class of one that has no name."""
+    """Return the name by which `law` of a `kind`, such as "friction", is chosen; without a name, module and class."""
     cls = type(law)
     return next((name for name, known in LAWS[kind].items() if known is cls), f"{cls.__module__}.{cls.__qualname__}")
 

@@ -23,18 +23,27 @@ LIGHT = LightSource(azdeg=315, altdeg=45)
 
 
 class Layer(NamedTuple):
-    """One quantity, drawn for several runs with one colour scale."""
+    """One quantity, drawn for several runs with one colour scale.
+
+    Parameters
+    ----------
+    panels : mapping of str to xarray.DataArray
+        Title of each panel and its values over ``y`` and ``x``, all in the unit that the label names.
+    label : str
+        Text beside the colour bar, with the unit.
+    colours : str
+        Name of a matplotlib colour map.
+    limits : tuple of float, optional
+        Ends of the colour scale, in the unit of the values; by default 0 and the largest value shown.
+    threshold : float
+        Values of smaller magnitude are left transparent, in the unit of the values.
+    """
 
     panels: Mapping[str, xr.DataArray]
-    """Title of each panel and its values, over ``y`` and ``x``."""
     label: str
-    """Text beside the colour bar, with the unit."""
     colours: str = "viridis"
-    """Name of a matplotlib colour map."""
     limits: tuple[float, float] | None = None
-    """Ends of the colour scale; by default 0 and the largest value shown."""
     threshold: float = 0.01
-    """Values of smaller magnitude are left transparent."""
 
 
 def draw_maps(
@@ -106,6 +115,20 @@ def draw_maps(
 def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
     """Write a figure, atomically; return where.
 
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        As `draw_maps` returns it.
+    path : str or os.PathLike
+        The file; its suffix chooses the format, such as ``.png`` or ``.pdf``.
+    dpi : int
+        Dots per inch of what is not drawn as lines.
+
+    Returns
+    -------
+    pathlib.Path
+        Where the file is.
+
     Raises
     ------
     InputError
@@ -121,7 +144,10 @@ def _hillshade(relief):
 
 
 def _edges(relief, origin, scale):
-    """Return the outer edges of the cells around the nodes: west, east, south, north."""
+    """Return the outer edges of the cells around the nodes: west, east, south, north.
+
+    `relief` is over ``y`` and ``x`` [m]; coordinates [m] are counted from `origin` and multiplied by `scale`.
+    """
     x, y = (relief.x.values - origin[0]) * scale, (relief.y.values - origin[1]) * scale
     half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     return x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y
@@ -142,7 +168,10 @@ def _extent_of(layers, relief, outline, margin):
 
 
 def _figure_size(aspect, rows, columns):
-    """Return width and height [inch] for panels as wide as they can be on a page."""
+    """Return width and height [inch] for panels as wide as they can be on a page.
+
+    `aspect` is width over height of a panel; `rows` and `columns` are numbers of panels.
+    """
     width = min(7.0, 14.0 / columns)
     height = width / aspect
     if height > 7.0:
@@ -159,7 +188,10 @@ def _draw_lines(axes, relief, outline, contours, origin, scale):
 
 
 def _rim(mask, x, y):
-    """Return the cell edges between True and False, shape (edges, 2 ends, 2 coordinates)."""
+    """Return the cell edges between True and False, shape (edges, 2 ends, 2 coordinates).
+
+    `mask` is of bool, shape (rows, columns); `x` and `y` are the coordinates of its columns and rows.
+    """
     mask = np.pad(mask.astype(bool), 1)
     edge_x, edge_y = (np.append(a - 0.5 * (a[1] - a[0]), a[-1] + 0.5 * (a[1] - a[0])) for a in (x, y))
     row, column = np.nonzero(mask[1:-1, 1:] != mask[1:-1, :-1])
@@ -170,7 +202,10 @@ def _rim(mask, x, y):
 
 
 def _draw_scale_bar(axes, unit):
-    """Draw a bar of a round length, about a fifth of the panel, into its lower left corner."""
+    """Draw a bar of a round length, about a fifth of the panel, into its lower left corner.
+
+    `axes` are of matplotlib, `unit` is "m" or "km".
+    """
     (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
     target = 0.25 * (east - west)
     power = 10.0 ** np.floor(np.log10(target))

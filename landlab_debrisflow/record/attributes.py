@@ -50,12 +50,14 @@ def moment_attributes(time: float, particles: Any, budget: Mapping[str, float] |
 
 
 def variable_attributes(unit: str, long_name: str) -> dict[str, str]:
-    """Return the attributes of a variable."""
+    """Return the attributes of a variable: its `unit`, given as Landlab writes it, as CF does, and its `long_name`."""
     return {"units": CF_UNITS.get(unit, unit), "long_name": long_name}
 
 
 def quantity_attributes(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
     """Return the attributes of a quantity; an empty mapping for a value that is not set or cannot be written.
+
+    `name` is made a legal name of an attribute; `unit` is as Landlab writes it, "-" for none.
 
     Examples
     --------
@@ -104,7 +106,7 @@ def parameters_of(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
 
 
 def parameter_attributes(kind: str, obj: Any) -> dict[str, Any]:
-    """Return the attributes of all parameters of an object."""
+    """Return the attributes of all parameters of `obj`, a law, material or numerics; `kind` begins their names."""
     attributes: dict[str, Any] = {}
     for name, value, declaration in parameters_of(obj):
         attributes |= quantity_attributes(f"{kind}_{name}", value, declaration.get("unit", "-"))
@@ -124,6 +126,8 @@ def node_parameters(
     kind: str, obj: Any, fields: Mapping[str, np.ndarray], count: int
 ) -> Iterator[tuple[str, np.ndarray, dict[str, str]]]:
     """Yield name, values over `count` nodes and attributes of every parameter that is given at all of them.
+
+    `kind` begins the names; `obj` is a law, the material or the numerics.
 
     `fields` are the fields of the grid at nodes, by name: a parameter may be given as such a name.
     """

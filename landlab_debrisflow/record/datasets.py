@@ -28,7 +28,11 @@ FIELDS = {field.name: field for field in NODE_FIELDS}
 
 
 def particles_dataset(particles: Any, lower_left: Sequence[float], setup: Any, time: float) -> xr.Dataset:
-    """Return the particles over ``particle``; x and y are map coordinates of the grid [m]."""
+    """Return the particles over ``particle``; x and y are map coordinates of the grid [m].
+
+    `particles` are those of a simulation; `lower_left` is x, y of the first node [m]; `setup` and `time` [s] are for
+    the attributes.
+    """
     data, order = {}, np.argsort(particles.identity)
     for variable in particles.variables:
         if not variable.written or variable.per_level:
@@ -50,7 +54,10 @@ def particles_dataset(particles: Any, lower_left: Sequence[float], setup: Any, t
 def columns_dataset(
     profile: np.ndarray, particles: Any, coefficient_of_consolidation: np.ndarray, setup: Any, time: float
 ) -> xr.Dataset:
-    """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,)."""
+    """Return the columns over ``particle`` and ``level``; `profile` has shape (n, levels) [Pa], c_v (n,) or (1,).
+
+    `particles` are those of a simulation; c_v is in m2 s-1; `setup` and `time` [s] are for the attributes.
+    """
     levels = profile.shape[1]
     order = np.argsort(particles.identity)
     p, grown = particles, particles.volume / particles.released_volume
@@ -93,6 +100,7 @@ def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment:
     Parameters
     ----------
     grid : RasterModelGrid
+        Grid of the component.
     shown : mapping of str to ndarray, shape (nodes,)
         By the names of fields.
     setup : Setup

@@ -18,6 +18,10 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     path : str or os.PathLike
         The file to be written; it may exist already.
 
+    Returns
+    -------
+    pathlib.Path
+
     Raises
     ------
     InputError
@@ -75,6 +79,18 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
 
 def write_dataset(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     """Write an xarray Dataset as compressed NetCDF, atomically; return where.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The file; it is replaced if it exists.
+    dataset : xarray.Dataset
+        Any dataset whose attributes NetCDF can hold, such as `DebrisFlow.maps`.
+
+    Returns
+    -------
+    pathlib.Path
+        Where the file is.
 
     Raises
     ------

@@ -108,6 +108,7 @@ def quantile(values: np.ndarray, weights: np.ndarray, fraction: float) -> float:
     Parameters
     ----------
     values, weights : ndarray, shape (n,)
+        Values, in any unit, and their weights, >= 0.
     fraction : float
         [-].
 
@@ -139,7 +140,10 @@ def _cell(maps) -> float:
 
 
 class _Region:
-    """Values of maps at the nodes to be measured; missing values count as 0."""
+    """Values of maps at the nodes to be measured; missing values count as 0.
+
+    `maps` is a Dataset over ``y`` and ``x``; `inside`, bool, one value per node, tells which are measured; None: all.
+    """
 
     def __init__(self, maps, inside):
         self._maps, self._shape = maps, (maps.sizes["y"], maps.sizes["x"])
@@ -153,7 +157,7 @@ class _Region:
         self.cell = _cell(maps)
 
     def at(self, name):
-        """Return an output over the nodes inside, 0 where it is missing."""
+        """Return an output, by its name without prefix, at the nodes inside, (n,), in its unit; 0 where missing."""
         field = f"debris_flow__{name}"
         return np.nan_to_num(self._maps[field].values[self._inside]) if field in self._maps else np.zeros(0)
 
@@ -170,7 +174,10 @@ def _moment_measures(maps):
 
 
 def _map_measures(region, flow_threshold, erosion_threshold, deposit_threshold):
-    """Return areas [m2], volumes [m3], depths [m] and peaks as (value, unit, meaning) by name."""
+    """Return areas [m2], volumes [m3], depths [m] and peaks as (value, unit, meaning) by name.
+
+    `region` is a `_Region`; the thresholds are depths [m] from which on flow, erosion and deposit count.
+    """
     depth, eroded, deposit = (region.at(name) for name in ("max_depth", "eroded_depth", "deposit_depth"))
     eroding, thick = _at_least(eroded, erosion_threshold), deposit[_at_least(deposit, deposit_threshold)]
     peclet = region.at("max_basal_peclet_number")
@@ -209,7 +216,10 @@ def _at_least(depth, threshold):
 
 
 def _mass(flow, maps, before):
-    """Return x, y, bed elevation [m] and volume [m3] of the mass: particles, or nodes of the deposit."""
+    """Return x, y, bed elevation [m] and volume [m3] of the mass: particles, or nodes of the deposit.
+
+    `flow` is a component or maps; `maps` and `before` are Datasets over ``y`` and ``x``, `before` may be None.
+    """
     if flow is not maps and (p := flow.particles).sizes["particle"]:
         return p.x.values, p.y.values, p.z.values, p.volume.values
     deposit = np.nan_to_num(maps[DEPOSIT].values)
@@ -222,7 +232,12 @@ def _mass(flow, maps, before):
 
 
 def _travel_measures(mass, before, distance, front_fraction):
-    """Return run-out [m] and, with the ground before, travel angle [deg], as (value, unit, meaning) by name."""
+    """Return run-out [m] and, with the ground before, travel angle [deg], as (value, unit, meaning) by name.
+
+    `mass` is x, y, z [m] and volume [m3], each (n,); `before` are maps before the event, or None; `distance` is a
+    function of x, y that returns the distance along the path [m], or None; `front_fraction` is the part of the volume
+    behind the front [-].
+    """
     x, y, z, volume = mass
     released = None if before is None else np.nan_to_num(before[RELEASE].values)
     if released is not None and not released.any():

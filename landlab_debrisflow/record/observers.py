@@ -58,7 +58,13 @@ class Progress:
         self._label, self._console = label, console or Console(stderr=True)
 
     def observe(self, flow: Any) -> None:
-        """Show time [s], moving volume [m3] and the largest speed on the grid [m/s]."""
+        """Show time [s], moving volume [m3] and the largest speed on the grid [m/s].
+
+        Parameters
+        ----------
+        flow : DebrisFlow
+            The component after a step.
+        """
         if not self._console.is_terminal:
             return
         speed = float(flow.grid.at_node["debris_flow__speed"].max())
@@ -101,7 +107,13 @@ class Snapshots:
         self._maps: list[xr.Dataset] = []
 
     def observe(self, flow: Any) -> None:
-        """Keep the maps of now; write the file if the flow is at rest."""
+        """Keep the maps of now; write the file if the flow is at rest.
+
+        Parameters
+        ----------
+        flow : DebrisFlow
+            The component after a step.
+        """
         maps = flow.maps
         if self._variables is not None:
             if unknown := [name for name in self._variables if name not in maps]:
@@ -195,7 +207,13 @@ class Series:
         self._values: list[dict[str, np.ndarray]] = []
 
     def observe(self, flow: Any) -> None:
-        """Measure, and interpolate to the wanted times between the last step and now."""
+        """Measure, and interpolate to the wanted times between the last step and now.
+
+        Parameters
+        ----------
+        flow : DebrisFlow
+            The component after a step.
+        """
         now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
         then, earlier = self._before or (now, values)
         if {k: v.shape for k, v in values.items()} != {k: v.shape for k, v in earlier.items()}:

@@ -24,9 +24,19 @@ UNSET: Any = None
 
 
 class NodeArray(NamedTuple):
-    """A parameter given at every node."""
+    """Parameter of a setup that has a value at every node of the grid, as `Setup.node_arrays` returns it for output.
 
-    values: np.ndarray  # (nodes,)
+    Attributes
+    ----------
+    values : ndarray, shape (nodes,)
+        Value of the parameter at each node, as float, in `unit`.
+    unit : str
+        Unit of the parameter as declared, such as "deg".
+    meaning : str
+        Meaning of the parameter as declared.
+    """
+
+    values: np.ndarray
     unit: str
     meaning: str
 
@@ -43,8 +53,11 @@ class Setup:
     flow, friction, erosion, column : law, str or mapping, optional
         A law, its name in any case, or plain values with its name under ``"law"``; by default the first of its kind.
     material : Material or mapping, optional
+        Densities, porosity, consolidation, initial pore pressure.
     numerics : Numerics or mapping, optional
+        Number of particles, threads, settling.
     inflow : Hydrograph, mapping or a sequence of them, optional
+        Discharge, velocity and pore pressure against time, across lines.
 
     Raises
     ------
@@ -92,7 +105,7 @@ class Setup:
 
     @property
     def two_phases(self) -> bool:
-        """Whether grains and water move by themselves: then the flow law says how they drag each other."""
+        """Whether grains and water move as two phases: then the flow law has a `drag_coefficient` between them."""
         return hasattr(self.flow, "drag_coefficient")
 
     @classmethod
@@ -157,6 +170,10 @@ class Setup:
         """Return 32 hexadecimal digits, equal in every process for equal setups and different otherwise.
 
         Of a law that is not declared they tell class, state and how it prints.
+
+        Returns
+        -------
+        str
         """
         laws = {kind: (law_name(kind, law := getattr(self, kind)), state_of(law)) for kind in LAWS}
         return digest([laws, *(state_of(part) for part in (self.material, self.numerics)), list(self.inflow)])
@@ -164,7 +181,13 @@ class Setup:
     # ---- in a Dataset ----
 
     def node_arrays(self) -> dict[str, NodeArray]:
-        """Return the parameters given at every node, by the name of a variable, such as ``friction__cohesion``."""
+        """Return the parameters given at every node.
+
+        Returns
+        -------
+        dict of str to NodeArray
+            Values, unit and meaning by the name of a variable, such as ``friction__cohesion``.
+        """
         return {
             _variable(kind, field.name): NodeArray(value.values, field.metadata["unit"], field.metadata["meaning"])
             for kind in LAWS if is_declared(law := getattr(self, kind))
@@ -172,7 +195,13 @@ class Setup:
         }  # fmt: skip
 
     def to_attributes(self) -> dict[str, str]:
-        """Return the setup as attributes of a Dataset that has `node_arrays` as variables, and its digest."""
+        """Return the setup as attributes of a Dataset that has `node_arrays` as variables.
+
+        Returns
+        -------
+        dict of str to str
+            ``setup``, as JSON, and ``setup_digest``; `from_dataset` reads them.
+        """
         mapping = self._mapping(lambda kind, name, array: {"variable": _variable(kind, name)})
         return {"setup": json.dumps(mapping), "setup_digest": self.digest()}
 

@@ -138,7 +138,10 @@ def tsing_shan_valley(
 
 
 def _thalweg(erodible_length, slopes, transition_length, runout_length):
-    """Return plan distance, elevation and path from the 100 m contour (negative above it) [m]."""
+    """Return plan distance, elevation and path from the 100 m contour (negative above it) [m].
+
+    All lengths are in m; `slopes` are those of head, foot and plain [deg]. The three arrays have one shape.
+    """
     head, foot, plain = np.radians(slopes)
     top = erodible_length + 3.0 * HEAD_ROOM
     path = np.linspace(-top, 2.0 * runout_length, 1 + round(20 * (top + 2.0 * runout_length)))
@@ -163,7 +166,10 @@ def _blend(t):
 
 
 def _cap(x, y, half_axes, volume, spacing):
-    """Return the depth [m] at nodes of a parabolic cap with exactly this volume [m3]."""
+    """Return the depth [m] at nodes of a parabolic cap with exactly this volume [m3].
+
+    `x`, `y` are distances of the nodes from the centre, `half_axes` two lengths, `spacing` that of the nodes [m].
+    """
     shape = np.maximum(0.0, 1.0 - (x / half_axes[0]) ** 2 - (y / half_axes[1]) ** 2)
     if not shape.any():
         raise InputError(f"spacing of {spacing:g} m puts no node on a landslide of {half_axes} m; use at most 5 m")
@@ -171,7 +177,10 @@ def _cap(x, y, half_axes, volume, spacing):
 
 
 def _correlated_noise(shape, correlation_in_nodes, seed):
-    """Return noise of zero mean and unit standard deviation, correlated over some nodes."""
+    """Return noise of zero mean and unit standard deviation, correlated over some nodes.
+
+    `shape` is (rows, columns); `correlation_in_nodes` is the length of correlation in node spacings; `seed` is an int.
+    """
     noise = gaussian_filter(np.random.default_rng(seed).standard_normal(shape), correlation_in_nodes, mode="nearest")
     return (noise - noise.mean()) / noise.std()
 

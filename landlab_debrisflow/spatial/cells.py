@@ -22,17 +22,39 @@ CELLS_PER_PARTICLE = 4
 
 
 class Cells(NamedTuple):
-    """A cell list over n particles; cell c holds the sorted particles ``start[c]:start[c + 1]``."""
+    """A cell list over n particles; cell c holds the sorted particles ``start[c]:start[c + 1]``.
+
+    Attributes
+    ----------
+    columns : int
+        Cells in a row.
+    size : float
+        Width of a cell [m].
+    order : ndarray of int, shape (n,)
+        Particle at each sorted place.
+    start : ndarray of int, shape (cells + 1,)
+        First sorted place of each cell, and n.
+    reach : ndarray, shape (cells,)
+        Largest support inside [m].
+    box : ndarray, shape (4, cells)
+        Least and largest x, least and largest y inside [m].
+    window : ndarray of int, shape (cells,)
+        Number of cells in x and in y within which others may be felt.
+    awake : ndarray of bool, shape (cells,)
+        Something in the window has changed.
+    computed : ndarray of bool, shape (n,)
+        In a cell that is awake.
+    """
 
     columns: int
-    size: float  # width of a cell [m]
-    order: np.ndarray  # (n,) particle at each sorted place
-    start: np.ndarray  # (cells + 1,)
-    reach: np.ndarray  # (cells,) largest support inside [m]
-    box: np.ndarray  # (4, cells) least and largest x, least and largest y inside [m]
-    window: np.ndarray  # (cells,) how many cells away others may be felt
-    awake: np.ndarray  # (cells,) bool: something in the window has changed
-    computed: np.ndarray  # (n,) bool: in a cell that is awake
+    size: float
+    order: np.ndarray
+    start: np.ndarray
+    reach: np.ndarray
+    box: np.ndarray
+    window: np.ndarray
+    awake: np.ndarray
+    computed: np.ndarray
 
 
 def sort_into_cells(x, y, support, changed=None) -> Cells:
@@ -78,7 +100,7 @@ def _extent(x, y, support):
     Parameters
     ----------
     x, y, support : ndarray, shape (n,)
-        [m]
+        Position and support of the particles [m].
     """
     west, east, south, north, total = x[0], x[0], y[0], y[0], 0.0
     for i in range(x.size):
@@ -96,6 +118,7 @@ def _sort(x, y, support, changed, west, south, cells):
     x, y, support : ndarray, shape (n,)
         Map coordinates and radius within which each particle feels others [m].
     changed : ndarray of bool, shape (n,)
+        Whether each particle has changed.
     west, south : float
         Lower left corner of the cells [m].
     cells : Cells

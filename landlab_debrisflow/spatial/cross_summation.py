@@ -22,22 +22,48 @@ _ZERO, _ONE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(4.0), _F(1e-12)
 
 
 class CrossPhaseInput(NamedTuple):
-    """State of all n particles, of either phase, that the sums over the other phase read."""
+    """State of all n particles, of either phase, that the sums over the other phase read.
 
-    position: Position  # on the surface
-    volume: np.ndarray  # (n,) [m3]
-    smoothing_length: np.ndarray  # (n,) [m]
-    pressure_coefficient: np.ndarray  # (n,) depth-integrated pressure on both phases over total thickness^2 [N m-3]
-    averaged: np.ndarray  # (n,) any quantity to be averaged
+    Attributes
+    ----------
+    position : Position
+        On the surface [m].
+    volume : ndarray, shape (n,)
+        Volume of the particle [m3].
+    smoothing_length : ndarray, shape (n,)
+        1.4 spacings [m].
+    pressure_coefficient : ndarray, shape (n,)
+        Depth-integrated pressure on both phases over total thickness^2 [N m-3].
+    averaged : ndarray, shape (n,)
+        Quantity to be averaged, in any unit.
+    """
+
+    position: Position
+    volume: np.ndarray
+    smoothing_length: np.ndarray
+    pressure_coefficient: np.ndarray
+    averaged: np.ndarray
 
 
 class CrossPhaseSums(NamedTuple):
-    """Results of the sums over the other phase, written where cells are awake."""
+    """Results of the sums over the other phase, written where cells are awake.
 
-    thickness: np.ndarray  # (n,) of the other phase [m]
-    cross_term: np.ndarray  # (n,) l/(2 own thickness) d(thickness of the other phase)/dl [-]
-    mean: np.ndarray  # (n,) of the averaged quantity over the other phase; 0 where there is none
-    force: np.ndarray  # (3, n) per volume [N m-3], added to
+    Attributes
+    ----------
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness of the other phase [m].
+    cross_term : ndarray, shape (n,)
+        L/(2 own thickness) d(thickness of the other phase)/dl [-].
+    mean : ndarray, shape (n,)
+        Mean of the averaged quantity over the other phase, in its unit; 0 where there is none.
+    force : ndarray, shape (3, n)
+        Force per volume [N m-3]; is added to.
+    """
+
+    thickness: np.ndarray
+    cross_term: np.ndarray
+    mean: np.ndarray
+    force: np.ndarray
 
 
 def cells_of_phase(cells: Cells, in_phase) -> Cells:
@@ -46,7 +72,9 @@ def cells_of_phase(cells: Cells, in_phase) -> Cells:
     Parameters
     ----------
     cells : Cells
+        Cell list over the particles.
     in_phase : ndarray of bool, shape (n,)
+        Whether each particle is of the phase.
     """
     here = in_phase[cells.order]
     before = np.concatenate([[0], np.cumsum(here)])
@@ -63,9 +91,11 @@ def sum_over_other_phase(
     one, other : Cells
         Of the phases, made by `cells_of_phase` of the same cells.
     given : CrossPhaseInput
+        State of the particles of both phases.
     sums : CrossPhaseSums
         Written, the force added to, for particles below its size, where cells are awake.
     threads : int
+        Number of threads.
 
     Notes
     -----
@@ -88,6 +118,7 @@ def _pack(order, given, packed):
     order : ndarray of int, shape (m,)
         Particle at each sorted place, of the n of `given`.
     given : CrossPhaseInput
+        State of the particles of both phases.
     packed : Packed
         Written, five values of each particle.
     """

@@ -24,20 +24,40 @@ _U64 = np.uint64  # an index that may be negative is not vectorised
 
 
 class Position(NamedTuple):
-    """Where n particles are, on the bed."""
+    """Where n particles are, on the bed.
 
-    x: np.ndarray  # (n,) map coordinates, from the lower left node [m]
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        Map coordinates, from the lower left node [m].
+    y : ndarray, shape (n,)
+        Map coordinates, from the lower left node [m].
+    z : ndarray, shape (n,)
+        Elevation of the bed [m].
+    """
+
+    x: np.ndarray
     y: np.ndarray
-    z: np.ndarray  # (n,) elevation of the bed [m]
+    z: np.ndarray
 
 
 @struct
 class Packed(NamedTuple):
-    """Particles in the order of their cells, with room for one more vector behind the last."""
+    """Particles in the order of their cells, with room for one more vector behind the last.
 
-    places: np.ndarray  # (3, n + LANES) int32: x, y and z in quanta, from the first particle
-    values: np.ndarray  # (values, n + LANES) float32, lengths in quanta
-    quantum: float  # length of a place [m]
+    Attributes
+    ----------
+    places : ndarray of int32, shape (3, n + LANES)
+        x, y and z in quanta, from the first particle.
+    values : ndarray of float32, shape (values, n + LANES)
+        Any further values of a particle, lengths in quanta.
+    quantum : float
+        Length of a quantum [m].
+    """
+
+    places: np.ndarray
+    values: np.ndarray
+    quantum: float
 
 
 def empty_packed(cells: Cells, values: int) -> tuple:
@@ -56,10 +76,20 @@ def copy_neighbourhood(cell, cells, packed, scratch):
     Parameters
     ----------
     cell : int
+        Number of the cell whose particles are acted on.
     cells : Cells
-        Of the particles that act.
-    packed, scratch : Packed
-        The scratch has one vector more than the particles that act.
+        Cell list over the particles that act.
+    packed : Packed
+        The particles that act, in the order of that list.
+    scratch : Packed
+        Written: places in quanta and values, as many as of `packed`. It has room for all particles that act and
+        `LANES` (16) more.
+
+    Returns
+    -------
+    int
+        Number of entries of the scratch to loop over: a multiple of `LANES`, the floats of one vector. Entries beyond
+        the particles copied weigh nothing.
     """
     columns, _, _, start, reach, box, window, _, _ = cells
     places, values, _ = packed

@@ -21,12 +21,24 @@ velocity grows towards an edge, as it does at every front, and would hold grains
 
 
 class Partners(NamedTuple):
-    """With which particles of the other phase each particle of one exchanges momentum, and with which weights."""
+    """Partners of the other phase with which each particle of one phase exchanges momentum, and their weights.
 
-    of: np.ndarray  # (m,) those that have partners
-    count: np.ndarray  # (m,) how many
-    index: np.ndarray  # (m, MOST_PARTNERS) which
-    weight: np.ndarray  # (m, MOST_PARTNERS) their weights, which sum to 1 [-]
+    Attributes
+    ----------
+    of : ndarray of int, shape (m,)
+        Particles that have partners.
+    count : ndarray of int, shape (m,)
+        Number of partners of each.
+    index : ndarray of int, shape (m, MOST_PARTNERS)
+        Partners of each; places from `count` on are not used.
+    weight : ndarray, shape (m, MOST_PARTNERS)
+        Weights of the partners, which sum to 1 [-].
+    """
+
+    of: np.ndarray
+    count: np.ndarray
+    index: np.ndarray
+    weight: np.ndarray
 
 
 def find_partners(targets: Cells, sources: Cells, position: Position, volume, smoothing_length) -> Partners:
@@ -59,7 +71,9 @@ def _find(targets, sources, position, volume, length, partners):
     Parameters
     ----------
     targets, sources : Cells
+        Cell lists of the two phases.
     position : Position
+        Position of the particles [m].
     volume, length : ndarray, shape (n,)
         Volume [m3] and smoothing length [m].
     partners : Partners

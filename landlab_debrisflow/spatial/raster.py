@@ -14,12 +14,26 @@ CORE, FIXED_VALUE, FIXED_GRADIENT, LOOPED, CLOSED = range(5)
 
 
 class Raster(NamedTuple):
-    """A raster of nodes as kernels read it."""
+    """A raster of nodes as kernels read it.
 
-    status: np.ndarray  # (nodes,) uint8: CORE, CLOSED, or an open boundary
+    Attributes
+    ----------
+    status : ndarray of uint8, shape (nodes,)
+        CORE, CLOSED, or an open boundary.
+    columns : int
+        Nodes in a row.
+    rows : int
+        Number of rows.
+    dx : float
+        Node spacing in x [m].
+    dy : float
+        Node spacing in y [m].
+    """
+
+    status: np.ndarray
     columns: int
     rows: int
-    dx: float  # node spacing [m]
+    dx: float
     dy: float
 
     @classmethod
@@ -48,11 +62,11 @@ class Raster(NamedTuple):
 
     @property
     def spacing(self) -> float:
-        """The smaller node spacing [m]."""
+        """Smaller one of the node spacings in x and y [m]."""
         return min(self.dx, self.dy)
 
     def nearest(self, x, y):
-        """Return the nodes nearest to points on the raster [m], shape (n,)."""
+        """Return the nodes nearest to points x, y from the lower left node, each (n,) [m]; int, shape (n,)."""
         return nearest_line(y, self.dy).astype(int) * self.columns + nearest_line(x, self.dx).astype(int)
 
 
@@ -70,7 +84,11 @@ def nearest_place(coordinate, spacing, count):
 
 @inner
 def nearest_node(x, y, dx, dy, columns, rows):
-    """Return the node nearest to a point [m], or -1 if a coordinate is not a number."""
+    """Return the node nearest to a point [m], or -1 if a coordinate is not a number.
+
+    `x`, `y` are floats from the lower left node, `dx`, `dy` node spacings [m]; `columns` and `rows` are the shape of
+    the raster.
+    """
     if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
         return -1
     return nearest_place(y, dy, rows) * columns + nearest_place(x, dx, columns)

@@ -44,29 +44,66 @@ _ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12
 
 
 class SummationInput(NamedTuple):
-    """State of n particles that the sums read. Those beyond the size of `Sums` act on others and are not moved."""
+    """State of n particles that the sums read. Those beyond the size of `Sums` act on others and are not moved.
 
-    position: Position  # on the surface
-    velocity: np.ndarray  # (3, n) [m s-1]
-    volume: np.ndarray  # (n,) [m3]; a hole, < 0, pulls: see model/release/release.py
-    smoothing_length: np.ndarray  # (n,) [m]
-    longest: np.ndarray  # (n,) cap of the smoothing length [m]; there it is fixed and the plain sum holds
-    pressure_coefficient: np.ndarray  # (n,) depth-integrated pressure over thickness^2, Omega and reference density:
-    # inertia g_n / (2 Omega) [m s-2]
-    celerity: np.ndarray  # (n,) of waves [m s-1]
-    thickness: np.ndarray  # (n,) slope-normal, of the last time [m]
-    convergence: np.ndarray  # (n,) -h div v, of the last time [m s-1]
-    inertia: np.ndarray  # (n,) density over a reference density [-]
+    Attributes
+    ----------
+    position : Position
+        On the surface [m].
+    velocity : ndarray, shape (3, n)
+        Velocity tangent to the bed [m s-1].
+    volume : ndarray, shape (n,)
+        Volume [m3]; that of a hole is < 0 and pulls, see model/release/release.py.
+    smoothing_length : ndarray, shape (n,)
+        1.4 spacings [m].
+    longest : ndarray, shape (n,)
+        Cap of the smoothing length [m]; there it is fixed and the plain sum holds.
+    pressure_coefficient : ndarray, shape (n,)
+        Depth-integrated pressure over thickness^2, Omega and reference density: inertia g_n / (2 Omega) [m s-2].
+    celerity : ndarray, shape (n,)
+        Celerity of waves [m s-1].
+    thickness : ndarray, shape (n,)
+        Slope-normal, of the last time [m].
+    convergence : ndarray, shape (n,)
+        -h div v, of the last time [m s-1].
+    inertia : ndarray, shape (n,)
+        Density over a reference density [-].
+    """
+
+    position: Position
+    velocity: np.ndarray
+    volume: np.ndarray
+    smoothing_length: np.ndarray
+    longest: np.ndarray
+    pressure_coefficient: np.ndarray
+    celerity: np.ndarray
+    thickness: np.ndarray
+    convergence: np.ndarray
+    inertia: np.ndarray
 
 
 class Sums(NamedTuple):
-    """Results of the sums, written where cells are awake."""
+    """Results of the sums, written where cells are awake.
 
-    thickness: np.ndarray  # (n,) slope-normal [m]
-    gradient_term: np.ndarray  # (n,) Omega of the grad-h formulation [-]
-    next_length: np.ndarray  # (n,) smoothing length for the next time [m]
-    acceleration: np.ndarray  # (3, n) [m s-2]
-    convergence: np.ndarray  # (n,) -h div v, the rate at which converging flow thickens, without grad-h term [m s-1]
+    Attributes
+    ----------
+    thickness : ndarray, shape (n,)
+        Slope-normal [m].
+    gradient_term : ndarray, shape (n,)
+        Omega of the grad-h formulation [-].
+    next_length : ndarray, shape (n,)
+        Smoothing length for the next time [m].
+    acceleration : ndarray, shape (3, n)
+        Acceleration by pressure [m s-2].
+    convergence : ndarray, shape (n,)
+        -h div v, the rate at which converging flow thickens, without grad-h term [m s-1].
+    """
+
+    thickness: np.ndarray
+    gradient_term: np.ndarray
+    next_length: np.ndarray
+    acceleration: np.ndarray
+    convergence: np.ndarray
 
 
 def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, sums: Sums, threads: int = 1) -> None:
@@ -77,11 +114,13 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
     cells : Cells
         Built with support 2 ``smoothing_length``.
     given : SummationInput
+        State of the particles.
     viscosity : float
         Strength of the shock viscosity [-].
     sums : Sums
         Written where cells are awake.
     threads : int
+        Number of threads.
 
     Notes
     -----
@@ -112,6 +151,7 @@ def plain_thickness(volume, smoothing_length, sums: Sums):
     volume, smoothing_length : ndarray, shape (n,)
         [m3], [m] with which it was called.
     sums : Sums
+        Results of the sums.
 
     Returns
     -------
@@ -132,6 +172,7 @@ def _pack(order, given, packed):
     order : ndarray of int, shape (m,)
         Particle at each sorted place, of the n of `given`.
     given : SummationInput
+        State of the particles.
     packed : Packed
         Written, ten values of each particle.
     """
@@ -162,6 +203,7 @@ def _sum(first, last, cells, packed, given, viscosity, sums):
     ----------
     first, last : int
     cells : Cells
+        Cell list over the particles.
     packed : Packed
         Of all particles, by `_pack`.
     given : SummationInput

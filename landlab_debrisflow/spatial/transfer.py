@@ -28,6 +28,7 @@ def scatter(raster: Raster, x, y, half_width, values, sums, touched):
     Parameters
     ----------
     raster : Raster
+        Nodes, their statuses and spacing [m].
     x, y, half_width : ndarray, shape (n,)
         Position and half-width of the hat functions [m].
     values : ndarray, shape (n, k)
@@ -47,7 +48,24 @@ def scatter(raster: Raster, x, y, half_width, values, sums, touched):
 
 @inner
 def hat_weights(raster, x, y, half_width, index, weight):
-    """Write the core nodes under a hat function at a point [m] and their normalised weights [-]; return how many."""
+    """Write the core nodes under a hat function at a point [m] and their normalised weights [-]; return how many.
+
+    Parameters
+    ----------
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    x, y, half_width : float
+        Position, and half-width, kept between one and `WIDEST` node spacings [m].
+    index : ndarray of int, shape (MOST_NODES,)
+        Written: the nodes.
+    weight : ndarray, shape (MOST_NODES,)
+        Written: their weights, which sum to 1 [-].
+
+    Returns
+    -------
+    int
+        Number of entries written.
+    """
     status, columns, rows, dx, dy = raster
     ax, ay = min(max(half_width, dx), WIDEST * dx), min(max(half_width, dy), WIDEST * dy)
     west, east = max(int(np.ceil((x - ax) / dx)), 0), min(int(np.floor((x + ax) / dx)), columns - 1)
@@ -69,9 +87,27 @@ def hat_weights(raster, x, y, half_width, index, weight):
 
 @kernel
 def _scatter(raster, x, y, half_width, values, sums, touched):
-    """Add amounts of particles, shape (n, k), to sums over nodes, shape (nodes, k); return the number of nodes reached.
+    """Add amounts of particles to sums over nodes; return the number of nodes reached.
 
-    Lengths are in m; the nodes are listed in `touched` as they are reached.
+    A particle is spread over nodes by a hat function, see `hat_weights`.
+
+    Parameters
+    ----------
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    x, y, half_width : ndarray, shape (n,)
+        Position and half-width of the hat functions [m].
+    values : ndarray, shape (n, k)
+        Amounts, in any unit; particles whose first amount is not > 0 are left out.
+    sums : ndarray, shape (nodes, k)
+        Zero on entry; the amounts are added.
+    touched : ndarray of int, shape (nodes,)
+        Written from its beginning: nodes in order of first touch. What it held before does not matter.
+
+    Returns
+    -------
+    int
+        Number of nodes written to `touched`.
     """
     index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
     found = 0

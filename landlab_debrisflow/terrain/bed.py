@@ -20,23 +20,49 @@ from .surface import Surface
 
 @struct
 class NodeAccounts(NamedTuple):
-    """Accounts of soil at the nodes of a raster, changed in place."""
+    """Accounts of soil at the nodes of a raster, changed in place.
 
-    soil: np.ndarray  # (nodes,) erodible depth [m]
-    elevation: np.ndarray  # (nodes,) [m]
-    eroded_depth: np.ndarray  # (nodes,) [m]
-    taken: np.ndarray  # (nodes,) depth eroded in this call [m]
-    before: np.ndarray  # (3, nodes) the first three at the beginning of the call, of nodes that were lowered [m]
-    pressure_ratio: np.ndarray  # (nodes,) or (1,) pore pressure ratio of the soil [-]; is read only
+    Attributes
+    ----------
+    soil : ndarray, shape (nodes,)
+        Erodible depth [m].
+    elevation : ndarray, shape (nodes,)
+        Elevation of the bed [m].
+    eroded_depth : ndarray, shape (nodes,)
+        Depth eroded so far [m].
+    taken : ndarray, shape (nodes,)
+        Depth eroded in this call [m].
+    before : ndarray, shape (3, nodes)
+        Soil, elevation and eroded depth at the beginning of the call, of nodes that were lowered [m].
+    pressure_ratio : ndarray, shape (nodes,) or (1,)
+        Pore pressure ratio of the soil [-]; is read only.
+    """
+
+    soil: np.ndarray
+    elevation: np.ndarray
+    eroded_depth: np.ndarray
+    taken: np.ndarray
+    before: np.ndarray
+    pressure_ratio: np.ndarray
 
 
 @struct
 class Demand(NamedTuple):
-    """Demand for soil at the nodes of a raster: scratch of an erosion."""
+    """Demand for soil at the nodes of a raster: scratch of an erosion.
 
-    volume: np.ndarray  # (nodes,) soil asked for [m3]; 0 before and after
-    granted: np.ndarray  # (nodes,) part of it that is there [-]
-    touched: np.ndarray  # (nodes,) int, the nodes with a demand
+    Attributes
+    ----------
+    volume : ndarray, shape (nodes,)
+        Soil asked for [m3]; 0 before and after.
+    granted : ndarray, shape (nodes,)
+        Part of it that is there [-].
+    touched : ndarray of int, shape (nodes,)
+        Nodes with a demand, as many as there are, in order of first touch.
+    """
+
+    volume: np.ndarray
+    granted: np.ndarray
+    touched: np.ndarray
 
 
 class Bed:
@@ -45,6 +71,7 @@ class Bed:
     Parameters
     ----------
     raster : Raster
+        Nodes, their statuses and spacing [m].
     surface : Surface
         Kept in step with `elevation`.
     elevation : ndarray, shape (nodes,)
@@ -144,7 +171,11 @@ class Bed:
         return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
     def depth_of(self, x, y, half_width, volume):
-        """Return the nodes under some particles and the depth their volume [m3] would have there [m]."""
+        """Return the nodes under some particles and the depth their volume [m3] would have there [m].
+
+        `x`, `y` and `half_width` of the hat functions [m], and `volume`, have shape (n,). Both results have one entry
+        per node.
+        """
         at = scatter(self.raster, x, y, half_width, volume[:, None], self._demand, self._touched).copy()
         depth = self._demand[at, 0] / self.raster.area
         self._demand[at, 0] = 0.0
@@ -165,12 +196,15 @@ def _erode(raster, x, y, half_width, demanded, accounts, demand):
     Parameters
     ----------
     raster : Raster
+        Nodes, their statuses and spacing [m].
     x, y, half_width : ndarray, shape (n,)
         Position and half-width of the hat functions [m].
     demanded : ndarray, shape (n,)
         Volume asked for [m3].
     accounts : NodeAccounts
+        Soil at the nodes, changed in place.
     demand : Demand
+        Scratch of an erosion.
 
     Returns
     -------

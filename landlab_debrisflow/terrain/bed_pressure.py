@@ -21,21 +21,43 @@ from ..spatial.transfer import scatter
 
 @struct
 class BedResponse(NamedTuple):
-    """Response of the pore pressure of the bed to a load."""
+    """Response of the pore pressure of the bed to a load.
 
-    loading: float  # B [-]
-    drainage_time: float  # T [s]
-    area: float  # map area of a node [m2]
+    Attributes
+    ----------
+    loading : float
+        B, part of a change of the load that the pore water takes [-].
+    drainage_time : float
+        T, in which the pressure falls to 1/e by drainage [s]; infinite: no drainage.
+    area : float
+        Map area of a node [m2].
+    """
+
+    loading: float
+    drainage_time: float
+    area: float
 
 
 @struct
 class NodePressure(NamedTuple):
-    """Pore pressure of the bed at the nodes of a raster, changed in place."""
+    """Pore pressure of the bed at the nodes of a raster, changed in place.
 
-    pressure: np.ndarray  # (nodes,) excess pore pressure [Pa]
-    ratio: np.ndarray  # (nodes,) pressure over that at which the bed liquefies, r_b [-]
-    load: np.ndarray  # (nodes,) L [Pa]
-    age: np.ndarray  # (nodes,) time to which they were brought, since the start [s]
+    Attributes
+    ----------
+    pressure : ndarray, shape (nodes,)
+        Excess pore pressure [Pa].
+    ratio : ndarray, shape (nodes,)
+        Pressure over that at which the bed liquefies, r_b [-].
+    load : ndarray, shape (nodes,)
+        L, load by the flow [Pa].
+    age : ndarray, shape (nodes,)
+        Time since the start to which each node was brought [s].
+    """
+
+    pressure: np.ndarray
+    ratio: np.ndarray
+    load: np.ndarray
+    age: np.ndarray
 
 
 class BedPressure:
@@ -44,6 +66,7 @@ class BedPressure:
     Parameters
     ----------
     raster : Raster
+        Nodes, their statuses and spacing [m].
     pressure : ndarray, shape (nodes,)
         Excess pore pressure now [Pa], >= 0, changed in place.
     loading : float
@@ -84,7 +107,11 @@ class BedPressure:
         self._bear(x, y, half_width, force, time, dt, self._loading)
 
     def stand(self, x, y, half_width, force, time: float) -> None:
-        """Note the load on the bed at the start, which raises no pressure."""
+        """Note the load on the bed at the start, which raises no pressure.
+
+        `x`, `y`, `half_width` of the hat functions [m] have shape (n,); `force`, shape (n, 2) [N], is as in `carry`;
+        `time` is in s.
+        """
         self._bear(x, y, half_width, force, time, 0.0, 0.0)
 
     def _bear(self, x, y, half_width, force, time, dt, loading):
@@ -125,7 +152,9 @@ def _respond(left, reached, sums, response, nodes, age, dt):
     sums : ndarray, shape (nodes, 2)
         Force on the bed, all and less what pore water bears [N]; 0 where there is no flow.
     response : BedResponse
+        Response of the bed to a load.
     nodes : NodePressure
+        Pore pressure at the nodes, changed in place.
     age, dt : float
         Time since the start, and length of the step that ends now [s].
     """

@@ -13,14 +13,30 @@ from ..core.jit import inner, kernel
 
 
 class SurfaceSample(NamedTuple):
-    """Elevation, slopes and curvatures of a surface at n points."""
+    """Elevation, slopes and curvatures of a surface at n points.
 
-    elevation: np.ndarray  # (n,) z [m]
-    slope_x: np.ndarray  # (n,) dz/dx [-]
-    slope_y: np.ndarray  # (n,) dz/dy [-]
-    curvature_xx: np.ndarray  # (n,) d2z/dx2 [m-1]
-    curvature_xy: np.ndarray  # (n,) d2z/dxdy [m-1]
-    curvature_yy: np.ndarray  # (n,) d2z/dy2 [m-1]
+    Attributes
+    ----------
+    elevation : ndarray, shape (n,)
+        Elevation z [m].
+    slope_x : ndarray, shape (n,)
+        Slope dz/dx [-].
+    slope_y : ndarray, shape (n,)
+        Slope dz/dy [-].
+    curvature_xx : ndarray, shape (n,)
+        Curvature d2z/dx2 [m-1].
+    curvature_xy : ndarray, shape (n,)
+        d2z/dxdy [m-1].
+    curvature_yy : ndarray, shape (n,)
+        Curvature d2z/dy2 [m-1].
+    """
+
+    elevation: np.ndarray
+    slope_x: np.ndarray
+    slope_y: np.ndarray
+    curvature_xx: np.ndarray
+    curvature_xy: np.ndarray
+    curvature_yy: np.ndarray
 
 
 class Surface:
@@ -81,7 +97,10 @@ class Surface:
         return SurfaceSample(*sample)
 
     def sample_into(self, x, y, sample) -> None:
-        """Write what `sample` returns into a plain tuple of arrays, shape (n,)."""
+        """Write the `SurfaceSample` that `sample` returns into a plain tuple of arrays, shape (n,).
+
+        `x` and `y` are points from the lower left node, shape (n,) [m]; `sample` has the fields of a `SurfaceSample`.
+        """
         _sample(self.values, self.dx, self.dy, x, y, sample)
 
 
@@ -146,7 +165,11 @@ def _tangent(before, after, most):
 
 @kernel
 def _sample(values, dx, dy, x, y, sample):
-    """Write the `SurfaceSample` of points x, y, shape (n,) [m], from node values with their rim [m]."""
+    """Write the `SurfaceSample` of points x, y, shape (n,) [m], from node values with their rim [m].
+
+    `values`, shape (rows + 2, columns + 2), are elevations with one more node on every side; `dx`, `dy` are node
+    spacings [m]; `sample` is written.
+    """
     elevation, slope_x, slope_y, curvature_xx, curvature_xy, curvature_yy = sample
     rows, columns = values.shape[0] - 2, values.shape[1] - 2
     f = np.empty((3, 4))  # on four rows: value, first and second derivative along x, per node

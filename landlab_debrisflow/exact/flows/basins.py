@@ -31,7 +31,7 @@ def thacker_planar_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     radius, depth : float
         Of the basin [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Examples
     --------
@@ -61,13 +61,13 @@ def thacker_planar(
     x, y : array_like
         Position from the middle of the basin [m].
     time : float
-        [s].
+        Time since the start [s].
     radius, depth : float
         Of the basin [m].
     orbit : tuple of float
         a and b, half axes of the orbit of the centre [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -92,7 +92,7 @@ def thacker_curved_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     radius, depth : float
         Of the basin [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
     """
     return float(2.0 * np.pi * radius / np.sqrt(8.0 * gravity * depth))
 
@@ -115,13 +115,13 @@ def thacker_curved(
     x, y : array_like
         Position from the middle of the basin [m].
     time : float
-        [s].
+        Time since the start [s].
     radius, depth : float
         Of the basin [m].
     first_radius : float
         Of the edge at time 0 [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------

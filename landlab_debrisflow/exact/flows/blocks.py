@@ -22,7 +22,7 @@ def sliding_block(
     Parameters
     ----------
     time : array_like
-        [s].
+        Time since the start [s].
     slope : float
         Of the plane [rad].
     friction : float
@@ -30,7 +30,7 @@ def sliding_block(
     speed : float
         At time 0, >= 0 [m s-1].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -59,7 +59,7 @@ def eroding_block(
     Parameters
     ----------
     time : array_like
-        [s].
+        Time since the start [s].
     slope : float
         Of the plane [rad].
     friction : float
@@ -69,7 +69,7 @@ def eroding_block(
     slip : float
         Velocity of the eroded soil over that of the block [-].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -107,7 +107,7 @@ def consolidating_block(
     Parameters
     ----------
     time : array_like
-        [s].
+        Time since the start [s].
     slope : float
         Of the plane [rad].
     friction : float
@@ -121,7 +121,7 @@ def consolidating_block(
     layer : float
         Thickness of the basal layer over that of the block [-]; 1 is a uniform start.
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------

@@ -24,7 +24,7 @@ def ridge_half_width(
     slope : float
         Of the plane [rad].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -66,7 +66,7 @@ def ridge(
     friction : float
         Apparent friction coefficient [-].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -134,7 +134,7 @@ def cap(
     slope : float
         Of the plane [rad].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -221,7 +221,7 @@ def similarity(
     friction : float
         Apparent friction coefficient [-].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------

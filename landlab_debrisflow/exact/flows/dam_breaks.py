@@ -22,7 +22,7 @@ def ritter(x: ArrayLike, time: float, depth: float = 1.0, gravity: float = GRAVI
     depth : float
         Of the reservoir [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -63,7 +63,7 @@ def mangeney(
     friction : float
         Apparent friction coefficient [-].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -116,7 +116,7 @@ def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float =
     depth, depth_ahead : float
         Of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------
@@ -149,7 +149,7 @@ def stoker(
     depth, depth_ahead : float
         Of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
     gravity : float
-        [m s-2].
+        Acceleration by gravity [m s-2].
 
     Returns
     -------

@@ -92,7 +92,18 @@ class Hydrograph:
                 )
 
     def series(self, *names: str) -> list[np.ndarray]:
-        """Return parameters as arrays, shape (times,)."""
+        """Return parameters that are given against time as arrays with one value for each of the `times`.
+
+        Parameters
+        ----------
+        *names : {"discharge", "velocity", "pressure_ratio"}
+            Parameters; "pressure_ratio" only if it is set.
+
+        Returns
+        -------
+        list of ndarray, shape (times,)
+            One array per name, in their order, in the units of the parameters; one value for all times is repeated.
+        """
         return [np.broadcast_to(np.asarray(getattr(self, name)), len(self.times)) for name in names]
 
     @property
@@ -139,6 +150,7 @@ class Integral:
     Parameters
     ----------
     times, values : ndarray, shape (n,)
+        Times [s], increasing, and values then, in any unit.
 
     Examples
     --------

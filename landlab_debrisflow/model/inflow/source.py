@@ -40,6 +40,7 @@ class Source:
     Parameters
     ----------
     hydrograph : Hydrograph
+        Line [m], discharge [m3 s-1] and velocity [m s-1] against time.
     particle_volume : float
         Wanted volume of a particle [m3].
     lower_left : array_like, shape (2,)
@@ -58,7 +59,7 @@ class Source:
 
     @property
     def y_range(self):
-        """Least and largest y where it may enter [m]."""
+        """Least and largest y from the lower left node where the flow may enter [m]."""
         ends = self.start[1], self.end[1]
         return min(ends) - self.strip, max(ends) + self.strip
 
@@ -87,7 +88,7 @@ class Source:
         return time, thickness.mean() / self.hydrograph.width
 
     def at(self, time, values):
-        """Return the value at some time of a quantity given at the hydrograph's."""
+        """Return the value at `time` [s] of a quantity whose `values`, in any unit, are given at the hydrograph's."""
         return np.interp(time, self.times, values)
 
     def direction(self, surface):
@@ -119,6 +120,7 @@ class Inflow:
     Parameters
     ----------
     hydrographs : sequence of Hydrograph
+        Lines [m], discharge [m3 s-1] and velocity [m s-1] against time.
     numerics : Numerics, optional
         Its `particle_count` is that of all hydrographs together, its `particle_spacing` that where the
         inflow is thickest.
@@ -159,12 +161,12 @@ class Inflow:
 
     @property
     def over(self) -> bool:
-        """Whether all has entered."""
+        """Whether all volume of the hydrographs has entered."""
         return self.rows_entered == self._time.size
 
     @property
     def next_time(self) -> float:
-        """When the next row enters [s]; infinite if there is none."""
+        """Elapsed time at which the next row enters [s]; infinite if there is none."""
         return np.inf if self.over else float(self._time[self.rows_entered])
 
     @property
@@ -193,6 +195,8 @@ class Inflow:
 
     def enter(self, p, surface, columns: ColumnPhysics, time: float) -> bool:
         """Add the rows that cross the line until `time` [s], moved on to their place then; free rows beyond the strip.
+
+        `p` are the particles, `surface` is the ground that they enter.
 
         Returns
         -------
@@ -244,7 +248,7 @@ class Inflow:
             p.inflow_row[which[(self._source[rows] == k) & (passed | stopped)]] = FREE
 
     def _add(self, p, surface, columns, row, time):
-        """Let one row in."""
+        """Add the particles of one row (its number) to `p` at their places at `time` [s], with new columns."""
         material, source = columns.material, self.sources[self._source[row]]
         direction = self.directions[self._source[row]]
         count, thickness, volume = self._count[row], self._thickness[row], self._each[row]
@@ -279,7 +283,7 @@ class Inflow:
 
 
 def _start_columns(p, new: slice, load, columns: ColumnPhysics) -> None:
-    """Tell the column law of new columns, with their load [Pa]."""
+    """Tell the column law of the new columns of `p[new]`, with their `load`, shape (n,) [Pa]."""
     p.basal_excess_pore_pressure[new] = p.excess_pore_pressure[new, 0]
     forcing = forcing_at_rest(
         p.volume[new],

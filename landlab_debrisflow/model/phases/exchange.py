@@ -68,6 +68,7 @@ def distribute_soil_water(partners, entrained, water_ratio, volume, velocity, ex
     Parameters
     ----------
     partners : Partners
+        Partners of the grains among the water.
     entrained : ndarray, shape (n,)
         Volume of grains that each grain particle took from the soil [m3].
     water_ratio : float

@@ -19,36 +19,80 @@ from ..kinematics import along_bed
 
 @struct
 class Motion(NamedTuple):
-    """Motion of n particles along the bed."""
+    """Motion of n particles along the bed.
 
-    velocity: np.ndarray  # (3, n) changed in place [m s-1]
-    pressure_acceleration: np.ndarray  # (3, n) [m s-2]
-    slope_x: np.ndarray  # (n,) of the bed, dz/dx [-]
+    Attributes
+    ----------
+    velocity : ndarray, shape (3, n)
+        Velocity tangent to the bed [m s-1].
+    pressure_acceleration : ndarray, shape (3, n)
+        Acceleration by the pressure of neighbours [m s-2].
+    slope_x : ndarray, shape (n,)
+        Slope of the bed, dz/dx [-].
+    slope_y : ndarray, shape (n,)
+        Slope of the bed, dz/dy [-].
+    cos_slope : ndarray, shape (n,)
+        Cosine of the slope of the bed [-].
+    """
+
+    velocity: np.ndarray
+    pressure_acceleration: np.ndarray
+    slope_x: np.ndarray
     slope_y: np.ndarray
-    cos_slope: np.ndarray  # (n,) [-]
+    cos_slope: np.ndarray
 
 
 @struct
 class GrainsAndWater(NamedTuple):
-    """The mixture at n particles, each of grains or of water."""
+    """The mixture at n particles, each of grains or of water.
 
-    phase: np.ndarray  # (n,) MIXTURE, which are the grains, or WATER
-    volume: np.ndarray  # (n,) of the particle's own phase [m3]
-    thickness: np.ndarray  # (n,) of both phases, slope-normal [m]
-    porosity: np.ndarray  # (n,) [-]
-    solid_density: float  # [kg m-3]
+    Attributes
+    ----------
+    phase : ndarray, shape (n,)
+        MIXTURE, which are the grains, or WATER.
+    volume : ndarray, shape (n,)
+        Volume of the particle's own phase [m3].
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness of both phases [m].
+    porosity : ndarray, shape (n,)
+        Pores over the whole [-].
+    solid_density : float
+        Density of the grains [kg m-3].
+    water_density : float
+        Density of the water [kg m-3].
+    """
+
+    phase: np.ndarray
+    volume: np.ndarray
+    thickness: np.ndarray
+    porosity: np.ndarray
+    solid_density: float
     water_density: float
 
 
 @struct
 class MixtureResistance(NamedTuple):
-    """Resistance of the bed, and of the phases against each other, at n particles."""
+    """Resistance of the bed, and of the phases against each other, at n particles.
 
-    yield_stress: np.ndarray  # (n,) of the mixture, borne by grains [Pa]
-    drag: np.ndarray  # (n,) other resistance of the bed over speed, borne by grains [Pa s m-1]
-    phase_drag: np.ndarray  # (n,) drag between the phases, per area and relative velocity [Pa s m-1]
-    water_drag: np.ndarray  # (n,) or (1,) drag of the bed on water, over its mass and speed squared [m-1]
-    rest_speed: np.ndarray  # (n,) or (1,) slower particles come to rest where they may; if infinite, all [m s-1]
+    Attributes
+    ----------
+    yield_stress : ndarray, shape (n,)
+        Yield stress of the mixture, borne by grains [Pa].
+    drag : ndarray, shape (n,)
+        Other resistance of the bed over speed, borne by grains [Pa s m-1].
+    phase_drag : ndarray, shape (n,)
+        Drag between the phases, per area and relative velocity [Pa s m-1].
+    water_drag : ndarray, shape (n,) or (1,)
+        Drag of the bed on water, over its mass and speed squared [m-1].
+    rest_speed : ndarray, shape (n,) or (1,)
+        Speed below which particles come to rest where they may; infinite: all do [m s-1].
+    """
+
+    yield_stress: np.ndarray
+    drag: np.ndarray
+    phase_drag: np.ndarray
+    water_drag: np.ndarray
+    rest_speed: np.ndarray
 
 
 @kernel
@@ -60,12 +104,15 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
     partners : Partners
         Of the m grain particles among the water.
     motion : Motion
+        Motion of n particles.
     mixture : GrainsAndWater
+        Mixture at n particles.
     resistance : MixtureResistance
+        Resistance of the bed and between the phases.
     gravity : float
-        [m s-2]
+        Acceleration by gravity [m s-2].
     dt : float
-        [s]
+        Duration of the step [s].
     """
     of, count = partners.of, partners.count
     velocity, _, slope_x, slope_y, cosine = motion
@@ -149,14 +196,20 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
 
 @inner
 def _along(x, y, z, nx, ny, nz):
-    """Return a vector without its component normal to the bed, in its unit."""
+    """Return a vector without its component normal to the bed, in its unit.
+
+    The vector has the components x, y, z; nx, ny, nz is the unit normal of the bed [-]. All are floats.
+    """
     across = x * nx + y * ny + z * nz
     return x - across * nx, y - across * ny, z - across * nz
 
 
 @inner
 def _free_motion(motion, gravity):
-    """Return velocity and acceleration without friction and drag, shape (n, 6) [m s-1, m s-2]."""
+    """Return velocity and acceleration without friction and drag, shape (n, 6) [m s-1, m s-2].
+
+    `motion` is a `Motion`; `gravity` is in m s-2.
+    """
     velocity, pressure, slope_x, slope_y, cosine = motion
     free = np.empty((cosine.size, 6))
     for i in range(cosine.size):
@@ -167,7 +220,7 @@ def _free_motion(motion, gravity):
 
 @inner
 def _gather_water(partners, free):
-    """Return the mean free motion of the water around each grain particle and the sum of its weights, shape (m, 7)."""
+    """Return the mean free motion of the water around each of m grain particles and the sum of its weights, (m, 7)."""
     count, index, weight = partners.count, partners.index, partners.weight
     around = np.empty((count.size, 7))
     for k in range(count.size):
@@ -190,7 +243,10 @@ def _gather_water(partners, free):
 
 @inner
 def _give_back(partners, impulse, n):
-    """Return the momentum that each of n particles gets from grains by drag, shape (n, 3) [kg m s-1]."""
+    """Return the momentum that each of n particles gets from grains by drag, shape (n, 3) [kg m s-1].
+
+    `partners` are the `Partners` of m grains; `impulse` is the momentum each of these gives, shape (m, 3) [kg m s-1].
+    """
     count, index, weight, received = partners.count, partners.index, partners.weight, np.zeros((n, 3))
     for k in range(count.size):
         gx, gy, gz = impulse[k, 0], impulse[k, 1], impulse[k, 2]

@@ -14,6 +14,7 @@ class OnePhaseDynamics:
     Parameters
     ----------
     material : Material
+        Densities, porosity, gravity.
     """
 
     variables = ()
@@ -34,15 +35,25 @@ class OnePhaseDynamics:
         return p.volume * (1.0 - p.porosity)
 
     def coefficient_of_consolidation(self, p, which: slice):
-        """Return the coefficient of consolidation of the material, shape (1,) [m2 s-1]."""
+        """Return the coefficient of consolidation of the material, shape (1,) [m2 s-1].
+
+        `p` and `which`, places of particles, matter with two phases only.
+        """
         return self._coefficient
 
     def after_summation(self, p, exchange, cells) -> None:
-        """Write the thickness, which is that of the only phase [m]."""
+        """Write the thickness, which is that of the only phase [m].
+
+        `p` are all particles; `exchange` and `cells` matter with two phases only.
+        """
         p.thickness[:] = p.own_thickness
 
     def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
-        """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `kinematics.kick`."""
+        """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `kinematics.kick`.
+
+        `velocity`, shape (3, n), is changed [m s-1]; `yield_stress` [Pa], `drag` [Pa s m-1] and `rest_speed` [m s-1]
+        have shape (n,); `exchange` is not used.
+        """
         m = p.awake
         resistance = Resistance(
             yield_stress=yield_stress, drag=drag, mass=p.density[:m] * p.thickness[:m], rest_speed=rest_speed
@@ -50,7 +61,11 @@ class OnePhaseDynamics:
         kick(velocity, p.thrust, p.surface_sample, p.cos_slope, resistance, self.material.gravity, dt)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
-        """Return whether friction and walls would hold each of some particles at rest, shape (n,)."""
+        """Return whether friction and walls would hold each of some particles at rest, shape (n,).
+
+        `which` are places of n particles; `yield_stress` [Pa] is of shape (n,), `walls` a `Raster` or None; `exchange`
+        and `drag` are not used.
+        """
         n = yield_stress.size
         thrust = np.ascontiguousarray(p.thrust[:, which])
         sample = tuple(values[which] for values in p.surface_sample)
@@ -67,12 +82,21 @@ class OnePhaseDynamics:
         """Leave the entrained soil where it is: the eroding particle takes all of it."""
 
     def column_forcing(self, p, forcing, prescribed, dt: float):
-        """Return the forcing of the columns as it is: porosity changes by erosion only."""
+        """Return the forcing of the columns as it is: porosity changes by erosion only.
+
+        `p`, `prescribed` and `dt` matter with two phases only.
+        """
         return forcing
 
     def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
-        """Leave the mean pore pressure unknown: the pressure of the flow does not depend on it."""
+        """Leave the mean pore pressure unknown: the pressure of the flow does not depend on it.
+
+        The arguments, as in `Phases.update_mean_pressure`, matter with two phases only.
+        """
 
     def celerity_squared(self, p, dt: float):
-        """Return 0, shape (1,) [m2 s-2]: only weight drives waves."""
+        """Return 0, shape (1,) [m2 s-2]: only weight drives waves.
+
+        `p` and `dt` [s] matter with two phases only.
+        """
         return NOT_STIFF

@@ -36,14 +36,18 @@ LEAST_FRACTION = 1e-6
 
 
 class PoreWater(NamedTuple):
-    """Depth mean of the excess pore pressure at n particles, and its bounds and drainage."""
+    """Depth mean of the excess pore pressure at n particles, and its bounds and drainage; arrays of shape (n,).
 
-    phase: np.ndarray  # (n,) MIXTURE, which are the grains, or WATER
-    thickness: np.ndarray  # (n,) of both phases, slope-normal [m]
-    cos_slope: np.ndarray  # (n,) [-]
-    liquefaction_pressure: np.ndarray  # (n,) [Pa]
-    drainage_rate: np.ndarray  # (n,) at which the mean is lost [s-1]
-    mean_pressure: np.ndarray  # (n,) of the grains changed in place [Pa]
+    Phase (MIXTURE, which are the grains, or WATER), slope-normal thickness of both phases [m], cosine of the slope [-],
+    liquefaction pressure [Pa], rate at which the mean drains [s-1], and the mean [Pa], of grains changed in place.
+    """
+
+    phase: np.ndarray
+    thickness: np.ndarray
+    cos_slope: np.ndarray
+    liquefaction_pressure: np.ndarray
+    drainage_rate: np.ndarray
+    mean_pressure: np.ndarray
 
 
 class TwoPhaseDynamics:
@@ -54,6 +58,7 @@ class TwoPhaseDynamics:
     law : FlowLaw
         With two phases.
     material : Material
+        Densities, porosity, gravity.
     stores_pressure : bool
         Whether a source of pressure raises the pressure in the columns.
     """
@@ -111,13 +116,15 @@ class TwoPhaseDynamics:
         Parameters
         ----------
         p : Particles
+            All particles.
         exchange : Exchange
+            State of the exchange between grains and water.
         velocity : ndarray, shape (3, n)
             Changed in place [m s-1].
         yield_stress, drag, rest_speed
             As for `kinematics.kick`; the resistance is that of the mixture, and grains bear it.
         dt : float
-            [s]
+            Duration of the step [s].
         """
         material = self.material
         motion = Motion(
@@ -146,7 +153,7 @@ class TwoPhaseDynamics:
         _hold_back(velocity, p.light)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
-        """Return which grains friction and walls would hold at rest, and which water drag; `which` are all."""
+        """Return which grains friction and walls would hold at rest, which water drag, (n,); `which` is not used."""
         none, at_rest = np.zeros(p.count), np.zeros(1)
         velocity, pull = np.zeros((2, 3, none.size))
         self.kick(p, exchange, velocity, yield_stress, drag, at_rest, 1.0)
@@ -257,7 +264,7 @@ def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity,
     phase_fraction : ndarray, shape (n,)
         Of the thickness that is of the particle's own phase, changed in place [-].
     solid_density, water_density : float
-        [kg m-3]
+        Densities of grains and water [kg m-3].
     porosity, density : ndarray, shape (n,)
         Written [-], [kg m-3].
     """
@@ -281,7 +288,7 @@ def _follow_source(pore_water, source, unit_weight, dt):
     unit_weight : float
         Of water [N m-3].
     dt : float
-        [s]
+        Duration of the step [s].
     """
     phase, thickness, cosine, liquefaction_pressure, drainage, mean = pore_water
     for i in range(phase.size):

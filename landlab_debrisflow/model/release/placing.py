@@ -30,26 +30,60 @@ are rounded, the nearest node is a failing one."""
 
 
 class Placed(NamedTuple):
-    """Particles of a release, and the failing cells that each stands for."""
+    """Particles of a release, and the failing cells that each stands for.
 
-    x: np.ndarray  # (n,) from the lower left node [m]
+    Attributes
+    ----------
+    x : ndarray, shape (n,)
+        From the lower left node [m].
+    y : ndarray, shape (n,)
+        From the lower left node [m].
+    depth : ndarray, shape (n,)
+        Vertical thickness that fails in the cell in which each particle stands [m].
+    volume : ndarray, shape (n,)
+        Volume of each particle [m3].
+    site : ndarray of int, shape (n,)
+        Number of its site.
+    particle : ndarray of int, shape (m,)
+        Particle of each pair of particle and failing cell, sorted.
+    cell : ndarray of int, shape (m,)
+        Failing cell of each pair, a part of which the particle stands for.
+    part : ndarray, shape (m,)
+        Volume of that part [m3].
+    """
+
+    x: np.ndarray
     y: np.ndarray
-    depth: np.ndarray  # (n,) thickness that fails in the cell each stands in [m]
-    volume: np.ndarray  # (n,) [m3]
-    site: np.ndarray  # (n,)
-    particle: np.ndarray  # (m,) which particle, sorted
-    cell: np.ndarray  # (m,) stands for a part of which failing cell
-    part: np.ndarray  # (m,) of this volume [m3]
+    depth: np.ndarray
+    volume: np.ndarray
+    site: np.ndarray
+    particle: np.ndarray
+    cell: np.ndarray
+    part: np.ndarray
 
 
 class Samples(NamedTuple):
-    """Points in failing cells that carry their volume."""
+    """Points in failing cells that carry their volume.
 
-    x: np.ndarray  # (m,) from the centre of the corner cell [m]
+    Attributes
+    ----------
+    x : ndarray, shape (m,)
+        From the centre of the corner cell [m].
+    y : ndarray, shape (m,)
+        From the centre of the corner cell [m].
+    volume : ndarray, shape (m,)
+        Volume that each carries [m3].
+    cell : ndarray of int, shape (m,)
+        The failing cell.
+    group : ndarray of int, shape (m,)
+        Number of the group to which each belongs.
+    """
+
+    x: np.ndarray
     y: np.ndarray
-    volume: np.ndarray  # (m,) [m3]
-    cell: np.ndarray  # (m,) the failing cell
-    group: np.ndarray  # (m,) what they are a part of
+    volume: np.ndarray
+    cell: np.ndarray
+    group: np.ndarray
 
     def take(self, places) -> "Samples":
         """Return some of them, in some order."""
@@ -215,8 +249,8 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     """Let the particles repel each other while the samples, with negative volume, hold them in place.
 
     The force is the gradient of the distance between the particles' thickness and the samples', both
-    seen through the smoothing kernel, so edges and uneven depths are at rest when the particles stand
-    for the samples best. Particles do not leave the failing cells of their site.
+    seen through the smoothing kernel, so edges and uneven depths are at rest when the particles stand for the samples
+    best. Particles, at x, y [m] with a volume [m3] and a site, all (n,), do not leave the failing cells of their site.
     """
     n, x0, y0 = x.size, sites.corner[1] * sites.spacing[0], sites.corner[0] * sites.spacing[1]
     per_particle = np.zeros(sites.volume.size)

@@ -29,16 +29,19 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
     Parameters
     ----------
     p : Particles
+        All particles.
     origins : Origins
-        Told what every particle is made of.
+        Is told of which ground every particle is made.
     nodes : ndarray of int, shape (cells,)
         Where the ground fails, sorted.
     depth : ndarray, shape (cells,)
         Vertical thickness that fails there [m].
     bed : Bed
-        What is left.
+        Ground that is left below.
     phases : Phases
+        Give the parts of grains and water.
     numerics : Numerics
+        Give the number or the spacing of particles [m].
     """
     material, whole = phases.material, _whole_volume(p, phases)
     sites = find_sites(nodes, depth, bed.raster)
@@ -66,13 +69,20 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
 
 
 def _particle_volume(whole, area: float, nodes, depth, numerics) -> float:
-    """Return the target volume of a particle [m3], at least the volume of the particles already there."""
+    """Return the target volume of a particle [m3], at least the volume of the particles already there.
+
+    `whole` are the volumes of the particles there [m3]; `area` is that of a node [m2]; `nodes` and `depth` [m], shape
+    (n,), are what fails; `numerics` are `Numerics`.
+    """
     wanted = depth.sum() * area / numerics.count_for(nodes.size * area)
     return max(wanted, float(np.median(whole))) if whole.size else wanted
 
 
 def _whole_volume(p, phases):
-    """Return the volume of particles with that of the other phase around them, shape (n,) [m3]."""
+    """Return the volume of particles with that of the other phase around them, shape (n,) [m3].
+
+    `p` are the particles; `phases` tells how many phases there are.
+    """
     part = np.ones(2)  # by phase
     for phase, of_it in phases.phase_fractions:
         part[phase] = of_it

@@ -11,17 +11,39 @@ NEIGHBOURS = tuple((r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (
 
 
 class Sites(NamedTuple):
-    """Failing cells of a raster by site; arrays over cells are in the order of their nodes."""
+    """Failing cells of a raster by site; arrays over cells are in the order of their nodes.
 
-    label: np.ndarray  # (rows, columns) number of the site, -1 where nothing fails, with one such cell all round
-    depth: np.ndarray  # (rows, columns) vertical thickness that fails [m], likewise
-    corner: tuple[int, int]  # row and column in the raster of the cell at [0, 0]
-    spacing: tuple[float, float]  # node spacing (dx, dy) [m]
-    rows: np.ndarray  # (cells,) row of every failing cell, counted from the corner
-    columns: np.ndarray  # (cells,)
-    of_cell: np.ndarray  # (cells,) its site
-    volume: np.ndarray  # (sites,) [m3]
-    thickest: np.ndarray  # (sites,) largest depth [m]
+    Attributes
+    ----------
+    label : ndarray, shape (rows, columns)
+        Number of the site, -1 where nothing fails, with one such cell all round.
+    depth : ndarray, shape (rows, columns)
+        Vertical thickness that fails [m], with a rim of 0.
+    corner : tuple of int
+        Row and column in the raster of the cell at [0, 0].
+    spacing : tuple of float
+        Node spacing (dx, dy) [m].
+    rows : ndarray, shape (cells,)
+        Row of every failing cell, counted from the corner.
+    columns : ndarray, shape (cells,)
+        Column of every failing cell, counted from the corner.
+    of_cell : ndarray of int, shape (cells,)
+        Site of every failing cell.
+    volume : ndarray, shape (sites,)
+        Volume that fails [m3].
+    thickest : ndarray, shape (sites,)
+        Largest depth [m].
+    """
+
+    label: np.ndarray
+    depth: np.ndarray
+    corner: tuple[int, int]
+    spacing: tuple[float, float]
+    rows: np.ndarray
+    columns: np.ndarray
+    of_cell: np.ndarray
+    volume: np.ndarray
+    thickest: np.ndarray
 
     def at(self, x, y):
         """Return the site of points (from the centre of the corner cell [m]), shape (n,), and the depth there [m]."""
@@ -40,6 +62,7 @@ def find_sites(nodes, depth, raster: Raster) -> Sites:
     depth : ndarray, shape (cells,)
         Vertical thickness that fails there, > 0 [m].
     raster : Raster
+        Nodes, their statuses and spacing [m].
 
     Returns
     -------
@@ -83,6 +106,7 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Ras
     Parameters
     ----------
     sites : Sites
+        Failing cells by site.
     nodes, depth : ndarray, shape (cells,)
         As for `find_sites`.
     elevation : ndarray, shape (nodes,)
@@ -90,6 +114,7 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Ras
     closed : ndarray of bool, shape (nodes,)
         Nodes over which nothing can leave.
     raster : Raster
+        Nodes, their statuses and spacing [m].
     """
     lip = np.full(sites.volume.size, np.inf)
     for down, along in NEIGHBOURS:

@@ -10,6 +10,9 @@ from .consolidating import Consolidating
 class Classical(Consolidating):
     """dp/dt = (c_v/h^2) d2p/dxi2 + S: a column without the advection by erosion, kept for comparison.
 
+    Symbols: p excess pore pressure [Pa]; t time [s]; xi height over thickness [-]; h slope-normal thickness [m]; c_v
+    coefficient of consolidation [m2 s-1]; S source by changes of the load [Pa s-1].
+
     Base and sources are as in `ALE`; a grain keeps its fraction of the depth while the column grows.
 
     References

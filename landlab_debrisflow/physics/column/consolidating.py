@@ -47,9 +47,29 @@ class Consolidating:
         return scheme_of(self)
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
-        """Advance the columns by ``dt`` seconds in place and write the pressure friction feels [Pa]."""
+        """Advance the `columns` by `dt` [s] in place under a `forcing`; write `basal_pressure`, shape (n,) [Pa].
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles.
+        forcing : ColumnForcing
+            Change of the columns in the step.
+        dt : float
+            Duration of the step [s].
+        basal_pressure : ndarray, shape (n,)
+            Written: excess pore pressure that friction feels [Pa].
+        """
         advance(self, columns, forcing, dt, basal_pressure)
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Bring every profile to the present in place [Pa]."""
+        """Turn every profile of `columns` into the pressures at levels now [Pa], in place; `forcing` is the last.
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles; the profiles are written [Pa].
+        forcing : ColumnForcing
+            Forcing of the last step.
+        """
         synchronise(self, columns, forcing)

@@ -12,6 +12,9 @@ from ..contracts import ColumnForcing, ColumnState
 class ConstantRatio:
     """p = r rho' g h cos(theta) (1 - xi): excess pore pressure proportional to the overburden at every depth, for ever.
 
+    Symbols: p excess pore pressure [Pa]; r, the parameter `ratio` [-]; rho' buoyant density [kg m-3]; g gravity
+    [m s-2]; h slope-normal thickness [m]; theta slope of the bed; xi height over thickness [-].
+
     The limit of tight debris whose bed has its own ratio.
 
     References
@@ -35,10 +38,30 @@ class ConstantRatio:
         return 2
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
-        """Write the pressure at the base [Pa]."""
+        """Write r times the load of `forcing` into `basal_pressure`, shape (n,) [Pa], whatever `columns` and `dt`.
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles.
+        forcing : ColumnForcing
+            Change of the columns in the step.
+        dt : float
+            Duration of the step [s].
+        basal_pressure : ndarray, shape (n,)
+            Written: excess pore pressure that friction feels [Pa].
+        """
         np.multiply(forcing.liquefaction_pressure, self.ratio, out=basal_pressure)
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Write the linear profile [Pa]."""
+        """Write r times the load of `forcing`, linear over the levels, into the profiles of `columns` [Pa].
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles; the profiles are written [Pa].
+        forcing : ColumnForcing
+            Forcing of the last step.
+        """
         eta = np.linspace(1.0, 0.0, columns.profile.shape[1])
         columns.profile[:] = self.ratio * forcing.liquefaction_pressure[:, None] * eta

@@ -21,11 +21,11 @@ def forcing_at_rest(
     Parameters
     ----------
     volume : array_like, shape (n,)
-        [m3].
+        Volume of the particles [m3].
     thickness : array_like, shape (n,)
         Slope-normal [m].
     liquefaction_pressure : array_like, shape (n,)
-        [Pa].
+        Load of the columns [Pa].
     coefficient_of_consolidation, bed_pressure, base, porosity_source : float or array_like, shape (n,), optional
         Members of `ColumnForcing`.
     water_to_buoyant : float, optional

@@ -9,7 +9,7 @@ def initial_profile(liquefaction_pressure, levels: int, ratio, profile: str, bas
     Parameters
     ----------
     liquefaction_pressure : ndarray, shape (n,)
-        [Pa].
+        Load of the columns [Pa].
     levels : int
         Number of levels, equally spaced, 0 at the base and the last at the surface.
     ratio : float or ndarray, shape (n,)

@@ -29,9 +29,29 @@ class NoExcessPressure:
         return 2
 
     def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
-        """Write no pressure at the base [Pa]."""
+        """Write 0 into `basal_pressure`, shape (n,) [Pa], whatever `columns`, `forcing` and `dt`.
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles.
+        forcing : ColumnForcing
+            Change of the columns in the step.
+        dt : float
+            Duration of the step [s].
+        basal_pressure : ndarray, shape (n,)
+            Written: excess pore pressure that friction feels [Pa].
+        """
         basal_pressure[:] = 0.0
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Write no pressure at any level [Pa]."""
+        """Write 0 at all levels of `columns` [Pa], whatever the `forcing`.
+
+        Parameters
+        ----------
+        columns : ColumnState
+            Columns of n particles; the profiles are written [Pa].
+        forcing : ColumnForcing
+            Forcing of the last step.
+        """
         columns.profile[:] = 0.0

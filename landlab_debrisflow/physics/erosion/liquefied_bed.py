@@ -10,6 +10,10 @@ from ..contracts import BasalState
 class LiquefiedBed:
     """e_R = 2 tan(phi) sigma'/(rho v cos(theta)), at most a highest rate: the bed bears nothing, having liquefied.
 
+    Symbols: e_R erosion rate per map area [m s-1]; phi, `basal_friction_angle` [deg]; sigma' effective normal stress at
+    the base [Pa]; rho density of the mixture [kg m-3]; v speed [m s-1]; theta slope of the bed; h_n slope-normal
+    thickness [m]; g gravity [m s-2].
+
     So all the friction of the flow goes into speeding up soil: E = 2 mu g h_n cos(theta) (1 - lambda)/v normal to the
     bed, E/cos(theta) per map area. mu = tan(phi) is the flow's coefficient, not the bed's; lambda is pore pressure over
     normal stress, both total, so rho g h_n cos(theta) (1 - lambda) is sigma', the effective normal stress. Below a
@@ -29,7 +33,15 @@ class LiquefiedBed:
     least_speed: float = parameter("m s-1", "speed below which nothing erodes", 0.1, (1e-6, None))
 
     def entrainment_rate(self, state: BasalState, out) -> None:
-        """Write the erosion rate asked for [m s-1]."""
+        """Write the demanded erosion rate per map area into `out`, shape (n,) [m s-1], of a `state`.
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        out : ndarray, shape (n,)
+            Written: bed volume per map area and time, >= 0 [m s-1].
+        """
         here, tiny = state.parameters, np.finfo(float).tiny
         friction = 2.0 * np.tan(here.basal_friction_angle) * state.stress.effective_normal
         friction *= state.depth / np.maximum(state.thickness, tiny)  # over cos(theta)

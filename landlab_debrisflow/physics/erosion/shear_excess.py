@@ -10,6 +10,10 @@ from ..contracts import BasalState
 class ShearExcess:
     """e_R = rate, while the eroded depth is below (dz/dtau) (tau - tau_c): down to a depth that shear stress sets.
 
+    Symbols: e_R erosion rate per map area [m s-1]; rate, the parameter `erosion_rate` [m s-1]; tau shear stress at the
+    base [Pa]; tau_c, `critical_shear_stress` [Pa]; dz/dtau, `erosion_depth_per_stress` [m Pa-1]; rho density of the
+    mixture [kg m-3]; g gravity [m s-2]; h_n slope-normal thickness [m]; theta slope of the bed.
+
     tau = rho g h_n sin(theta) drives the flow; it is not the resistance of a friction law, with which it agrees where
     the flow neither gains nor loses speed. The eroded depth counts from the beginning of the event, at the node nearest
     to a particle. An event is over when no particle is left and none will flow in. At rest nothing erodes.
@@ -29,7 +33,15 @@ class ShearExcess:
     )
 
     def entrainment_rate(self, state: BasalState, out) -> None:
-        """Write the erosion rate asked for [m s-1]."""
+        """Write the demanded erosion rate per map area into `out`, shape (n,) [m s-1], of a `state`.
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        out : ndarray, shape (n,)
+            Written: bed volume per map area and time, >= 0 [m s-1].
+        """
         here, h_n, h = state.parameters, state.thickness, state.depth
         # sin(theta) of cos(theta) = h_n/h
         sine = np.sqrt(np.maximum(0.0, (h - h_n) * (h + h_n))) / np.maximum(h, np.finfo(float).tiny)

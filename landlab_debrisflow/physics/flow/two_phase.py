@@ -47,7 +47,20 @@ class TwoPhase:
     number_of_phases: ClassVar[int] = 2
 
     def drag_coefficient(self, porosity, material):
-        """Return C_d, drag per volume and relative velocity, for some porosities, shape (n,) [Pa s m-2]."""
+        """Return C_d, drag between the phases per volume and relative velocity.
+
+        Parameters
+        ----------
+        porosity : ndarray, shape (n,)
+            Pores over the whole [-].
+        material : Material
+            Densities [kg m-3] and gravity [m s-2].
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            [Pa s m-2]
+        """
         if self.drag == "darcy":
             conductivity = self.hydraulic_conductivity
             if conductivity is None:
@@ -57,11 +70,43 @@ class TwoPhase:
         return porosity ** (1.0 - self.drag_exponent) * (1.0 - porosity) * weight / self.terminal_velocity
 
     def coefficient_of_consolidation(self, porosity, material):
-        """Return K n^2/C_d (eq. 19), shape (n,) [m2 s-1]: the drag between the phases is that within a column."""
+        """Return K n^2/C_d (eq. 19), by which columns consolidate: the drag between the phases is that within a column.
+
+        Parameters
+        ----------
+        porosity : ndarray, shape (n,)
+            n, pores over the whole [-].
+        material : Material
+            As in `drag_coefficient`.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            [m2 s-1], of K, the parameter `stiffness` [Pa].
+        """
         return self.stiffness * porosity**2 / self.drag_coefficient(porosity, material)
 
     def interact(self, state: FlowState, cells, shock_viscosity: float, threads: int, sums):
-        """Write the sums and the mixture of each phase; return the cells of grains and the cells of water."""
+        """Write the sums and the mixture of each phase; return the cells of grains and the cells of water.
+
+        Parameters
+        ----------
+        state : FlowState
+            The n particles and ghosts of both phases.
+        cells : Cells
+            Cell list over all of them.
+        shock_viscosity : float
+            Strength of the viscosity at shocks [-].
+        threads : int
+            Number of threads.
+        sums : Sums
+            Written for the particles in cells that are awake, as is ``state.mixture.written``.
+
+        Returns
+        -------
+        tuple of Cells
+            Cell lists of grains and of water.
+        """
         mixture, material = state.mixture, state.mixture.material
         water = mixture.phase == WATER
         of_phases = cells_of_phase(cells, ~water), cells_of_phase(cells, water)
@@ -106,6 +151,8 @@ class TwoPhase:
         """Return thrust over own thickness squared and Omega, and thrust over total thickness squared [N m-3].
 
         Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
+        `water` (bool) tells the phase, `normal_gravity` is across the bed [m s-2], `thickness` is that of both phases
+        [m], all of shape (n,).
         """
         mixture = state.mixture
         material, share = mixture.material, mixture.share

@@ -12,6 +12,10 @@ from .shear import shearing, strength
 class Bingham:
     """v - v_b = (tau_y h_n/(6 mu)) (1 - xi)^2 (2 + xi)/xi, xi = tau_y/tau_b: a plug on a sheared layer.
 
+    Symbols: v mean speed and v_b speed at the base [m s-1]; tau_b basal shear stress, tau_y the yield part of tau_b and
+    tau_0, `yield_stress` [Pa]; mu, `viscosity` [Pa s]; h_n slope-normal thickness [m]; xi plug over thickness [-];
+    sigma' effective normal stress at the base [Pa]; phi, `basal_friction_angle` [deg].
+
     tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi being 0, not at all.
     Solved for tau_b: a cubic, xi^3 - (3 + a) xi + 2 = 0 with a = 6 mu (v - v_b)/(tau_y h_n). Without yield stress
     tau_b = 3 mu (v - v_b)/h_n.
@@ -29,7 +33,17 @@ class Bingham:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa], and the excess of tau_b over it divided by speed [Pa s m-1]."""
+        """Write `yield_stress`, tau_y [Pa], and `drag`, (tau_b - tau_y)/speed [Pa s m-1], each (n,), from a `state`.
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        yield_stress : ndarray, shape (n,)
+            Written: stress that holds a body at rest, >= 0 [Pa].
+        drag : ndarray, shape (n,)
+            Written: other resistance over speed, >= 0 [Pa s m-1].
+        """
         here = state.parameters
         strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
         velocity, rate = shearing(state)
@@ -42,6 +56,8 @@ class Bingham:
 @kernel
 def stress_beyond_yield(yield_stress, twice_newtonian, out):
     """Write w = tau_b - tau_y [Pa], from f = 6 mu v/h > 0, twice the stress of a fluid without yield stress [Pa].
+
+    All have shape (n,): `yield_stress` is tau_y [Pa], `twice_newtonian` is f, `out` gets w.
 
     The cubic in w, w^2 (3 tau_y + 2 w) = f (tau_y + w)^2, has one root > 0 and no cancellation near it: w is
     (f tau_y/3)^(1/2) for small f and (f + tau_y)/2 for large. The start is within 12 % of it for every f;

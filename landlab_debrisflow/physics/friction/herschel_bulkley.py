@@ -18,6 +18,11 @@ NO_STRESS = 1e-37
 class HerschelBulkley:
     """v - v_b = h_n (w/K)^(1/n) n q (2 n + 1 - n q)/((n + 1)(2 n + 1)): a plug on a sheared layer.
 
+    Symbols: v mean speed and v_b speed at the base [m s-1]; h_n slope-normal thickness [m]; tau_b basal shear stress,
+    tau_y its yield part and tau_0, `yield_stress` [Pa]; w = tau_b - tau_y [Pa]; K, `consistency` [Pa s^n]; n,
+    `flow_index` [-]; q = w/tau_b [-]; sigma' effective normal stress at the base [Pa];
+    phi, `basal_friction_angle` [deg]; u(z) velocity [m s-1] at height z [m] above the bed.
+
     The layer has tau = tau_y + K (du/dz)^n. w = tau_b - tau_y, for which it is solved; q = w/tau_b is the sheared part
     of the thickness. tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi
     being 0, not at all. n = 1 is Bingham; without yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
@@ -39,7 +44,17 @@ class HerschelBulkley:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write the yield stress [Pa], and the excess of tau_b over it divided by speed [Pa s m-1]."""
+        """Write `yield_stress`, tau_y [Pa], and `drag`, (tau_b - tau_y)/speed [Pa s m-1], each (n,), from a `state`.
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        yield_stress : ndarray, shape (n,)
+            Written: stress that holds a body at rest, >= 0 [Pa].
+        drag : ndarray, shape (n,)
+            Written: other resistance over speed, >= 0 [Pa s m-1].
+        """
         here = state.parameters
         strength(here.yield_stress, here.basal_friction_angle, state, yield_stress)
         velocity, rate = shearing(state)
@@ -68,6 +83,7 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
     index : ndarray, shape (n,) or (1,)
         n [-]
     out : ndarray, shape (n,)
+        Written: w [Pa].
     """
     n, log_one, log_two, log_w, log_rate = np.empty((5, out.size))
     # a number is made an array, too: rounding is then the same
@@ -88,7 +104,8 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
 def _gap(log_stress, index, log_one, log_two, log_large, gap):
     """Write the logarithm of the large root; turn log(tau_y) into (1/2 + 1/n) log(small root / large root), in place.
 
-    `log_one` is log(n + 1), `log_two` log(2 n + 1).
+    All have shape (n,). `log_stress` is log(A), A in Pa; `index` is n [-]; `log_one` is log(n + 1), `log_two`
+    log(2 n + 1). `gap` comes in as log(tau_y), tau_y in Pa.
     """
     for i in range(index.size):
         n = index[i]
@@ -99,14 +116,18 @@ def _gap(log_stress, index, log_one, log_two, log_large, gap):
 
 @kernel
 def _join(index, gap, tail, log_root):
-    """Turn the logarithm of the large root into that of the start, in place; `tail` is log(1 + exp(-|gap|))."""
+    """Turn the logarithm of the large root into that of the start, in place.
+
+    `log_root` comes in as the logarithm of the large root [Pa]; `index` is n [-], `gap` is as `_gap` leaves it, `tail`
+    is log(1 + exp(-|gap|)), all of shape (n,).
+    """
     for i in range(index.size):
         log_root[i] += (max(gap[i], 0.0) + tail[i]) / (0.5 + 1.0 / index[i])
 
 
 @kernel
 def _rate(yield_stress, index, w, out):
-    """Write q (2 n + 1 - n q) [-]."""
+    """Write q (2 n + 1 - n q) [-] into `out`, q = w/(tau_y + w); tau_y and w in Pa, `index` is n [-], each (n,)."""
     for i in range(out.size):
         q = w[i] / (yield_stress[i] + w[i])
         out[i] = q * (2.0 * index[i] + 1.0 - index[i] * q)
@@ -116,7 +137,9 @@ def _rate(yield_stress, index, w, out):
 def _improve(yield_stress, log_stress, index, log_start, log_rate, w):
     """Solve log(w) + n log(rate) = log(A) by Halley's method, in place; derivatives are with respect to log(w).
 
-    A step of 2 z is taken as w (1 + z)/(1 - z), and the logarithms follow by that of the ratio.
+    All have shape (n,): tau_y [Pa], log(A), n [-], the logarithms of w at the start and of its rate, as `_rate` writes
+    it, and w [Pa], which is changed. A step of 2 z is taken as w (1 + z)/(1 - z), and the logarithms follow by that of
+    the ratio.
     """
     for i in range(w.size):
         n, beyond, log_w, log_r = index[i], w[i], log_start[i], log_rate[i]

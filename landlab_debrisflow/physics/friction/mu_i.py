@@ -15,6 +15,11 @@ TINY = 1e-300
 class MuI:
     """tau_b = sigma' (mu_s + (mu_2 - mu_s)/(1 + I_0/I)): granular friction that grows with the inertial number I.
 
+    Symbols: tau_b basal shear stress and sigma' effective normal stress [Pa]; mu_s and mu_2, tangents of
+    `static_friction_angle` and `limiting_friction_angle` [-]; I inertial number and I_0, `inertial_number` [-]; v mean
+    speed and v_b speed at the base [m s-1]; d, `grain_diameter` [m]; h_n slope-normal thickness [m]; rho_s,
+    `grain_density` [kg m-3].
+
     At the base of a flow with Bagnold's profile, u(z) - v_b ~ h^(3/2) - (h - z)^(3/2), whose mean shears it,
     I = (5/2) (v - v_b) d/(h_n (sigma'/rho_s)^(1/2)). Pore pressure enters through sigma', in the friction and in I:
     a nearly liquefied flow is inertial. Angles and I_0 are by default the values of glass beads.
@@ -48,7 +53,17 @@ class MuI:
             )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write static friction [Pa], and the friction added by the inertial number over speed [Pa s m-1]."""
+        """Write `yield_stress`, static friction [Pa], and `drag`, further friction over speed [Pa s m-1], each (n,).
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        yield_stress : ndarray, shape (n,)
+            Written: stress that holds a body at rest, >= 0 [Pa].
+        drag : ndarray, shape (n,)
+            Written: other resistance over speed, >= 0 [Pa s m-1].
+        """
         here, stress = state.parameters, state.stress.effective_normal
         static = np.tan(here.static_friction_angle)
         np.multiply(static, stress, out=yield_stress)

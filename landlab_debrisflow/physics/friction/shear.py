@@ -17,12 +17,18 @@ THINNEST = 1e-6
 
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:
-    """Write c + sigma' tan(phi) [Pa] (Coulomb; Terzaghi's effective stress), of c [Pa] and phi [rad], (n,) or (1,)."""
+    """Write c + sigma' tan(phi) [Pa] into `out`, shape (n,) (Coulomb; Terzaghi's effective stress).
+
+    `cohesion` is c [Pa], `friction_angle` is phi [rad], each (n,) or (1,); sigma' is that of `state` [Pa].
+    """
     np.multiply(np.tan(friction_angle), state.stress.effective_normal, out=out)
     out += cohesion
 
 
 def shearing(state: BasalState):
-    """Return the velocity of shear (1 - s) v [m s-1] and its ratio to thickness [s-1], each (n,) and > 0."""
+    """Return the velocity of shear (1 - s) v [m s-1] and its ratio to thickness [s-1], each (n,) and > 0.
+
+    v is the speed of `state`, s the basal slip ratio [-] of its material.
+    """
     velocity = np.maximum((1.0 - state.material.basal_slip_ratio) * state.speed, SLOWEST)
     return velocity, velocity / np.maximum(state.thickness, THINNEST)

@@ -13,6 +13,11 @@ from .shear import strength
 class Voellmy:
     """tau_b = c + sigma' tan(phi) + rho g v^2/xi: friction and a drag that grows with the square of the speed.
 
+    Symbols: tau_b basal shear stress [Pa]; c, `cohesion` [Pa]; phi, `basal_friction_angle` [deg]; sigma' effective
+    normal stress [Pa]; rho density and rho' buoyant density [kg m-3]; g gravity and g_n normal gravity [m s-2]; v speed
+    [m s-1]; xi, `turbulent_coefficient` [m s-2]; h_n slope-normal thickness [m]; p_b excess pore pressure at the base
+    [Pa]; theta slope of the bed; mu_a apparent friction [-].
+
     sigma' = max(0, rho' g_n h_n - p_b). The terminal speed on a plane follows from
     v^2 = xi (h_n (sin(theta) - mu_a cos(theta)) - c/(rho g)).
 
@@ -32,7 +37,17 @@ class Voellmy:
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
-        """Write cohesion and friction [Pa], and the drag per speed, rho g v / xi [Pa s m-1]."""
+        """Write `yield_stress`, c + friction [Pa], and `drag`, rho g v / xi [Pa s m-1], each (n,), from a `state`.
+
+        Parameters
+        ----------
+        state : BasalState
+            Base of the flow under n particles.
+        yield_stress : ndarray, shape (n,)
+            Written: stress that holds a body at rest, >= 0 [Pa].
+        drag : ndarray, shape (n,)
+            Written: other resistance over speed, >= 0 [Pa s m-1].
+        """
         here = state.parameters
         strength(here.cohesion, here.basal_friction_angle, state, yield_stress)
         np.multiply(state.material.gravity / here.turbulent_coefficient, state.density * state.speed, out=drag)

@@ -8,14 +8,30 @@ BED_CONTACT = ("dirichlet", "flux")
 
 
 class Scheme(NamedTuple):
-    """The choices of a law."""
+    """Choices of a column law as kernels read them, numbers in place of words.
 
-    levels: int  # of a column, base and surface included
-    moves_with_grains: bool  # grains keep their depth (ALE); else they keep their fraction of it (classical)
-    loading: int  # a value of LOADING
-    loads_by_erosion: bool  # also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter)
-    flux: bool  # new soil brings its own pressure and no more; else the bed prescribes that of the base
-    tolerance: float  # error of the pressure over the load that skipping aims at [-]; 0: no skipping
+    Attributes
+    ----------
+    levels : int
+        Levels of a column, base and surface included.
+    moves_with_grains : bool
+        Grains keep their depth (ALE); else they keep their fraction of it (classical).
+    loading : int
+        A value of LOADING.
+    loads_by_erosion : bool
+        Also load old grains by the soil that comes in below them (eqs. 19 and 38 to the letter).
+    flux : bool
+        New soil brings its own pressure and no more; else the bed prescribes that of the base.
+    tolerance : float
+        Error of the pressure over the load that skipping aims at [-]; 0: no skipping.
+    """
+
+    levels: int
+    moves_with_grains: bool
+    loading: int
+    loads_by_erosion: bool
+    flux: bool
+    tolerance: float
 
 
 LEVELS_ERROR = 0.3

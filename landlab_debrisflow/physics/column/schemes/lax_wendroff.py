@@ -52,7 +52,11 @@ def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
 
 @inner
 def _take_substeps(profile, i, count, growth, diffusion, prescribed, bed):
-    """Advance one column in ``count`` sub-steps; the pressure of a prescribed base goes to ``bed`` [Pa] evenly."""
+    """Advance one column in ``count`` sub-steps; the pressure of a prescribed base goes to ``bed`` [Pa] evenly.
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa]; `growth` is entrained volume over the volume before [-],
+    `diffusion` c_v dt/h^2 [-], of all sub-steps; `prescribed` tells whether the bed prescribes the base.
+    """
     cells, first = profile.shape[1] - 1, profile[i, 0]
     for m in range(count):
         if growth > 0.0:
@@ -67,7 +71,10 @@ def _take_substeps(profile, i, count, growth, diffusion, prescribed, bed):
 
 @inner
 def _advect(profile, i, grown):
-    """Take one Lax-Wendroff step, with ``(A p_x)_x`` in its second-order term, in which a column grows by ``grown``."""
+    """Take one Lax-Wendroff step, with ``(A p_x)_x`` in its second-order term, in which a column grows by ``grown``.
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa]; ``grown`` is a part of the thickness [-].
+    """
     cells = profile.shape[1] - 1
     # e_R dt/h such that 1 + e + e^2/2, by which the scheme multiplies a linear profile, is 1 + grown: a constant ratio
     # survives. To the order of the scheme it is ln(1 + grown).
@@ -83,7 +90,10 @@ def _advect(profile, i, grown):
 
 @inner
 def _diffuse(profile, i, number, prescribed):
-    """Take one explicit step of diffusion with the cell Fourier number ``number``; mirrored at an impermeable base."""
+    """Take one explicit step of diffusion with the cell Fourier number ``number``; mirrored at an impermeable base.
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa]; `prescribed` tells whether the bed prescribes the base.
+    """
     below = profile[i, 0]
     if not prescribed:
         profile[i, 0] += 2.0 * number * (profile[i, 1] - below)

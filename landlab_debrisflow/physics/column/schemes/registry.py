@@ -28,11 +28,14 @@ def check_scheme(law) -> None:
 
 
 def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
-    """Advance columns by ``dt`` seconds with the scheme of a law; see `ColumnLaw.advance`."""
+    """Advance `columns` by `dt` [s] with the scheme of a `law`; write `basal_pressure` [Pa] as `ColumnLaw.advance`."""
     ADVANCE[law.scheme](columns, forcing, dt, basal_pressure, law.choices)
 
 
 def synchronise(law, columns, forcing) -> None:
-    """Turn columns into pressures at levels, as they are now; other schemes than the default keep them so."""
+    """Turn columns into pressures at levels, as they are now; other schemes than the default keep them so.
+
+    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one.
+    """
     if law.scheme == "default":
         synchronise_columns(columns, forcing, law.choices)

@@ -32,7 +32,11 @@ def is_prescribed(contact):
 
 @inner
 def begin_step(columns, forcing, dt, scheme):
-    """Load all columns and return contact, growth and diffusion of the step, shape (n, 3) [-]."""
+    """Load all columns and return contact, growth and diffusion of the step, shape (n, 3) [-].
+
+    `columns` is a `ColumnState`, changed in place, `forcing` the `ColumnForcing`, `dt` in s, `scheme` the choices of
+    the law.
+    """
     # taken out of their tuples once: numba counts references at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, beds, bases = forcing.entrained, forcing.bed_pressure, forcing.base
@@ -62,7 +66,10 @@ def begin_step(columns, forcing, dt, scheme):
 
 @inner
 def _over(numerator, denominator, cap):
-    """Return the ratio, at most ``cap``, and 0 for nothing over nothing."""
+    """Return the ratio, at most ``cap``, and 0 for nothing over nothing.
+
+    `numerator` and `denominator` are floats in one unit, >= 0; ``cap`` is the largest ratio [-].
+    """
     if numerator == 0.0:
         return 0.0
     return cap if numerator >= cap * denominator else numerator / denominator  # a NaN stays one
@@ -70,7 +77,11 @@ def _over(numerator, denominator, cap):
 
 @inner
 def _loading(volume, before, load, old_load, scheme):
-    """Return the pressure over eta that loading adds [Pa], and the factor by which it scales the pressure [-]."""
+    """Return the pressure over eta that loading adds [Pa], and the factor by which it scales the pressure [-].
+
+    `volume` and `before` are volumes after and before the step [m3], `load` and `old_load` liquefaction pressures then
+    [Pa].
+    """
     if scheme.loading == OVERBURDEN:
         if scheme.loads_by_erosion:
             return load - old_load, 1.0
@@ -85,7 +96,11 @@ def _loading(volume, before, load, old_load, scheme):
 
 @inner
 def _load(profile, i, eta, load_gain, scale, source_gain, prescribed):
-    """Load one column, and add the pressure by a change of porosity except at a prescribed base [Pa]."""
+    """Load one column, and add the pressure by a change of porosity except at a prescribed base [Pa].
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa]: it is multiplied by `scale` [-], then `load_gain` times
+    `eta` and `source_gain` are added [Pa]; `eta` is 1 at the base, 0 at the surface; `prescribed` is bool.
+    """
     profile[i, 0] = scale * profile[i, 0] + load_gain + (0.0 if prescribed else source_gain)
     for k in range(1, eta.size - 1):
         profile[i, k] = scale * profile[i, k] + load_gain * eta[k] + source_gain
@@ -94,7 +109,11 @@ def _load(profile, i, eta, load_gain, scale, source_gain, prescribed):
 
 @inner
 def end_step(columns, forcing, basal_pressure):
-    """Clip all columns to suction and liquefaction, count the pressure removed [Pa m], and write the base [Pa]."""
+    """Clip all columns to suction and liquefaction, count the pressure removed [Pa m], and write the base [Pa].
+
+    `columns` is a `ColumnState`, changed in place; `forcing` holds load [Pa] and thickness [m]; `basal_pressure` has
+    shape (n,).
+    """
     profile, clipped, lower = columns.profile, columns.clipped, forcing.water_to_buoyant
     loads, thicknesses, bounded = forcing.liquefaction_pressure, forcing.thickness, forcing.bounded
     cells, eta = profile.shape[1] - 1, eta_of(profile.shape[1])

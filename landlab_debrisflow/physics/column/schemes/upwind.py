@@ -51,6 +51,9 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
 def _solve(profile, i, advection, diffusion, prescribed, inflow, bed, work):
     """Solve for one column at the end of the step, by the algorithm of Thomas from the base to the surface.
 
+    `profile`, shape (n, levels), is changed in row `i` [Pa]; `prescribed` tells whether the bed prescribes the base;
+    `bed` is its pressure [Pa]; `work` is scratch, shape (levels - 1,).
+
     ``advection`` is the Courant number of the face one cell below the surface; at other faces it grows in proportion to
     their depth. ``diffusion`` is the cell Fourier number. The flux through the base is ``inflow`` times the excess of
     the pressure of the bed over that of the base: ``c_v p_x = -e_R (p_b - p)``.
@@ -74,6 +77,9 @@ def _solve(profile, i, advection, diffusion, prescribed, inflow, bed, work):
 
 @inner
 def _face(courant, diffusion):
-    """Return the weights of a face: of the level below it on the one above, and of the one above on it [-]."""
+    """Return the weights of a face: of the level below it on the one above, and of the one above on it [-].
+
+    `courant` is the Courant number of the face and `diffusion` the cell Fourier number [-].
+    """
     down = max(diffusion - 0.5 * courant, 0.0)
     return down + courant, down

@@ -61,7 +61,12 @@ def synchronise_columns(columns, forcing, scheme):
 
 
 def _update(columns, due, counts, forcing, basal_pressure, scheme):
-    """Advance the columns that `accumulate` has listed as due to the present."""
+    """Advance the columns that `accumulate` has listed as due to the present.
+
+    `due`, int, shape (3, n), lists the columns in its rows `AT_LEVELS` and `IN_MODES`, `counts` how many of each.
+    `columns` are the `LazyColumns`, changed in place; `forcing` is the `ColumnForcing` of the step; `basal_pressure`,
+    shape (n,), is written [Pa]; `scheme` holds the choices of the law.
+    """
     if count := counts[AT_LEVELS]:
         _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
     if count := counts[IN_MODES]:
@@ -77,7 +82,11 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
 
 
 def _switch(columns, selected, forcing, basal_pressure, scheme):
-    """Put some columns on another base."""
+    """Put some columns on another base.
+
+    `columns` are the `LazyColumns`, changed in place; `selected` are indices of columns, int; `forcing` is the
+    `ColumnForcing` of the step; `basal_pressure`, shape (n,), is written [Pa]; `scheme` holds the choices of the law.
+    """
     _, state, _ = columns
     before = forcing._replace(
         volume=forcing.volume - forcing.entrained, liquefaction_pressure=state["load"].copy()
@@ -90,7 +99,11 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
 
 
 def _synchronise(columns, selected, forcing, basal_pressure, scheme):
-    """Turn some columns into pressures at levels, as they are now."""
+    """Turn some columns into pressures at levels, as they are now.
+
+    `columns` are the `LazyColumns`, changed in place; `selected` are indices of columns, int; `forcing` is the
+    `ColumnForcing` of the step; `basal_pressure`, shape (n,), is written [Pa]; `scheme` holds the choices of the law.
+    """
     _, state, _ = columns
     contact = state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
@@ -104,6 +117,9 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
 
 def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     """Advance some columns at levels from their last update to the present, and clip them.
+
+    `columns` are the `LazyColumns`, changed in place; `selected` are indices of columns, int; `forcing` is the
+    `ColumnForcing` of the step; `basal_pressure`, shape (n,), is written [Pa]; `scheme` holds the choices of the law.
 
     Unless their contact is ``ending``, diffusion that is to come after the remap is deferred to the next update. If it
     ends, the jump at a base that has just changed, which levels do not see yet, and the content of the layer over it,

@@ -27,6 +27,9 @@ CHANGED, IN_MODES, AT_LEVELS = range(3)
 def diffusion_of(coefficient_times_dt, thickness, volume, before):
     """Return c_v t / h^2 of a step [-].
 
+    `coefficient_times_dt` is c_v t [m2], `thickness` [m] and `volume` [m3] are after the step, `before` is the volume
+    before it [m3].
+
     Squared is the thickness before times that after, were there erosion only: exact for a constant rate.
     """
     square, diffused = thickness * thickness * max(before, 0.0), coefficient_times_dt * volume
@@ -153,7 +156,17 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
 
 @inner
 def _is_due_at_levels(column, volume, load, pressure, stride):
-    """Return whether volume, load, bed or source have changed by more than `stride` allows since the update."""
+    """Return whether a column at levels is to be advanced now: volume, load, bed or source have changed enough.
+
+    Parameters
+    ----------
+    column : record of `LAYOUT`
+        Memory of the column: volume, load, pressure at the base and source at its last update.
+    volume, load, pressure : float
+        Volume of the particle [m3], its liquefaction pressure [Pa] and the pressure of the bed [Pa] now.
+    stride : float
+        Largest relative change since the update that may be left for later [-]; 0: every step is due.
+    """
     start, old_load = column.volume_at_update, column.load_at_update
     unstrained, change_allowed = old_load * volume, BED_FRACTION * stride * load
     is_due = volume - start > min(stride * start, GRADING * (start - column.volume_at_contact))

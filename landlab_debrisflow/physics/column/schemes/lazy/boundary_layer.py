@@ -41,7 +41,10 @@ def boundary_layer(distance, growth, diffusion):
 
 @inner
 def layer_content(growth, diffusion):
-    """Return the integral of the layer over distance [-]: the part carried in by soil and the part diffused in."""
+    """Return the integral of the layer over distance [-]: the part carried in by soil and the part diffused in.
+
+    `growth` and `diffusion` are as in `boundary_layer` [-].
+    """
     if growth <= 0.0:
         return 2.0 * math.sqrt(diffusion) / ROOT_PI
     if diffusion <= 0.0:
@@ -55,13 +58,15 @@ def layer_content(growth, diffusion):
 
 @inner
 def is_resolved(cells, growth, diffusion):
-    """Return whether levels can follow the layer."""
+    """Return whether levels, `cells` intervals, can follow the layer; `growth`, `diffusion` as in `boundary_layer`."""
     return cells * (growth + 2.0 * math.sqrt(diffusion)) > RESOLVED
 
 
 @inner
 def basal_filling(cells, growth, diffusion):
     """Return the fraction of the half cell of the base level that the layer fills [-].
+
+    `cells` is the number of intervals between levels; `growth` and `diffusion` are as in `boundary_layer` [-].
 
     The filling is the integral of the layer less the part already seen by the levels above.
     """

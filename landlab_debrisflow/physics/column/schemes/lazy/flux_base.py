@@ -14,7 +14,10 @@ from .remap import remap_profile
 
 @kernel
 def impermeable_inflow(columns, selected, present, scheme):
-    """Give the soil that comes into columns the pressure of their base, and load it; arguments as in `grow_by_flux`."""
+    """Give the soil that comes into columns the pressure of their base [Pa], and load it.
+
+    Written is the pressure of the bed in the memory of the columns; arguments as in `grow_by_flux`.
+    """
     profile, state, _ = columns
     volumes, loads = present
     for i in selected:
@@ -74,7 +77,10 @@ def grow_by_flux(columns, selected, present, scheme, modes):
 
 @inner
 def _effective(profile, i, load):
-    """Return the mean of ``load * eta - p`` of one column [Pa]."""
+    """Return the mean of ``load * eta - p`` of one column [Pa].
+
+    `profile`, shape (n, levels), is read in row `i` [Pa]; `load` is the liquefaction pressure [Pa].
+    """
     cells = profile.shape[1] - 1
     content = 0.5 * (load - profile[i, 0])
     for k in range(1, cells):
@@ -85,6 +91,9 @@ def _effective(profile, i, load):
 @inner
 def _restore(profile, i, load, content, low, high):
     """Add the missing content to one column, because nothing diffuses in from the bed and rounding must not add up.
+
+    `profile`, shape (n, levels), is changed in row `i`; `load` is its load, `content` the mean of load * eta - p that
+    it is to have [Pa].
 
     The base level takes it between ``low`` and ``high`` [Pa], and the rest goes to the levels above, none of which goes
     beyond the one below it, over eta.

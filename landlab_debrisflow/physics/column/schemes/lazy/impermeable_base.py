@@ -18,7 +18,10 @@ from .state import BANDS
 
 @inner
 def base_slope(profile, i, cells):
-    """Return dp/d(eta) at the base as seen from inside, no steeper than twice the lowest cell [Pa]."""
+    """Return dp/d(eta) at the base as seen from inside, no steeper than twice the lowest cell [Pa].
+
+    `profile`, shape (n, levels), is read in row `i` [Pa]; `cells` is the number of intervals between levels.
+    """
     step, next_step = profile[i, 0] - profile[i, 1], profile[i, 1] - profile[i, 2]
     slope = 1.5 * step - 0.5 * next_step
     return min(max(slope, min(0.0, 2.0 * step)), max(0.0, 2.0 * step)) * cells
@@ -94,7 +97,7 @@ def to_modes(columns, selected, modes):
 
 @inner
 def _forget_loads(column):
-    """Begin a new account of diffusion, load and source of one column."""
+    """Begin a new account of diffusion [-], load and source [Pa] since the last update in the memory of one column."""
     column.diffusion = column.load_gain = column.source_gain = column.load_variation = 0.0
     column.load_scale = 1.0
 
@@ -172,7 +175,11 @@ def advance_modes(columns, selected, modes):
 
 @inner
 def _expand_base(profile, column, i, modes):
-    """Write the pressure at the base of one column, its parabola in c_v t / h^2 and the remainder of that [Pa]."""
+    """Write the pressure at the base of one column, its parabola in c_v t / h^2 and the remainder of that [Pa].
+
+    `profile`, shape (n, levels), holds amplitudes [Pa] in row `i`; `column`, the memory of that column, is written;
+    `modes` are the constants of the modes.
+    """
     pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
     square = modes.band_rate
     unresolved_bands, layer_bands = column.unresolved_bands, column.layer_bands
@@ -201,6 +208,9 @@ def _expand_base(profile, column, i, modes):
 def clip_modes(columns, selected, forcing, modes):
     """Clip columns in modes, just updated, to suction and liquefaction at their levels; count the pressure removed.
 
+    `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int; `forcing` holds load [Pa]
+    and thickness [m].
+
     Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
     profile, state, clipped = columns
@@ -228,7 +238,11 @@ def clip_modes(columns, selected, forcing, modes):
 
 @inner
 def _synthesise(profile, column, i, modes, levels):
-    """Write the pressures of one column at the levels [Pa]; of a thin layer they see no more than its content."""
+    """Write the pressures of one column at the levels [Pa]; of a thin layer they see no more than its content.
+
+    `profile`, shape (n, levels), holds amplitudes [Pa] in row `i`, `column` is the memory of that column; `levels`,
+    shape (levels - 1,), is written from the base upwards.
+    """
     unresolved_bands, tail = column.unresolved_bands, 0.0
     for band in range(BANDS):
         tail += unresolved_bands[band]

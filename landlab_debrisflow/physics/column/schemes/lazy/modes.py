@@ -22,18 +22,42 @@ BRIEF = 1e-6  # c_v t / h^2 below which the gain of a mode is taken as linear in
 
 
 class Modes(NamedTuple):
-    """Constants of the modes of a column [-]; the first axis is the condition at the base, `NEUMANN` or `DIRICHLET`."""
+    """Constants of the modes of a column [-]; the first axis is the condition at the base, `NEUMANN` or `DIRICHLET`.
 
-    shapes: np.ndarray  # (2, modes, levels but the surface); 1 at an impermeable base
-    project: np.ndarray  # (2, levels but the surface, modes); levels -> amplitudes
-    ramp: np.ndarray  # (2, 2, modes): amplitudes of eta; the same over the squared wave number
-    uniform: np.ndarray  # (2, 2, modes): amplitudes of 1 at all levels; the same over the squared wave number
-    pattern: np.ndarray  # (2, levels but the surface): eta less its modes
-    tail: np.ndarray  # (2, points): decay of that part
-    eta: np.ndarray  # (levels but the surface,)
-    squares: np.ndarray  # (modes,), squared wave numbers over an impermeable base
-    bands: np.ndarray  # (BANDS,), eta at an impermeable base in shorter modes, by bands of an octave
-    band_rate: float  # rate of decay of the first of these; of the next four times as fast, and so on
+    Attributes
+    ----------
+    shapes : ndarray, shape (2, modes, levels - 1)
+        Shape of each mode at the levels below the surface; 1 at an impermeable base.
+    project : ndarray, shape (2, levels - 1, modes)
+        Matrix that turns values at levels into amplitudes.
+    ramp : ndarray, shape (2, 2, modes)
+        Amplitudes of eta; the quotient of these and the squared wave number.
+    uniform : ndarray, shape (2, 2, modes)
+        Amplitudes of 1 at all levels; the quotient of these and the squared wave number.
+    pattern : ndarray, shape (2, levels - 1)
+        eta less its modes.
+    tail : ndarray, shape (2, points)
+        Decay of that part.
+    eta : ndarray, shape (levels - 1,)
+        1 at the base, 0 at the surface, which is left out.
+    squares : ndarray, shape (modes,)
+        Squared wave numbers over an impermeable base.
+    bands : ndarray, shape (BANDS,)
+        eta at an impermeable base in shorter modes, by bands of an octave.
+    band_rate : float
+        Rate of decay of the first of these; of the next four times as fast, and so on.
+    """
+
+    shapes: np.ndarray
+    project: np.ndarray
+    ramp: np.ndarray
+    uniform: np.ndarray
+    pattern: np.ndarray
+    tail: np.ndarray
+    eta: np.ndarray
+    squares: np.ndarray
+    bands: np.ndarray
+    band_rate: float
 
 
 @lru_cache(maxsize=8)
@@ -84,7 +108,11 @@ def _bands(cells: int, whole: float) -> np.ndarray:
 
 
 def _tail(cells: int, condition: int) -> np.ndarray:
-    """Tabulate the decay of the part of eta in modes too short for the levels, where it is largest [-]."""
+    """Tabulate the decay of the part of eta in modes too short for the levels, where it is largest [-].
+
+    `cells` is the number of intervals between levels, `condition` is `NEUMANN` or `DIRICHLET`; the table has shape
+    (TAIL_POINTS,).
+    """
     table = []
     for diffusion in (np.linspace(0.0, TAIL_END, TAIL_POINTS) / cells) ** 2:
         last = 4000 * cells if diffusion == 0.0 else int(np.sqrt(40.0 / diffusion) / np.pi)  # exp(-40) is nothing
@@ -101,7 +129,10 @@ def _tail(cells: int, condition: int) -> np.ndarray:
 
 @inner
 def tail_after(diffusion, cells, table):
-    """Return the tail after ``diffusion`` = c_v t / h^2 over that before [-]."""
+    """Return the tail after ``diffusion`` = c_v t / h^2 over that before [-].
+
+    `cells` is the number of intervals between levels; `table`, shape (TAIL_POINTS,), is a row of `Modes.tail`.
+    """
     position = math.sqrt(diffusion) * (cells * (TAIL_POINTS - 1) / TAIL_END)
     if position >= TAIL_POINTS - 1:
         return 0.0
@@ -112,6 +143,9 @@ def tail_after(diffusion, cells, table):
 @inner
 def bounds_of(profile, i, low, high, eta):
     """Return bounds of one column [Pa]: least and largest pressure, and pressure over eta, with a base and the surface.
+
+    `profile` has shape (n, levels) [Pa], of which row `i` is read; `low` and `high` bound the pressure of the base
+    [Pa]; `eta`, shape (levels - 1,), is 1 at the base and 0 at the surface, which is left out.
 
     Diffusion and stretching leave a column between these: a constant and a line through the surface that
     once enclose it do so for ever.

@@ -25,13 +25,20 @@ LAYER_END = 0.05  # c_v t / h^2 up to which the layer over a base that has just 
 
 @inner
 def load_strain(load, old_load, volume, start):
-    """Return the ratio of new to old load without erosion [-]; 1 without load, where the bounds empty the column."""
+    """Return the ratio of new to old load without erosion [-]; 1 without load, where the bounds empty the column.
+
+    `load` and `old_load` are liquefaction pressures now and at the last update [Pa], `volume` and `start` volumes then
+    [m3].
+    """
     return load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
 
 
 @kernel
 def diffuse(columns, selected, present, ending, scheme, modes):
-    """Diffuse and load columns whose grains keep their place; arguments as in `grow`."""
+    """Diffuse and load columns whose grains keep their place; arguments as in `grow`.
+
+    `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int.
+    """
     profile, state, _ = columns
     volumes, loads = present
     cells = profile.shape[1] - 1
@@ -156,6 +163,8 @@ def split_diffusion(column, stretch, condition):
 def commit(columns, selected, forcing, basal_pressure):
     """Record the present as the last update of columns at levels, and clip them to suction and liquefaction.
 
+    `columns` are the `LazyColumns`, `selected` indices of some, int; `basal_pressure` has shape (n,).
+
     Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
     profile, state, clipped = columns
@@ -181,6 +190,9 @@ def commit(columns, selected, forcing, basal_pressure):
 @inner
 def _fill_base_level(profile, column, i, change, growth, diffusion):
     """Fill the half cell of the base level as far as the layer over a base that has just changed reaches.
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa], as is `column`, its memory; `growth` and `diffusion` are
+    as in `boundary_layer` [-].
 
     ``change`` is the pressure inside, the jump of the base above it [Pa], and the fraction of the jump that came evenly
     since then, the rest at once.
@@ -210,7 +222,11 @@ def diffusion_after(diffusion, condition):
 
 @inner
 def add_loading_by_erosion(profile, i, stretch, load):
-    """Add the load that the whole dh/dt puts on the grains while new soil comes in below them [Pa]."""
+    """Add the load that the whole dh/dt puts on the grains while new soil comes in below them [Pa].
+
+    `profile`, shape (n, levels), is changed in row `i`; `stretch` is the volume before over that after [-], `load` the
+    liquefaction pressure [Pa].
+    """
     cells = profile.shape[1] - 1
     for k in range(cells):
         eta = (cells - k) / cells
@@ -220,6 +236,9 @@ def add_loading_by_erosion(profile, i, stretch, load):
 @inner
 def _add_layer(profile, i, jumps, growth, diffusion, bounds, eta):
     """Add the layer over a base that has just changed by the first of ``jumps``, and in the end by the other [Pa].
+
+    `profile`, shape (n, levels), is changed in row `i` [Pa]; `growth` and `diffusion` are as in `boundary_layer`, `eta`
+    is 1 at the base and 0 at the surface [-].
 
     ``bounds`` are the least and largest pressure, and pressure over eta, that the column may have [Pa].
     """

@@ -14,6 +14,9 @@ from .....core.jit import inner
 def interpolate(values, ratios, cells, position):
     """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
 
+    `values`, shape (levels,), counted from the surface downwards, are effective stresses [Pa], `ratios` are these over
+    their place; `cells` is their number less 1; `position` is the depth below the surface in cells [-].
+
     Its ratio to the position is clipped as well, to those of the two (beside the surface, of the two next to it).
     """
     low = min(int(position), cells - 1)

@@ -67,11 +67,21 @@ SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
 
 @struct
 class LazyColumns(NamedTuple):
-    """The arrays of n columns, `ColumnState` with its memory as records."""
+    """The arrays of n columns, `ColumnState` with its memory as records.
 
-    profile: np.ndarray  # (n, levels) pressure at levels, or in all but the last the amplitudes of modes [Pa]
-    state: np.ndarray  # (n,) of `LAYOUT`
-    clipped: np.ndarray  # (n,) pressure taken off by the bounds times thickness, so far [Pa m]
+    Attributes
+    ----------
+    profile : ndarray, shape (n, levels)
+        Pressure at levels, or in all but the last the amplitudes of modes [Pa].
+    state : ndarray of `LAYOUT`, shape (n,)
+        Memory of each column.
+    clipped : ndarray, shape (n,)
+        Pressure taken off by the bounds times thickness, so far [Pa m].
+    """
+
+    profile: np.ndarray
+    state: np.ndarray
+    clipped: np.ndarray
 
 
 @struct
