@@ -7,15 +7,7 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..core.structs import struct
-from ..physics.contracts import (
-    BasalState,
-    BasalStress,
-    BaseContact,
-    ColumnForcing,
-    ColumnLaw,
-    ColumnState,
-    Phases,
-)
+from ..physics.contracts import BasalState, BasalStress, BaseContact, ColumnForcing, ColumnLaw, ColumnState, Phases
 
 BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
 """What columns stand on where nothing is drained."""
