@@ -25,7 +25,8 @@ class Diagnostics(NamedTuple):
     share_asleep : float
         Particle-steps of particles asleep over all [-]; 0 before the first.
     cpu : Mapping of str to float
-        CPU seconds in each stage of a step, of `STAGES`.
+        CPU seconds in each stage of a step, of `STAGES`: measured in the first steps and in every `TIMED`-th after,
+        each of which stands for `TIMED`. The first run of a version on a machine also compiles the kernels.
     """
 
     steps: int

@@ -89,7 +89,11 @@ def measures(flow: Any, before: xr.Dataset | None = None, *, distance: Callable 
     """
     thresholds = flow_threshold, erosion_threshold, deposit_threshold
     _check(front_fraction, *thresholds)
-    maps = flow if isinstance(flow, xr.Dataset) else flow.maps
+    maps = flow if isinstance(flow, xr.Dataset) else getattr(flow, "maps", None)
+    if not isinstance(maps, xr.Dataset):
+        raise InputError(f"measures: needs a DebrisFlow or its maps, got {flow!r}; give flow or flow.maps")
+    if not (before is None or isinstance(before, xr.Dataset)):
+        raise InputError(f"measures: before must be flow.maps taken before the run, or None, got {before!r}")
     if DEPOSIT not in maps or set(maps[DEPOSIT].dims) != {"y", "x"}:
         raise InputError(
             f"measures: needs a DebrisFlow or its maps at one moment, got a Dataset over {dict(maps.sizes)}"

@@ -126,6 +126,12 @@ def test_what_cannot_be_measured_is_refused(wrong, words):
         measures(AFTER, **wrong)
 
 
+@pytest.mark.parametrize("wrong", [(3,), (BEFORE, 5), (BEFORE.to_dict(),)], ids=["a number", "before", "a mapping"])
+def test_what_is_no_flow_is_refused(wrong):
+    with pytest.raises(InputError, match=r"measures: (needs a DebrisFlow or its maps|before must be flow\.maps)"):
+        measures(*wrong)
+
+
 def test_of_a_flow_that_moves_and_of_its_deposit(valley):
     flow = DebrisFlow(valley, numerics={"particle_count": 100})
     before = flow.maps
