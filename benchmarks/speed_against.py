@@ -40,8 +40,10 @@ class Side:
 
     def environment(self, cache="cache"):
         # numba counts its own threads, numpy's are switched off: what they wait would count as CPU time
-        alone = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg"}
-        return os.environ | alone | {"NUMBA_CACHE_DIR": os.path.join(self.folder, cache), "PYTHONPATH": self.path}
+        alone = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MPLBACKEND": "Agg", "PYTHONPATH": self.path}
+        # bytecode of either side is kept, as pip does for what it installs
+        kept = {"NUMBA_CACHE_DIR": os.path.join(self.folder, cache), "PYTHONPYCACHEPREFIX": f"{self.folder}/bytecode"}
+        return {n: v for n, v in os.environ.items() if n != "PYTHONDONTWRITEBYTECODE"} | alone | kept
 
     def begin(self):
         """Start a process that waits for scenes."""
