@@ -70,6 +70,7 @@ def main() -> None:
     axes[0].plot(time, base, "k", linewidth=1.0, label="11 levels, default")
     axes[0].set(ylabel="basal pressure over load [-]", title="Friction reads the base at every step ...")
     axes[0].legend(loc="lower left")
+    axes[0].set_ylim(bottom=0.40)  # below the curve: room for the legend
     updates = np.append(False, np.diff(owed) < 0.0)
     axes[1].plot(time, owed, "k", linewidth=0.9)
     axes[1].plot(time[updates], np.full(updates.sum(), -0.06), "k|", markersize=7.0)

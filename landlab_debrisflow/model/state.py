@@ -71,7 +71,7 @@ class State:
 
         Raises
         ------
-        KeyError
+        InputError
             If the dataset lacks a variable that particles of this setup have.
         """
         return from_dataset(dataset, self)

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+from ..core.errors import InputError
 from ..spatial.partners import Partners
 from .time_step import StepLimits
 
@@ -67,11 +68,16 @@ def from_dataset(dataset: xr.Dataset, state):
 
     Raises
     ------
-    KeyError
+    InputError
         If the dataset lacks a variable that particles of this setup have.
     """
     new, read = state.copy(), {name: data.values for name, data in dataset.variables.items()}
     p = new.particles
+    if missing := [name for name in (*(v.name for v in p.variables), "awake", "ever", "time") if name not in read]:
+        raise InputError(
+            f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give what "
+            "to_dataset() of a run with the same setup wrote"
+        )
     for variable in p.variables:
         setattr(p, variable.name, np.array(read[variable.name], variable.dtype, order="C"))
     p.awake, p.ever = int(read["awake"]), int(read["ever"])

@@ -225,7 +225,13 @@ class Setup:
         """
         if "setup" not in dataset.attrs:
             raise ParameterError("Setup: the Dataset has no attribute 'setup'; give the maps or snapshots of a flow")
-        mapping = json.loads(dataset.attrs["setup"])
+        try:
+            mapping = json.loads(dataset.attrs["setup"])
+        except ValueError as error:
+            raise ParameterError(
+                f"Setup: the attribute 'setup' of the Dataset is no JSON ({error}), so this package did not write it, "
+                "or it was changed; give the maps or snapshots of a flow as they were written"
+            ) from error
         for kind in LAWS:
             for key, value in mapping[kind].items():
                 if not isinstance(value, Mapping):

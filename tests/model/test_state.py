@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from landlab_debrisflow import InputError
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.inflow.hydrograph import Hydrograph
 from landlab_debrisflow.model.inflow.source import Inflow
@@ -146,3 +147,8 @@ def test_diagnostics_tell_what_a_run_took():
     assert min(found.cpu.values()) >= 0.0 and sum(found.cpu.values()) > 0.0
     with pytest.raises(TypeError):
         found.cpu["summation"] = 0.0
+
+
+def test_a_dataset_that_is_no_state_is_refused():
+    with pytest.raises(InputError, match=r"state: the Dataset lacks identity, .* and more; give what to_dataset"):
+        build("moves").state.from_dataset(xr.Dataset())

@@ -224,3 +224,9 @@ def test_it_is_frozen():
         Setup().friction = Voellmy()
     assert Setup(inflow=None).inflow == () and Setup(inflow=Hydrograph(**SURGES[0])).inflow[0].volume > 0.0
     assert not Setup().two_phases and Setup(flow="two_phase").two_phases
+
+
+@pytest.mark.parametrize(("attributes", "words"), [({}, "no attribute 'setup'"), ({"setup": "{no json"}, "is no JSON")])
+def test_a_dataset_without_a_setup_is_refused(attributes, words):
+    with pytest.raises(ParameterError, match=f"Setup: .*{words}.*; give the maps or snapshots of a flow"):
+        Setup.from_dataset(xr.Dataset(attrs=attributes))

@@ -1,7 +1,7 @@
 """Cases of two phases in one dimension: exact, or to be compared with a converged reference.
 
-``case.run(count, times)`` runs one by `finite_volume_two_phase`; at time 0 it gives the start for another scheme. In
-each the speeds of the equations stay real (`is_hyperbolic`), so that there is a limit to converge to.
+``case.run(count, times)`` runs one by `rivals.finite_volume_two_phase`; at time 0 it gives the start for another
+scheme. In each the speeds of the equations stay real (`is_hyperbolic`), so that there is a limit to converge to.
 ``python -m validation.cases.two_phase`` prints errors and costs of finite volumes.
 """
 
