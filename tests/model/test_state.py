@@ -152,3 +152,12 @@ def test_diagnostics_tell_what_a_run_took():
 def test_a_dataset_that_is_no_state_is_refused():
     with pytest.raises(InputError, match=r"state: the Dataset lacks identity, .* and more; give what to_dataset"):
         build("moves").state.from_dataset(xr.Dataset())
+
+
+def test_accounts_are_written_and_read():
+    state = build("moves").state
+    state.settled_solid, state.stopped.volume = 2.5, 1.5
+    state.outflow.count(np.array([3, 7]), np.array([2.0, 1.0]), np.array([1.0, 0.5]))
+    again = build("moves").state.from_dataset(state.to_dataset())
+    assert again.settled_solid == 2.5 and again.stopped.volume == 1.5
+    assert again.outflow.total == 3.0 and again.outflow.solid == 1.5
