@@ -71,6 +71,15 @@ def test_imports_go_downward_only(module):
             assert len(one) < 2 or len(other) < 2 or one[0] == other[0], f"{module} knows another kind of law: {target}"
 
 
+def test_kernels_are_in_the_rooms_whose_sources_name_their_cache():
+    """tests/conftest.py names numba's cache by a hash of these rooms."""
+    compiled = {
+        layer(module) for module, path in MODULES.items()
+        if any(inner(name) == "core/jit" for name in imports(path)) and module != "laws"
+    }  # fmt: skip
+    assert compiled <= {"core", "spatial", "terrain", "physics", "model"}
+
+
 def test_imports_have_no_circle():
     known = {module: {t for name in imports(path) if (t := inner(name))} - {module} for module, path in MODULES.items()}
     known = {m: {t if t in MODULES else f"{t}/__init__" for t in targets} for m, targets in known.items()}
