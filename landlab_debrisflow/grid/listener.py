@@ -1,5 +1,7 @@
 """The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
 
+from functools import partial
+
 from ..model.schedule import due_after_step, due_at_start
 from .interruption import Interruption
 from .reports import Reports
@@ -18,11 +20,20 @@ class CallListener:
     writer : FieldWriter
         Writes the fields of the component.
     interruption : Interruption
+
+    Attributes
+    ----------
+    reports : Reports
+        Messages at the end of a call.
+    requests : list of callable
+        To be called without arguments as soon as the run is between two steps, once each.
+    between_steps : bool
+        Whether a call runs and is between two steps, all observers having seen the last one.
     """
 
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
         self._flow, self._writer, self._interruption = flow, writer, interruption
-        self._reports = Reports(flow)
+        self.reports, self.requests, self.between_steps = Reports(flow), [], False
 
     def begun(self) -> None:
         """Prepare maps and accounts: the model lies on its bed, particles of the release are made."""
@@ -33,23 +44,29 @@ class CallListener:
         self._writer.keep_rows()
         if not idle:
             self._show(due_at_start(self._flow._observers))
+        self._pause()
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
         self._writer.follow_step()
         observers = self._flow._observers
         self._show(observers if idle else due_after_step(observers, began, time))
+        self._pause()
 
     def interrupted(self) -> bool:
         """Return whether the run is to end before the next step."""
         return self._interruption.requested
+
+    def broken_off(self) -> None:
+        """Let observers keep the state of a run that ends before its time."""
+        self._pause(broken_off=True)
 
     def ended(self, stop_at_rest: bool) -> None:
         """Write results, settle mass at rest, log messages at the end of a run."""
         sim = self._writer.simulation
         with self._interruption.deferred():
             self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
-            self._reports.log_messages(stop_at_rest)
+            self.reports.log_messages(stop_at_rest)
 
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
@@ -57,7 +74,22 @@ class CallListener:
             return
         with self._writer.present():
             for observer in observers:
-                try:
-                    observer.observe(self._flow)
-                except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
-                    self._interruption.add_failure(failure)
+                self._try(partial(observer.observe, self._flow))
+
+    def _pause(self, broken_off: bool = False) -> None:
+        """Do what was requested during the step, then let observers keep the state; `broken_off`: the run ends here."""
+        keepers = [observer for observer in self._flow._observers if hasattr(observer, "keep")]
+        if not (keepers or self.requests):
+            return
+        self.between_steps = True
+        requests, self.requests = self.requests, []
+        for action in (*requests, *(partial(observer.keep, self._flow, broken_off) for observer in keepers)):
+            self._try(action)
+        self.between_steps = False
+
+    def _try(self, action) -> None:
+        """Call an observer; if it fails, the run ends after the step."""
+        try:
+            action()
+        except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
+            self._interruption.add_failure(failure)
