@@ -26,6 +26,10 @@ TRAILER = struct.Struct(f"<{len(MAGIC)}sIQ32s")
 """Magic bytes, version, length of the NetCDF [bytes], digest of the NetCDF and of the trailer so far."""
 
 
+WORTH_COMPRESSING = 4096
+"""Size from which on an array is compressed [bytes]: its index alone takes 2 kB."""
+
+
 def previous_path(path: str | os.PathLike[str]) -> Path:
     """Return where the checkpoint before the last one is kept, beside it.
 
@@ -157,7 +161,7 @@ def _to_bytes(dataset: xr.Dataset) -> bytes:
     """Return a Dataset as a NetCDF file in memory."""
     file = netCDF4.Dataset("checkpoint.nc", mode="w", memory=1 << 20)
     encoding = {
-        name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data.ndim else {})
+        name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data.nbytes > WORTH_COMPRESSING else {})
         for name, data in dataset.variables.items()
     }
     dataset.dump_to_store(xr.backends.NetCDF4DataStore(file), encoding=encoding)
