@@ -1,1 +1,0 @@
-"""Files of a GIS as plain arrays and shapes, and back."""
