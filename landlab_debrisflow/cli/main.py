@@ -55,7 +55,18 @@ def _parser():
     )
     info.add_argument("--markdown", action="store_true", help="as the page docs/laws.md")
     info.set_defaults(command=_info)
+
+    run = commands.add_parser("run", help="run a scene file and write its maps")
+    run.add_argument("scene", type=Path, help="the scene file")
+    run.set_defaults(command=_run)
     return parser
+
+
+def _run(arguments):
+    from ..run.runner import run_scene
+    from ..run.scene import Scene
+
+    print(run_scene(Scene.from_file(arguments.scene)))
 
 
 def _demo(arguments):

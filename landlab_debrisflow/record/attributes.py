@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.parameters import NodeValues
+from ..core.values import NodeValues
 from ..core.version import __version__
 from ..physics.registry import LAWS, law_name
 

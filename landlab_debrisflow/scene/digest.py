@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.parameters import NodeValues
+from ..core.values import NodeValues
 
 
 def digest(value: Any) -> str:

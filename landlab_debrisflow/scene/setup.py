@@ -10,7 +10,7 @@ import xarray as xr
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean
-from ..core.parameters import NodeValues
+from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
