@@ -1,7 +1,5 @@
 """The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
 
-from functools import partial
-
 from ..model.schedule import due_after_step, due_at_start
 from .interruption import Interruption
 from .reports import Reports
@@ -11,7 +9,10 @@ from .write import FieldWriter
 class CallListener:
     """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
 
-    Observers see the grid as the end of a call would leave it, which is then taken back.
+    Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
+    methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
+    ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
+    call with ``began`` equal to ``time``; ``keep(flow, broken_off)`` between two steps, when all have seen the last one.
 
     Parameters
     ----------
@@ -34,6 +35,9 @@ class CallListener:
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
         self._flow, self._writer, self._interruption = flow, writer, interruption
         self.reports, self.requests, self.between_steps = Reports(flow), [], False
+        for observer in flow._observers:
+            if hasattr(observer, "prepare"):
+                observer.prepare(flow.grid, flow.setup)
 
     def begun(self) -> None:
         """Prepare maps and accounts: the model lies on its bed, particles of the release are made."""
@@ -42,6 +46,8 @@ class CallListener:
     def started(self, idle: bool) -> None:
         """Keep rows and show the flow before the first step; `idle`: nothing moves yet."""
         self._writer.keep_rows()
+        time = self._writer.simulation.time
+        self._follow(time, time)
         if not idle:
             self._show(due_at_start(self._flow._observers))
         self._pause()
@@ -49,6 +55,7 @@ class CallListener:
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
         self._writer.follow_step()
+        self._follow(began, time)
         observers = self._flow._observers
         self._show(observers if idle else due_after_step(observers, began, time))
         self._pause()
@@ -68,13 +75,19 @@ class CallListener:
             self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
             self.reports.log_messages(stop_at_rest)
 
+    def _follow(self, began: float, time: float) -> None:
+        """Tell observers of a step from `began` to `time` [s], even if one of them fails."""
+        for observer in self._flow._observers:
+            if hasattr(observer, "follow"):
+                self._call(observer.follow, self._writer.simulation.particles, began, time)
+
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
         if not observers:
             return
         with self._writer.present():
             for observer in observers:
-                self._try(partial(observer.observe, self._flow))
+                self._call(observer.observe, self._flow)
 
     def _pause(self, broken_off: bool = False) -> None:
         """Do what was requested during the step, then let observers keep the state; `broken_off`: the run ends here."""
@@ -83,13 +96,15 @@ class CallListener:
             return
         self.between_steps = True
         requests, self.requests = self.requests, []
-        for action in (*requests, *(partial(observer.keep, self._flow, broken_off) for observer in keepers)):
-            self._try(action)
+        for request in requests:
+            self._call(request)
+        for observer in keepers:
+            self._call(observer.keep, self._flow, broken_off)
         self.between_steps = False
 
-    def _try(self, action) -> None:
-        """Call an observer; if it fails, the run ends after the step."""
+    def _call(self, observe, *arguments) -> None:
+        """Call an observer and note its failure."""
         try:
-            action()
+            observe(*arguments)
         except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
             self._interruption.add_failure(failure)
