@@ -1,13 +1,16 @@
 """Datasets, files, observers and measures. Reads the model, is never imported by it."""
 
+from .checkpoints import Checkpoints
 from .combine import combine_maps
 from .datasets import stack
 from .files import check_writable, write_atomically, write_dataset
 from .map_series import MapSeries
 from .measures import quantile
-from .observers import Progress, Series, Snapshots
+from .observers import Progress, Snapshots
+from .series import Series
 
 __all__ = [
+    "Checkpoints",
     "MapSeries",
     "Progress",
     "Series",
