@@ -21,7 +21,7 @@ from .scene.setup import Setup
 
 
 class Restart:
-    """What of a component saves and loads it."""
+    """Saving and loading of a component."""
 
     _call: Any
     _setup: Setup

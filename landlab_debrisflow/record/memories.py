@@ -1,4 +1,4 @@
-"""Memory of observers in a checkpoint: what ``state()`` returns, for ``restore(mapping)``."""
+"""Memory of observers in a checkpoint, from ``state()`` for ``restore(mapping)``."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -11,7 +11,7 @@ from ..core.errors import InputError
 
 
 def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
-    """Return a Dataset with the memory of observers added, of those that have a method ``state()``.
+    """Return a Dataset with the memory of all observers added that have a method ``state()``.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
 
 
 def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping[str, Any] | None]:
-    """Return the memory of observers in a Dataset, one mapping each, None for those that had none.
+    """Return the memory of observers in a Dataset, one mapping each, or None without memory.
 
     Parameters
     ----------

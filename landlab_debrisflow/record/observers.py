@@ -23,10 +23,13 @@ import xarray as xr
 from ..core.checks import require
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
+from ..model.schedule import EVERY_STEP
 from .attributes import variable_attributes
 from .datasets import stack
 from .files import check_writable, write_dataset
 from .memories import pack_maps, unpack_maps
+
+__all__ = ["EVERY_STEP", "Progress", "Snapshots", "check_interval"]
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -71,7 +71,7 @@ class Series:
         self._before = now, values
 
     def state(self) -> dict[str, Any]:
-        """Return times [s] and measures so far by name, and those of the last step, for a checkpoint."""
+        """Return times [s] and measures so far and of the last step by name, for a checkpoint."""
         time, before = self._before or (np.nan, {})
         values = {name: np.stack([one[name] for one in self._values]) for name in before if self._values}
         memory = {"times": np.array(self._times), "time_before": time}
