@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..geo.shapes import covered_fraction, read_shapes
+from ..geo.cover import covered_fraction
+from ..geo.shapes import read_shapes
 from .keys import ReleaseKeys
 from .terrain import lattice_of
 
