@@ -191,7 +191,7 @@ def _sorted_out(polygon, shape: tuple[int, int]):
 
 
 def _cells_of(rows, columns, size, last):
-    """Return rows and columns of the single cells in blocks, without those past the edge."""
+    """Return rows and columns of the single cells in blocks, without cells past the edge."""
     step_rows, step_columns = (grid.reshape(-1) for grid in np.mgrid[:size, :size])
     rows = (rows[:, None] + step_rows).reshape(-1)
     columns = (columns[:, None] + step_columns).reshape(-1)

@@ -89,7 +89,7 @@ class Lattice(NamedTuple):
         return Window(slice(0, self.shape[0]), slice(0, self.shape[1]))
 
     def window_around(self, bounds: Bounds) -> Window:
-        """Return the nodes whose cells touch a rectangle of the map, cut at the edges; it may have no nodes.
+        """Return the nodes whose cells touch a rectangle of the map, cut at the edges, perhaps no node.
 
         Parameters
         ----------

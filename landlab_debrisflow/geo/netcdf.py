@@ -79,7 +79,7 @@ def open_netcdf(path: Path, choice: str | None) -> RasterSource:
 
 
 def _dataset(path: Path) -> Any:
-    """Open a NetCDF file; nothing of it is in memory yet."""
+    """Open a NetCDF file without reading its values."""
     import xarray as xr
 
     try:
