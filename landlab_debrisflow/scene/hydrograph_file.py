@@ -38,7 +38,7 @@ def read_hydrograph(path: Path) -> tuple[tuple[float, float], ...]:
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = Path(folder) / "surge.csv"
-    ...     _ = path.write_text("time [s];Q [m3/s]\\n0;0\\n60;20,5\\n")
+    ...     _ = path.write_text("time [s];Q [m3/s]\n0;0\n60;20,5\n")
     ...     read_hydrograph(path)
     ((0.0, 0.0), (60.0, 20.5))
     """
