@@ -41,7 +41,7 @@ def shapes_of(value: Any, form: str, lattice: Lattice, folder: Path, name: str, 
     import shapely
 
     if isinstance(value, str):
-        shapes = read_shapes(folder / value, lattice.crs)
+        shapes = read_shapes(folder / value, lattice.crs, kind=form.removesuffix("s"))
     else:
         entries = value if named else tuple((str(k), one) for k, one in enumerate(value))
         make = getattr(shapely, KIND_OF[form])
