@@ -159,7 +159,10 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
         return [number, several] if length is None else [several | {"minItems": length, "maxItems": length}]
     forms.insert(0, number)
     if meta["varies"]:
-        forms += [{"type": "string", "pattern": NO_NUMBER}, {"type": "array", "items": {"type": "number"}, "minItems": 1}]
+        forms += [
+            {"type": "string", "pattern": NO_NUMBER},
+            {"type": "array", "items": {"type": "number"}, "minItems": 1},
+        ]
     return forms
 
 
