@@ -1,4 +1,4 @@
-"""Keys of a scene file: `terrain`, `release`, `output`; the others are those of `Setup`."""
+"""Keys of a scene file: `terrain`, `release`, `output`; other keys are the attributes of `Setup`."""
 
 from typing import ClassVar
 

@@ -126,7 +126,8 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
     if inside <= 0.0:
         raise InputError(
             f"{shape.label} covers no node of the terrain that may hold mass: all of it, "
-            f"{extent(shape.geometry.bounds)}, lies on the edge of the grid or without elevation; use a larger DEM, or move the polygon"
+            f"{extent(shape.geometry.bounds)}, lies on the edge of the grid or without elevation; "
+            "use a larger DEM, or move the polygon"
         )
     if inside < 0.999 * whole:
         kept = "the volume is kept" if volume is not None else "what lies there is left out"
