@@ -1,4 +1,4 @@
-"""Keys of a scene file: `terrain`, `release`, `output`; the others are those of `Setup`."""
+"""Keys of a scene file: `terrain`, `release`, `output`; other keys are the attributes of `Setup`."""
 
 from .output_keys import OutputKeys
 from .release_keys import ReleaseKeys
