@@ -21,7 +21,7 @@ LEVEL = {
     "record": 5, "columns": 6, "plots": 6, "scene": 6, "cli": 7,
 }  # fmt: skip
 TOP = 7  # component and what stands beside or above it
-KNOWS_LANDLAB = {"component", "grid/checks", "scene/tsing_shan", "plots/maps"}
+KNOWS_LANDLAB = {"component", "grid/checks", "scene/tsing_shan", "plots/maps", "triggers"}
 
 
 def layer(module):
