@@ -8,6 +8,7 @@ from .map_series import MapSeries
 from .measures import quantile
 from .observers import Progress, Snapshots
 from .series import Series
+from .written_maps import mask_peaks, write_maps
 
 __all__ = [
     "Checkpoints",
@@ -17,8 +18,10 @@ __all__ = [
     "Snapshots",
     "check_writable",
     "combine_maps",
+    "mask_peaks",
     "quantile",
     "stack",
     "write_atomically",
     "write_dataset",
+    "write_maps",
 ]
