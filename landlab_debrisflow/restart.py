@@ -19,6 +19,11 @@ from .record.memories import read_memories, write_memories
 from .scene.agreement import agreed_setup, law_digests
 from .scene.setup import Setup
 
+ATTRIBUTES = (
+    "setup", "law_digests", "observers", "observers_with_state", "spacing", "lower_left", "warned",
+)  # fmt: skip
+"""Attributes of every checkpoint."""
+
 
 class Restart:
     """Saving and loading of a component."""
@@ -101,6 +106,10 @@ class Restart:
 
     @classmethod
     def _from_dataset(cls, dataset: xr.Dataset, grid: Any, observers: Sequence[Any], given: dict[str, Any]) -> Self:
+        if missing := [name for name in ATTRIBUTES if name not in dataset.attrs]:
+            raise InputError(
+                f"load: the checkpoint lacks the attribute {missing[0]!r}; give a file that flow.save() wrote"
+            )
         setup = agreed_setup(dataset, given)
         if grid is None:
             shape = dataset.sizes["y"], dataset.sizes["x"]
