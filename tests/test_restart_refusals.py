@@ -265,7 +265,10 @@ def test_a_law_from_outside_is_given_again(law, tmp_path):
         path, f"the friction law of the checkpoint is a {name}, which no file can hold; give the same", ParameterError
     )
     refused(
-        path, "friction is not that of the checkpoint: .*0.3.* there, .*0.4.* given", ParameterError, friction=law(factor=0.4)
+        path,
+        "friction is not that of the checkpoint: .*0.3.* there, .*0.4.* given",
+        ParameterError,
+        friction=law(factor=0.4),
     )
     refused(
         path,

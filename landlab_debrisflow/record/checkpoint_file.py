@@ -6,6 +6,7 @@ never reaches the HDF5 library, which may crash on one.
 """
 
 import os
+import re
 import struct
 from hashlib import blake2b
 from pathlib import Path
@@ -70,6 +71,7 @@ def write_checkpoint(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     digest = blake2b(content, digest_size=32)
     digest.update(TRAILER.pack(*head, b"")[:-32])
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    _remove_leftovers(path)
     try:
         with open(temporary, "wb") as file:
             file.write(content)
@@ -144,6 +146,21 @@ def _checked(path: Path, data: bytes) -> bytes:
 def _alternative(path: Path) -> str:
     previous = previous_path(path)
     return f"; the one before is {previous}" if previous.exists() else ""
+
+
+def _remove_leftovers(path: Path) -> None:
+    """Remove files that processes which are no more were writing for a checkpoint."""
+    if os.name != "posix":
+        return
+    for other in path.parent.iterdir():
+        found = re.fullmatch(rf"\.{re.escape(path.stem)}\.(\d+){re.escape(path.suffix)}", other.name)
+        try:
+            if found:
+                os.kill(int(found[1]), 0)  # asks only
+        except ProcessLookupError:
+            other.unlink(missing_ok=True)
+        except (OSError, OverflowError):  # somebody else's
+            continue
 
 
 def _keep(path: Path, previous: Path) -> None:
