@@ -120,8 +120,9 @@ class Restart:
             raise InputError(f"load: a RasterModelGrid is needed, got {type(grid).__name__}")
         checkpoint_grid.check_same(grid, dataset)
         memories = read_memories(dataset, observers)
+        make: Any = cls
         with checkpoint_grid.fields_of(grid, dataset) as put_fields:
-            flow = cls(grid, **vars(setup), observers=observers)
+            flow = make(grid, **vars(setup), observers=observers)
             put_fields()
             flow._call.load(dataset)
             for observer, memory in zip(observers, memories, strict=True):

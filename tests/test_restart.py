@@ -183,6 +183,18 @@ def test_another_process_goes_on(name, twin, tmp_path):
     assert not different(outcome(again), outcome(flow))
 
 
+def test_the_page_about_checkpoints_runs(twin, tmp_path, monkeypatch):
+    page = (Path(__file__).parents[1] / "docs" / "checkpoints.md").read_text(encoding="utf-8")
+    first, second = re.findall(r"```python\n(.*?)```", page, re.S)
+    monkeypatch.chdir(tmp_path)
+    names = {"grid": build("eroding").grid}
+    exec(first, names)
+    names["flow"].save("event.checkpoint.nc")
+    ended = outcome(names["flow"])
+    exec(second, names)
+    assert not different(outcome(names["flow"]), ended) and names["flow"].at_rest
+
+
 # ---- grids ----
 
 

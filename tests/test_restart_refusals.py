@@ -322,7 +322,7 @@ def test_parameters_at_nodes_come_back(tmp_path):
 
 
 @pytest.mark.slow
-@settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_whatever_is_changed_it_is_refused_or_runs(saved, data):
     """One number of one variable, as if it had been written so."""

@@ -11,7 +11,6 @@ import struct
 from hashlib import blake2b
 from pathlib import Path
 
-import netCDF4
 import xarray as xr
 
 from ..core.errors import InputError
@@ -176,7 +175,9 @@ def _keep(path: Path, previous: Path) -> None:
 
 def _to_bytes(dataset: xr.Dataset) -> bytes:
     """Return a Dataset as a NetCDF file in memory."""
-    file = netCDF4.Dataset("checkpoint.nc", mode="w", memory=1 << 20)
+    from netCDF4 import Dataset  # takes a tenth of a second, which an import of the package need not
+
+    file = Dataset("checkpoint.nc", mode="w", memory=1 << 20)
     encoding = {
         name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data.nbytes > WORTH_COMPRESSING else {})
         for name, data in dataset.variables.items()
@@ -187,6 +188,8 @@ def _to_bytes(dataset: xr.Dataset) -> bytes:
 
 def _from_bytes(content: bytes) -> xr.Dataset:
     """Return the Dataset of a NetCDF file in memory."""
-    with netCDF4.Dataset("checkpoint.nc", memory=content) as file:
+    from netCDF4 import Dataset
+
+    with Dataset("checkpoint.nc", memory=content) as file:
         store = xr.backends.NetCDF4DataStore(file)
         return xr.open_dataset(store, mask_and_scale=False, decode_times=False).load()
