@@ -9,7 +9,10 @@ from .write import FieldWriter
 class CallListener:
     """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
 
-    Observers see the grid as the end of a call would leave it, which is then taken back.
+    Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
+    methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
+    ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
+    call with ``began`` equal to ``time``.
 
     Parameters
     ----------
@@ -23,6 +26,9 @@ class CallListener:
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
         self._flow, self._writer, self._interruption = flow, writer, interruption
         self._reports = Reports(flow)
+        for observer in flow._observers:
+            if hasattr(observer, "prepare"):
+                observer.prepare(flow.grid, flow.setup)
 
     def begun(self) -> None:
         """Prepare maps and accounts: the model lies on its bed, particles of the release are made."""
@@ -31,12 +37,15 @@ class CallListener:
     def started(self, idle: bool) -> None:
         """Keep rows and show the flow before the first step; `idle`: nothing moves yet."""
         self._writer.keep_rows()
+        time = self._writer.simulation.time
+        self._follow(time, time)
         if not idle:
             self._show(due_at_start(self._flow._observers))
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
         self._writer.follow_step()
+        self._follow(began, time)
         observers = self._flow._observers
         self._show(observers if idle else due_after_step(observers, began, time))
 
@@ -51,13 +60,23 @@ class CallListener:
             self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
             self._reports.log_messages(stop_at_rest)
 
+    def _follow(self, began: float, time: float) -> None:
+        """Tell observers of a step from `began` to `time` [s], even if one of them fails."""
+        for observer in self._flow._observers:
+            if hasattr(observer, "follow"):
+                self._call(observer.follow, self._writer.simulation.particles, began, time)
+
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
         if not observers:
             return
         with self._writer.present():
             for observer in observers:
-                try:
-                    observer.observe(self._flow)
-                except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
-                    self._interruption.add_failure(failure)
+                self._call(observer.observe, self._flow)
+
+    def _call(self, observe, *arguments) -> None:
+        """Call an observer and note its failure."""
+        try:
+            observe(*arguments)
+        except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
+            self._interruption.add_failure(failure)

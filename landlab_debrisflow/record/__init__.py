@@ -1,15 +1,19 @@
 """Datasets, files, observers and measures. Reads the model, is never imported by it."""
 
+from .combine import combine_maps
 from .datasets import stack
 from .files import check_writable, write_atomically, write_dataset
+from .map_series import MapSeries
 from .measures import quantile
 from .observers import Progress, Series, Snapshots
 
 __all__ = [
+    "MapSeries",
     "Progress",
     "Series",
     "Snapshots",
     "check_writable",
+    "combine_maps",
     "quantile",
     "stack",
     "write_atomically",

@@ -47,6 +47,33 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     return path
 
 
+def check_directory(path: str | os.PathLike[str]) -> Path:
+    """Return `path` as a Path if files can be written in that directory.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        An existing directory.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If there is no such directory, or if it may not be written to.
+    """
+    path = Path(path)
+    if not path.is_dir():
+        word = "is a file" if path.exists() else "does not exist"
+        raise InputError(
+            f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
+        )
+    check_writable(path / "any")
+    return path
+
+
 def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], object]) -> Path:
     """Write a file so that `path` never holds half of it: beside it first, then renamed.
 

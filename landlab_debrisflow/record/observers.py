@@ -54,7 +54,7 @@ class Progress:
     def __init__(self, interval: float = 1.0, label: str = "debris flow", console: "Console | None" = None):
         from rich.console import Console  # takes 30 ms, which an import of the package need not
 
-        self.interval = _positive(interval, type(self).__name__)
+        self.interval = check_interval(interval, type(self).__name__)
         self._label, self._console = label, console or Console(stderr=True)
 
     def observe(self, flow: Any) -> None:
@@ -100,7 +100,7 @@ class Snapshots:
         path: str | os.PathLike[str] | None = None,
         variables: Sequence[str] | None = None,
     ) -> None:
-        self.interval = _positive(interval, type(self).__name__)
+        self.interval = check_interval(interval, type(self).__name__)
         self.path = None if path is None else check_writable(path)
         self._variables = None if variables is None else list(variables)
         self._times: list[float] = []
@@ -244,8 +244,26 @@ def _shapes(values) -> str:
     return ", ".join(f"{name} {value.shape}" for name, value in values.items()) or "nothing"
 
 
-def _positive(interval, owner: str) -> float:
+def check_interval(interval: object, owner: str) -> float:
+    """Return an interval as a number, if it is a finite one > 0 [s].
+
+    Parameters
+    ----------
+    interval : float
+        What was given [s].
+    owner : str
+        Name of the observer, for the message.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
     number = isinstance(interval, Real) and not isinstance(interval, bool)
     good = number and 0.0 < interval < float("inf")
     require(good, f"{owner}: interval", "be a finite number of seconds > 0", interval, error=InputError)
-    return float(interval)
+    return float(interval)  # type: ignore[arg-type]
