@@ -20,7 +20,7 @@ LIVE, LOGGED = 0.2, 30.0
 
 
 class Monitor:
-    """Observer that follows a run by the wall clock: elapsed time, moving volume, elevation of the front, speed, estimated end.
+    """Observer that shows a run by the wall clock: time, moving volume, elevation of the front, speed, estimated end.
 
     On a terminal and in a notebook one line is renewed; in any case a line goes to the logger
     "landlab_debrisflow.progress" at the level INFO every half minute. Fields of the grid are not written for it, and
@@ -28,10 +28,6 @@ class Monitor:
 
     Parameters
     ----------
-    until : float
-        Elapsed time at which the run ends in any case [s]; infinite if there is none.
-    rest_energy : float
-        Kinetic energy over its peak at which the flow counts as at rest [-], of `Numerics`.
     console : rich.console.Console, optional
         Where the line is shown; standard error by default. None of it is shown where that is no terminal.
     live : bool
@@ -45,13 +41,23 @@ class Monitor:
 
     interval = math.inf
 
-    def __init__(
-        self, until: float = math.inf, rest_energy: float = 1e-4, console: "Console | None" = None, live: bool = True
-    ) -> None:
-        self._estimate = EndEstimate(until, rest_energy)
+    def __init__(self, console: "Console | None" = None, live: bool = True) -> None:
+        self._estimate = EndEstimate()
         self._display = _display(console) if live else None
         self._due = self._due_in_log = -math.inf
         self.line = ""
+
+    def expect(self, until: float = math.inf, rest_energy: float = 1e-4) -> None:
+        """Estimate the end of a run that begins now.
+
+        Parameters
+        ----------
+        until : float
+            Elapsed time at which the run ends in any case [s]; infinite if there is none.
+        rest_energy : float
+            Kinetic energy over its peak at which the flow counts as at rest [-], of `Numerics`.
+        """
+        self._estimate = EndEstimate(until, rest_energy)
 
     def follow(self, particles: Any, began: float, time: float) -> None:
         """Show the flow after a step, if the last time is long enough ago.

@@ -7,6 +7,9 @@ from typing import Any
 
 RECORD, SCENE, MAPS, BUDGET = "run.json", "scene.yaml", "maps.nc", "budget.nc"
 CHECKPOINT = "checkpoint.nc"
+SERIES = "series"
+LOCK = ".lock"
+
 UNFINISHED = ".unfinished"
 """Directory in that of the results where these are written before they appear."""
 

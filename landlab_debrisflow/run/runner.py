@@ -1,22 +1,102 @@
 """Run a scene from its first release to rest, and write its results."""
 
+import contextlib
+import os
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
+from ..component import DebrisFlow
+from ..core.jit import compilations
 from ..record.files import write_dataset
+from ..record.monitor import Monitor
+from .directory import OutputDirectory
+from .files import BUDGET, SCENE
+from .maps import write_results
+from .observers import Observers
+from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
+from .results import Results
 from .scene import Scene
 
+COMPILING = "compiling kernels, once after an installation: about a minute"
 
-def run_scene(scene: Scene) -> Path:
-    """Run a scene to rest and write its results; return the directory they are in."""
-    directory = scene.output_directory
-    flow = scene.flow()
-    for release in scene.releases:
-        if release.time > flow.elapsed_time:
-            flow.run_until_rest(release.time - flow.elapsed_time)
-            if release.time > flow.elapsed_time:
-                flow.run_one_step(release.time - flow.elapsed_time)
-            flow.grid.at_node["debris_flow__release_depth"][:] += release.depth.reshape(-1)
-    flow.run_until_rest(scene.output_keys.max_duration - flow.elapsed_time)
-    directory.mkdir(exist_ok=True)
-    write_dataset(directory / "maps.nc", flow.maps)
-    return directory
+
+def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
+    """Run a scene to rest and write its results.
+
+    Parameters
+    ----------
+    scene : Scene
+    overwrite : bool
+        Whether the results of an earlier run in its output directory may be removed.
+    monitor : Monitor, optional
+        Shows how the run gets on; by default a line on the terminal or in the notebook.
+
+    Returns
+    -------
+    Results
+        They appear in `Scene.output_directory` when all are complete.
+
+    Raises
+    ------
+    InputError, ParameterError
+        If something of the scene cannot be used, or the directory holds something else.
+    OutputError, OSError
+        If a file cannot be written. What was computed until the last checkpoint is kept.
+    KeyboardInterrupt
+        After the step. What was computed is kept.
+    """
+    with OutputDirectory.claimed(scene.output_directory) as directory:
+        directory.begin(_record(scene, directory), overwrite)
+        return _compute(scene, directory, scene.flow, monitor)
+
+
+def _record(scene: Scene, directory: OutputDirectory) -> RunRecord:
+    file = scene.file and os.path.relpath(Path(scene.file).resolve(), directory.path.resolve())
+    return RunRecord.of(scene, file)
+
+
+def _compute(scene: Scene, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor) -> Results:
+    """Run the flow that `build` returns when it is given observers, and write the results of its scene."""
+    monitor = monitor or Monitor()
+    monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
+    directory.note(state=RUNNING)
+    if scene.file:
+        text = Path(scene.file).read_bytes()
+        directory.publish(lambda folder: (folder / SCENE).write_bytes(text))
+    observers = Observers(scene, directory)
+    flow = None
+    try:
+        with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
+            flow = build(observers=[monitor, *observers.all])
+            _advance(flow, scene)
+        directory.publish(lambda folder: _write(folder, flow, scene, observers))
+    except BaseException as failure:
+        time = 0.0 if flow is None else flow.elapsed_time
+        state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
+        with contextlib.suppress(OSError, ValueError):  # the disk may be full
+            directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
+        raise
+    directory.note(state=FINISHED, elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget, reason="")
+    return Results(directory.path)
+
+
+def _advance(flow: DebrisFlow, scene: Scene) -> None:
+    """Advance a new flow, or one from a checkpoint, to rest or the longest time, with the releases still to come.
+
+    A release at the time at which an unfinished call is to end is still to come; one at its beginning is in the flow.
+    """
+    reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
+    for time in sorted({release.time for release in scene.releases if release.time > 0.0}):
+        if time < reached * (1.0 - 1e-12):
+            continue
+        if (left := time - flow.elapsed_time) > 0.0:
+            flow.run_one_step(left)
+        scene.set_releases(flow.grid, time)
+    if (left := scene.output_keys.max_duration - flow.elapsed_time) > 0.0:
+        flow.run_until_rest(left)
+
+
+def _write(folder: Path, flow: DebrisFlow, scene: Scene, observers: Observers) -> None:
+    write_results(folder, flow.maps, scene)
+    observers.write(folder)

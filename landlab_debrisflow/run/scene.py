@@ -36,14 +36,16 @@ class Scene:
         Name of the scene, after which its output is named.
     """
 
-    def __init__(self, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> None:
+    def __init__(
+        self, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene", file: Path | None = None
+    ) -> None:
         legal = ("terrain", "release", "output", *SETUP_KEYS)
         for key in mapping:
             if key not in legal:
                 raise ParameterError(
                     f"scene: unknown key {key!r}{did_you_mean(key, legal)}; allowed: {', '.join(legal)}"
                 )
-        self.folder, self.name = Path(folder), name
+        self.folder, self.name, self.file = Path(folder), name, file
         self.terrain_keys = from_mapping(TerrainKeys, mapping.get("terrain") or {})
         releases = mapping.get("release") or ()
         releases = [releases] if isinstance(releases, Mapping) else releases
@@ -55,7 +57,7 @@ class Scene:
     def from_file(cls, path: str | Path) -> "Scene":
         """Read a scene file."""
         path = Path(path)
-        return cls(read_yaml(path), path.parent, path.stem)
+        return cls(read_yaml(path), path.parent, path.stem, path)
 
     @property
     def output_directory(self) -> Path:
@@ -81,6 +83,19 @@ class Scene:
             grid.add_field(str(name), np.nan_to_num(values.values.reshape(-1)), at="node")
         grid.status_at_node[missing] = grid.BC_NODE_IS_CLOSED
         return grid
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the scene as plain values."""
+        keys = {"terrain": self.terrain_keys, "output": self.output_keys}
+        values = {name: {k: v for k, v in vars(one).items() if v is not None} for name, one in keys.items()}
+        releases = [{k: v for k, v in vars(one).items() if v is not None} for one in self.release_keys]
+        return values | {"release": releases} | self.setup.to_mapping()
+
+    def set_releases(self, grid: RasterModelGrid, time: float) -> None:
+        """Set the releases of a time [s] on the fields of a grid."""
+        for one in self.releases:
+            if one.time == time:
+                grid.at_node["debris_flow__release_depth"] += one.depth.reshape(-1)
 
     def flow(self, grid: RasterModelGrid | None = None, observers: Any = ()) -> DebrisFlow:
         """Return a flow on a grid, by default a new one; releases at time 0 are set on it."""

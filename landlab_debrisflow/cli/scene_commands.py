@@ -1,0 +1,66 @@
+"""Commands about scenes: new, check, run, resume, export, schema."""
+
+import argparse
+from pathlib import Path
+
+from ..core.words import grouped
+from .exit_codes import DONE, STILL_MOVING, epilog
+from .messages import messages
+from .output import say
+
+
+def add_commands(commands) -> None:
+    """Add the commands to a parser's."""
+    run = _command(commands, "run", _run, "run a scene file and write its results", epilog())
+    run.add_argument("scene", type=Path, help="scene file")
+    run.add_argument("--overwrite", action="store_true", help="replace results of an earlier run in its directory")
+    _add_message_options(run)
+
+    resume = _command(commands, "resume", _resume, "go on with a run that was interrupted", epilog())
+    resume.add_argument("scene", type=Path, help="directory of its results, or scene file")
+    _add_message_options(resume)
+
+
+def _command(commands, name: str, function, words: str, end: str | None = None):
+    parser = commands.add_parser(
+        name, help=words, description=f"{words[0].upper()}{words[1:]}.", epilog=end,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    parser.set_defaults(command=function)
+    return parser
+
+
+def _add_message_options(parser) -> None:
+    parser.add_argument("--quiet", "-q", action="store_true", help="write errors only")
+    parser.add_argument("--verbose", "-v", action="store_true", help="write what the package tells besides warnings")
+    parser.add_argument("--log", type=Path, metavar="FILE", help="append all messages to a file, progress as well")
+
+
+def _run(arguments) -> int:
+    from ..run.runner import run_scene  # landlab loads slowly: `info` does without
+    from ..run.scene import Scene
+
+    with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
+        scene = Scene.from_file(arguments.scene)
+        return _tell(run_scene(scene, overwrite=arguments.overwrite, monitor=monitor), arguments.quiet)
+
+
+def _resume(arguments) -> int:
+    from ..run.resume import resume
+
+    with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
+        return _tell(resume(arguments.scene, monitor=monitor), arguments.quiet)
+
+
+def _tell(results, quiet: bool) -> int:
+    """Print where results are and what happened; return the exit code."""
+    if not quiet:
+        budget = results.budget
+        state = "at rest" if results.at_rest else "still moving"
+        released = budget["released"] + budget["inflow"]
+        say(
+            f"{state} at {results.elapsed_time:.6g} s: {grouped(released)} m3 released, {grouped(budget['eroded'])} m3 "
+            f"eroded, {grouped(budget['deposited'])} m3 deposited, {grouped(budget['outflow'])} m3 left the grid"
+        )
+        say(f"results in {results.directory}")
+    return DONE if results.at_rest else STILL_MOVING
