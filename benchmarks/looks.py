@@ -1,4 +1,4 @@
-"""What maps that are written as a run goes cost: python -m benchmarks.looks [--repeats N] [--particles N] [--duration S]
+"""What maps written as a run goes cost: python -m benchmarks.looks [--repeats N] [--particles N] [--duration S]
 
 An eroding flow of 1e5 m3 on 1000 x 1000 nodes of 5 m goes down a valley for 600 s: alone; with an observer that does
 nothing 100 times, for which the border writes the present into the fields and takes it back; and with a `MapSeries` of
@@ -48,7 +48,7 @@ def valley(particles, observers):
     grid.add_full("soil__depth", 6.0, at="node")
     cap = np.maximum(0.0, 1.0 - ((x - 300.0) ** 2 + y**2) / 120.0**2)
     grid.add_field("debris_flow__release_depth", cap * VOLUME / (cap.sum() * SPACING**2), at="node")
-    friction = {"law": "voellmy", "basal_friction_angle": 8.0, "turbulent_coefficient": 150.0}
+    friction = {"law": "voellmy", "basal_friction_angle": 8.0, "turbulent_coefficient": 60.0}
     numerics = {"particle_count": particles, "settle": False}
     erosion = {"law": "growth", "growth_rate": 2e-4}
     return DebrisFlow(grid, friction=friction, erosion=erosion, numerics=numerics, observers=observers)
@@ -111,8 +111,10 @@ def main():
                       f"{beside:.0f}")  # fmt: skip
     console, last = Console(width=120), runs[KINDS[2]][-1]
     console.print(table)
-    console.print(f"{last['steps']} steps, {last['maps']} maps of {last['size'] / 1e6:.1f} MB in all, "
-                  f"eroded {last['eroded']:.0f} m3, outflow {last['outflow']:.0f} m3, at rest: {last['at_rest']}")  # fmt: skip
+    console.print(
+        f"{last['steps']} steps, {last['maps']} maps of {last['size'] / 1e6:.1f} MB in all, eroded "
+        f"{last['eroded']:.0f} m3, outflow {last['outflow']:.0f} m3, at rest: {last['at_rest']}"
+    )
     console.print(f"combine_maps: {combined['cpu']:.2f} s of CPU, {combined['size'] / 1e6:.1f} MB, memory "
                   f"{combined['memory'] / 1e6:.0f} MB")  # fmt: skip
 

@@ -120,8 +120,14 @@ class FieldWriter:
         columns, count = bed.raster.columns, bed.raster.core.size
         below, _ = bed.depth_of(p.x, p.y, p.half_width, p.volume)
         nodes = np.concatenate([below, self.state.peak_maps.under])
-        nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # with closed ones at their faces
-        return nodes[(nodes >= 0) & (nodes < count)]
+        if nodes.size == 0:
+            return nodes
+        first = max(0, int(nodes.min()) - columns)
+        marked = np.zeros(min(count, int(nodes.max()) + columns + 1) - first, bool)  # a sort would cost ten times that
+        for k in (0, 1, -1, columns, -columns):  # with closed ones at their faces
+            beside = nodes + (k - first)
+            marked[beside[(beside >= 0) & (beside < marked.size)]] = True
+        return first + np.flatnonzero(marked)
 
     def _write(self, nodes: slice) -> None:
         """Bring columns, bed and fields to the present; accounts of erosion and deposit at some nodes."""

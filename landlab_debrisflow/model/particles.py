@@ -9,8 +9,8 @@ class Particles:
     """Arrays of declared variables as attributes.
 
     Scalars have shape (n,), vectors (components, n), columns (n, levels), their memory (n, width). The first
-    ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` numbers them for ever. ``departed``
-    holds the particles that left the grid in the last step, where they went; None if there were none.
+    ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` numbers them for ever.
+    ``departed`` are the particles that left the grid in the last step, where they went, or None.
 
     Parameters
     ----------

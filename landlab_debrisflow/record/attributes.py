@@ -54,6 +54,12 @@ def variable_attributes(unit: str, long_name: str) -> dict[str, str]:
     return {"units": CF_UNITS.get(unit, unit), "long_name": long_name}
 
 
+def axis_attributes(axis: str) -> dict[str, str]:
+    """Return the attributes of the map coordinates along an axis, "x" or "y"."""
+    words = {"standard_name": f"projection_{axis}_coordinate", "axis": axis.upper()}
+    return variable_attributes("m", axis) | words
+
+
 def quantity_attributes(name: str, value: Any, unit: str = "-") -> dict[str, Any]:
     """Return the attributes of a quantity; an empty mapping for a value that is not set or cannot be written.
 

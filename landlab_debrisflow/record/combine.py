@@ -95,8 +95,8 @@ def _frame(directory: Path) -> Frame:
         maps = _read(path)
         if differing := [name for name in SAME if maps.attrs.get(name) != first.attrs.get(name)]:
             raise InputError(
-                f"combine_maps: {path.name} and {paths[0].name} are of different runs, {differing[0]} differs; keep the "
-                "maps of a run in a directory of their own"
+                f"combine_maps: {path.name} and {paths[0].name} are of different runs, {differing[0]} differs; keep "
+                "the maps of a run in a directory of their own"
             )
         row, column = int(maps.attrs["row"]), int(maps.attrs["column"])
         windows.append((row, row + maps.sizes["y"], column, column + maps.sizes["x"]))
@@ -118,7 +118,7 @@ def _filled(known, span):
 def _read(path: Path) -> xr.Dataset:
     """Return a map in memory; its file is closed."""
     try:
-        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as stored:
+        with xr.open_dataset(path, engine="netcdf4", decode_times=False, decode_coords="all") as stored:
             return stored.load()
     except (OSError, ValueError) as error:
         raise InputError(f"combine_maps: cannot read {path}: {error}; remove it and every later one") from error
@@ -139,6 +139,12 @@ def _attributes(frame: Frame) -> dict[str, Any]:
     """Return the attributes of the whole: those of the maps that hold at every time."""
     setup = {name: value for name, value in frame.first.attrs.items() if name.startswith("setup")}
     return file_attributes() | date_created() | setup
+
+
+def _words(data: xr.DataArray, frame: Frame) -> dict[str, Any]:
+    """Return the attributes of a variable."""
+    mapped = {"grid_mapping": GRID_MAPPING} if GRID_MAPPING in frame.first.coords else {}
+    return dict(data.attrs) | mapped
 
 
 def _coordinates(frame: Frame) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
@@ -166,7 +172,7 @@ def _write_netcdf(path: Path, frame: Frame) -> None:
             variable = file.createVariable(
                 name, "f4", ("time", "y", "x"), zlib=True, complevel=1, chunksizes=chunk, fill_value=False
             )
-            variable.setncatts(data.attrs)
+            variable.setncatts(_words(data, frame))
         if GRID_MAPPING in frame.first.coords:
             file.createVariable(GRID_MAPPING, "i4", ()).setncatts(frame.first[GRID_MAPPING].attrs)
         for k, name, layer in _layers(frame):
@@ -205,7 +211,7 @@ def _write_zarr(path: Path, frame: Frame) -> None:
     for name, data in frame.first.data_vars.items():
         store.create_array(
             name, shape=shape, chunks=(1, min(512, shape[1]), min(512, shape[2])), dtype="f4", fill_value=0.0,
-            dimension_names=("time", "y", "x"), attributes=data.attrs,
+            dimension_names=("time", "y", "x"), attributes=_words(data, frame),
         )  # fmt: skip
     if GRID_MAPPING in frame.first.coords:
         words = frame.first[GRID_MAPPING].attrs
