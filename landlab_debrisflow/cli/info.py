@@ -14,9 +14,7 @@ from . import laws
 
 def add_command(commands) -> None:
     """Add the command to a parser's."""
-    info = commands.add_parser(
-        "info", help="list laws and parameters with formula, source, units, defaults and bounds"
-    )
+    info = commands.add_parser("info", help="list laws and parameters with formula, source, units, defaults and bounds")
     info.add_argument(
         "law", nargs="?", help="law, kind of law (friction, erosion, column, flow) or other keyword; by default all"
     )

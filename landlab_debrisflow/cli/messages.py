@@ -27,7 +27,7 @@ class OneLine(logging.Formatter):
             text = f"{record.levelname.lower()}: {text}"
         return f"{self.formatTime(record, '%Y-%m-%d %H:%M:%S')} {text}" if self.usesTime() else text
 
-    def usesTime(self) -> bool:  # noqa: N802  the name that logging gives
+    def usesTime(self) -> bool:
         """Return whether lines begin with the time."""
         return "asctime" in (self._fmt or "")
 

@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from ..core.words import grouped
+from ..record.monitor import COMPILING
 from .exit_codes import DONE, STILL_MOVING, epilog
 from .messages import messages
 from .output import say
@@ -11,6 +12,10 @@ from .output import say
 
 def add_commands(commands) -> None:
     """Add the commands to a parser's."""
+    check = _command(commands, "check", _check, "check a scene file and forecast its run; nothing is written")
+    check.add_argument("scene", type=Path, help="scene file")
+    _add_message_options(check)
+
     run = _command(commands, "run", _run, "run a scene file and write its results", epilog())
     run.add_argument("scene", type=Path, help="scene file")
     run.add_argument("--overwrite", action="store_true", help="replace results of an earlier run in its directory")
@@ -34,6 +39,20 @@ def _add_message_options(parser) -> None:
     parser.add_argument("--quiet", "-q", action="store_true", help="write errors only")
     parser.add_argument("--verbose", "-v", action="store_true", help="write what the package tells besides warnings")
     parser.add_argument("--log", type=Path, metavar="FILE", help="append all messages to a file, progress as well")
+
+
+def _check(arguments) -> int:
+    from ..core.jit import compilations
+    from ..run.forecast import forecast
+    from ..run.scene import Scene
+
+    with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
+        with compilations(lambda: monitor.say(COMPILING)):
+            found = forecast(Scene.from_file(arguments.scene))
+        monitor.close()
+        if not arguments.quiet:
+            say(str(found))
+    return DONE
 
 
 def _run(arguments) -> int:

@@ -67,7 +67,7 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
     path = Path(path)
     if not path.is_dir():
         word = "is a file" if path.exists() else "does not exist"
-        raise InputError(
+        raise OutputError(
             f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
         )
     check_writable(path / "any")

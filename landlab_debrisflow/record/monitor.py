@@ -18,6 +18,9 @@ log = logging.getLogger("landlab_debrisflow.progress")
 LIVE, LOGGED = 0.2, 30.0
 """Wall time between updates of a line that is shown, and between lines of a log [s]."""
 
+COMPILING = "compiling kernels, once after an installation: about a minute"
+"""Said while the first step of all waits for numba."""
+
 
 class Monitor:
     """Observer that shows a run by the wall clock: time, moving volume, elevation of the front, speed, estimated end.
@@ -45,7 +48,7 @@ class Monitor:
         self._estimate = EndEstimate()
         self._display = _display(console) if live else None
         self._due = self._due_in_log = -math.inf
-        self.line = ""
+        self.line = self._said = ""
 
     def expect(self, until: float = math.inf, rest_energy: float = 1e-4) -> None:
         """Estimate the end of a run that begins now.
@@ -99,7 +102,9 @@ class Monitor:
 
     def say(self, text: str) -> None:
         """Show a text in place of the line until it is renewed, such as what takes long before the first step."""
-        log.info("%s", text)
+        if text != self._said:
+            log.info("%s", text)
+        self._said = text
         if self._display:
             self._display.show(text)
 

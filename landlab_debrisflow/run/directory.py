@@ -86,8 +86,8 @@ class OutputDirectory:
         if self.record is None:
             if others := sorted(path.name for path in self.path.iterdir() if not path.name.startswith(".")):
                 raise InputError(
-                    f"{self.path} holds files that are no results of a run, such as {others[0]!r}; set output: directory "
-                    "to another name, or move them"
+                    f"{self.path} holds files that are no results of a run, such as {others[0]!r}; set output: "
+                    "directory to another name, or move them"
                 )
         elif not overwrite:
             self._refuse(record)
@@ -99,13 +99,13 @@ class OutputDirectory:
         found = self.record.differences(record)
         if found:
             raise InputError(
-                f"{self.path} holds results of another scene: {listed(found)}; run with --overwrite (overwrite=True) to "
-                "replace them, or set output: directory to another name"
+                f"{self.path} holds results of another scene: {listed(found)}; run with --overwrite (overwrite=True) "
+                "to replace them, or set output: directory to another name"
             )
         if self.record.state == FINISHED:
             raise InputError(
-                f"{self.path} holds the results of this scene already, until {self.record.elapsed_time:.6g} s; run with "
-                "--overwrite (overwrite=True) to compute them anew"
+                f"{self.path} holds the results of this scene already, until {self.record.elapsed_time:.6g} s; run "
+                "with --overwrite (overwrite=True) to compute them anew"
             )
         if self.checkpoints:
             raise InputError(
@@ -128,8 +128,8 @@ class OutputDirectory:
         """
         if found := self.record.differences(record, FREE):
             raise InputError(
-                f"cannot go on with the run in {self.path}: the scene has changed since: {listed(found)}; undo that, or "
-                "run it anew with --overwrite"
+                f"cannot go on with the run in {self.path}: the scene has changed since: {listed(found)}; undo that, "
+                "or run it anew with --overwrite"
             )
         if self.record.version != __version__:
             raise InputError(

@@ -83,7 +83,9 @@ class RunRecord:
         try:
             values = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError, RecursionError) as error:
-            raise InputError(f"cannot read {path}: {error}; it is the record of a run, give another directory") from error
+            raise InputError(
+                f"cannot read {path}: {error}; it is the record of a run, give another directory"
+            ) from error
         names = {field.name: field for field in dataclasses.fields(cls)}
         if not isinstance(values, dict) or values.get("format") != FORMAT:
             found = values.get("format") if isinstance(values, dict) else None

@@ -2,23 +2,20 @@
 
 import contextlib
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from ..component import DebrisFlow
 from ..core.jit import compilations
-from ..record.files import write_dataset
-from ..record.monitor import Monitor
+from ..record.monitor import COMPILING, Monitor
+from .advance import advance
 from .directory import OutputDirectory
-from .files import BUDGET, SCENE
+from .files import SCENE
 from .maps import write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .results import Results
 from .scene import Scene
-
-COMPILING = "compiling kernels, once after an installation: about a minute"
 
 
 def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
@@ -46,6 +43,7 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     KeyboardInterrupt
         After the step. What was computed is kept.
     """
+    _ = scene.releases  # what cannot be used is known before anything is written, and results of before removed
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(_record(scene, directory), overwrite)
         return _compute(scene, directory, scene.flow, monitor)
@@ -64,37 +62,24 @@ def _compute(scene: Scene, directory: OutputDirectory, build: Callable[..., Debr
     if scene.file:
         text = Path(scene.file).read_bytes()
         directory.publish(lambda folder: (folder / SCENE).write_bytes(text))
-    observers = Observers(scene, directory)
     flow = None
     try:
+        observers = Observers(scene, directory)
         with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])
-            _advance(flow, scene)
+            advance(flow, scene)
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
     except BaseException as failure:
         time = 0.0 if flow is None else flow.elapsed_time
         state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
         with contextlib.suppress(OSError, ValueError):  # the disk may be full
-            directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
+            if time == 0.0 and not directory.checkpoints:
+                directory.remove_results()
+            else:
+                directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
         raise
     directory.note(state=FINISHED, elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget, reason="")
     return Results(directory.path)
-
-
-def _advance(flow: DebrisFlow, scene: Scene) -> None:
-    """Advance a new flow, or one from a checkpoint, to rest or the longest time, with the releases still to come.
-
-    A release at the time at which an unfinished call is to end is still to come; one at its beginning is in the flow.
-    """
-    reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
-    for time in sorted({release.time for release in scene.releases if release.time > 0.0}):
-        if time < reached * (1.0 - 1e-12):
-            continue
-        if (left := time - flow.elapsed_time) > 0.0:
-            flow.run_one_step(left)
-        scene.set_releases(flow.grid, time)
-    if (left := scene.output_keys.max_duration - flow.elapsed_time) > 0.0:
-        flow.run_until_rest(left)
 
 
 def _write(folder: Path, flow: DebrisFlow, scene: Scene, observers: Observers) -> None:

@@ -93,6 +93,8 @@ class Scene:
 
     def set_releases(self, grid: RasterModelGrid, time: float) -> None:
         """Set the releases of a time [s] on the fields of a grid."""
+        if "debris_flow__release_depth" not in grid.at_node:
+            grid.add_zeros("debris_flow__release_depth", at="node")
         for one in self.releases:
             if one.time == time:
                 grid.at_node["debris_flow__release_depth"] += one.depth.reshape(-1)

@@ -1,5 +1,7 @@
 """Keys of a scene file: `terrain`, `release`, `output`; the others are those of `Setup`."""
 
+from typing import ClassVar
+
 from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter
 
@@ -40,3 +42,8 @@ class OutputKeys:
         "-", "directory of the results, by default named after the scene with _out", None, kind=str, file=True
     )
     max_duration: float = parameter("s", "longest time to simulate", 3600.0, (0.0, None), open_below=True)
+    interval: float | None = parameter("s", "time between maps of the series", None, (0.0, None), open_below=True)
+    variables: ClassVar = ("depth", "speed")
+    maps: ClassVar = ()
+    least_depth: float = parameter("m", "written peaks are missing where the depth stayed below", 0.05, (0.0, 100.0))
+    checkpoint_interval: float = parameter("s", "wall time between two checkpoints", 60.0, (0.0, None))

@@ -1,0 +1,26 @@
+"""Advance a flow through the releases of a scene."""
+
+from ..component import DebrisFlow
+from .scene import Scene
+
+
+def advance(flow: DebrisFlow, scene: Scene) -> None:
+    """Advance a new flow, or one from a checkpoint, to rest or the longest time, with the releases still to come.
+
+    A release at the time at which an unfinished call was to end is still to come; one at its beginning is in the flow.
+
+    Parameters
+    ----------
+    flow : DebrisFlow
+        Of `Scene.flow`, or loaded.
+    scene : Scene
+    """
+    reached = getattr(flow, "unfinished_until", None) or flow.elapsed_time
+    for time in sorted({release.time for release in scene.releases if release.time > 0.0}):
+        if time < reached * (1.0 - 1e-12):
+            continue
+        if (left := time - flow.elapsed_time) > 0.0:
+            flow.run_one_step(left)
+        scene.set_releases(flow.grid, time)
+    if (left := scene.output_keys.max_duration - flow.elapsed_time) > 0.0:
+        flow.run_until_rest(left)
