@@ -26,7 +26,7 @@ def printable(text: object, *, lines: bool = False) -> str:
     a\x1b[31m b\u202e
     """
     text = str(text)
-    text = "\n".join(" ".join(line.split()) for line in text.splitlines()) if lines else " ".join(text.split())
+    text = text if lines else " ".join(text.split())
     return "".join(_code(character) for character in text)
 
 

@@ -203,8 +203,8 @@ def run_start(scene: Scene) -> Start:
     timed = np.diff(walls[min(FIRST, len(walls) - 1) :])
     times = columns.consolidation_time.values
     return Start(
-        particles=int(flow.particles.sizes["particle"]), consolidation_time=float(np.median(times)) if times.size else 0.0,
-        seconds=walls[0] - clock.began, seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
+        particles=int(flow.particles.sizes["particle"]),
+        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=walls[0] - clock.began, seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
     )  # fmt: skip
 
 
