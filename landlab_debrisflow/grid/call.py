@@ -1,7 +1,10 @@
 """A call of the component: read the grid, run the model, write the results; or leave everything as it was."""
 
+from functools import partial
+
 import numpy as np
 
+from . import checkpoint
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
@@ -28,6 +31,7 @@ class GridCall:
         grid = flow.grid
         self.flow, self._simulation = flow, flow._simulation
         self.interruption = Interruption()
+        self._end: float | None = None  # of the call that runs [s]
         self._reader = GridReader(grid, self._simulation.setup)
         self._writer = FieldWriter(grid, self._simulation, self.interruption)
         self._listener = CallListener(flow, self._writer, self.interruption)
@@ -46,18 +50,27 @@ class GridCall:
         ------
         As `DebrisFlow.run_one_step`.
         """
+        try:
+            self._run(duration, stop_at_rest)
+        finally:
+            self._end = None
+            while self._listener.requests:  # of another thread, after the last step
+                self._listener.requests.pop(0)()
+
+    def _run(self, duration: float, stop_at_rest: bool) -> None:
         sim = self._simulation
         with self.rollback.around_call() as interrupted:
-            end = sim.state.time + duration
+            end = self._end = sim.state.time + duration
             if interrupted is None:
                 done = sim.run(*self._prepare(), end, stop_at_rest, self._listener)
             else:
                 if np.isclose(end, interrupted.end, rtol=1e-12, atol=0.0):
-                    end = interrupted.end  # the rest of the duration was computed with rounding
+                    end = self._end = interrupted.end  # the rest of the duration was computed with rounding
                 done = sim.advance(end, stop_at_rest, self._listener)
             if done:
                 self._listener.ended(stop_at_rest)
             else:
+                self._listener.broken_off()
                 self.rollback.break_off(end)
 
     def settle(self) -> None:
@@ -86,6 +99,45 @@ class GridCall:
         bed = state.grid_bed.lay(given, self._writer.rows, model.inflow, model.time)
         state.budget.released += given.release.volume
         return bed, given
+
+    # ---- checkpoints ----
+
+    def save(self, write) -> None:
+        """Hand the flow as a Dataset to a function, at once or as soon as the step that is being made is over.
+
+        Parameters
+        ----------
+        write : callable
+            Called with the Dataset of `checkpoint.capture`.
+
+        Raises
+        ------
+        As the function
+            If it is called at once; else it ends the call, as an observer that fails does.
+        """
+        if not self.interruption.running:
+            with self.rollback.between_calls() as end:
+                write(self._capture(end))
+        elif self._listener.between_steps:
+            write(self._capture(self._end))
+        else:
+            self._listener.requests.append(partial(self.save, write))
+
+    def load(self, dataset) -> None:
+        """Go to the state of a Dataset that `save` handed out; the fields of the grid are those of the Dataset."""
+        end = checkpoint.restore(self._writer, self._reader, self._listener.reports, dataset)
+        if end is not None:
+            self.rollback.break_off(end)
+            self._writer.rows = None
+
+    @property
+    def unfinished_until(self) -> float | None:
+        """Time until which a call that was interrupted should have gone [s], or None."""
+        return None if self.rollback.interrupted is None else self.rollback.interrupted.end
+
+    def _capture(self, end):
+        grid, reports = self.flow.grid, self._listener.reports
+        return checkpoint.capture(grid, self._writer, self._reader.laws, reports, end)
 
     # ---- results over all calls ----
 

@@ -52,6 +52,11 @@ class Interruption:
         if self._handles:
             signal.signal(signal.SIGINT, signal.default_int_handler)
 
+    @property
+    def running(self) -> bool:
+        """Whether a call runs."""
+        return self._running
+
     @contextmanager
     def deferred(self):
         """Defer interruptions to the end of the block, however often Ctrl-C is pressed."""

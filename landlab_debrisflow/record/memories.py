@@ -1,0 +1,84 @@
+"""Memory of observers in a checkpoint: what ``state()`` returns, for ``restore(mapping)``."""
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..core.errors import InputError
+
+
+def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
+    """Return a Dataset with the memory of observers added, of those that have a method ``state()``.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Gets variables whose names begin with ``observer_``.
+    observers : sequence
+        Their ``state()`` returns a mapping of names to arrays, numbers or texts.
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    InputError
+        If a value is of another type.
+    """
+    added, kept = {}, []
+    for k, observer in enumerate(observers):
+        kept.append(hasattr(observer, "state"))
+        for j, (key, value) in enumerate(observer.state().items() if kept[-1] else ()):
+            name, text = f"observer_{k}_{j}", isinstance(value, str)
+            values = np.frombuffer(value.encode(), np.uint8) if text else np.asarray(value)
+            if values.dtype.kind not in "biuf":
+                raise InputError(
+                    f"{type(observer).__name__}.state(): {key!r} must be an array of numbers, a number or a text, got "
+                    f"{value!r}"
+                )
+            dimensions = [f"{name}_{axis}" for axis in range(values.ndim)]
+            added[name] = (dimensions, values, {"key": key, "text": int(text), "observer": k})
+    words = {"observers": json.dumps([_class(one) for one in observers]), "observers_with_state": json.dumps(kept)}
+    return dataset.assign(added).assign_attrs(words)
+
+
+def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping[str, Any] | None]:
+    """Return the memory of observers in a Dataset, one mapping each, None for those that had none.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        As `write_memories` returned it.
+    observers : sequence
+        Observers that shall get it.
+
+    Returns
+    -------
+    list of dict or None
+
+    Raises
+    ------
+    InputError
+        If their classes are others than those of the Dataset.
+    """
+    written, given = json.loads(dataset.attrs["observers"]), [_class(one) for one in observers]
+    if written != given:
+        raise InputError(
+            f"load: the flow was saved with the observers [{', '.join(written)}], got [{', '.join(given)}]; give "
+            "observers of the same classes in the same order"
+        )
+    memories: list[Any] = [{} if kept else None for kept in json.loads(dataset.attrs["observers_with_state"])]
+    for name, data in dataset.variables.items():
+        if str(name).startswith("observer_"):
+            values = data.values
+            text = values.tobytes().decode() if data.attrs["text"] else values
+            memories[int(data.attrs["observer"])][data.attrs["key"]] = text if data.ndim else values.item()
+    return memories
+
+
+def _class(observer) -> str:
+    return type(observer).__qualname__
