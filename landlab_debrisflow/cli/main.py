@@ -59,7 +59,7 @@ def _fail(error: BaseException, code: int, words: str = "") -> int:
     elif isinstance(error, OSError) and not words:
         place = f" {error.filename}" if error.filename else ""
         words = f"cannot write or read{place}: {error.strerror or error}"
-    text = "; ".join([words or str(error), *getattr(error, "__notes__", ())])
+    text = ", ".join([words or str(error), *getattr(error, "__notes__", ())])
     print(f"landlab-debrisflow: {printable(text)}", file=sys.stderr)
     return code
 

@@ -97,4 +97,6 @@ def messages(quiet: bool = False, verbose: bool = False, log_file: Path | None =
 def _is_shown(record: logging.LogRecord, terminal: bool, verbose: bool) -> bool:
     if record.name == PROGRESS:
         return not terminal
+    if record.module == "interruption":  # said by the error in which the command ends
+        return False
     return verbose or record.levelno >= logging.WARNING

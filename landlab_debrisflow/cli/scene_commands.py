@@ -65,7 +65,7 @@ def _run(arguments) -> int:
 
 
 def _resume(arguments) -> int:
-    from ..run.resume import resume
+    from ..run.runner import resume
 
     with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
         return _tell(resume(arguments.scene, monitor=monitor), arguments.quiet)

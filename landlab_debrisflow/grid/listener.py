@@ -12,7 +12,7 @@ class CallListener:
     Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
     methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
     ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
-    call with ``began`` equal to ``time``; ``keep(flow, broken_off)`` between two steps, when all have seen the last one.
+    call with ``began`` equal to ``time``; ``keep(flow, broken_off)`` between two steps, when all have seen the last.
 
     Parameters
     ----------

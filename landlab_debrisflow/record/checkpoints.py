@@ -5,7 +5,7 @@ import time
 from typing import Any
 
 from .files import check_writable
-from .observers import _positive
+from .observers import check_interval
 
 
 class Checkpoints:
@@ -36,7 +36,7 @@ class Checkpoints:
     """Event time between looks [s]: it needs none."""
 
     def __init__(self, path: str | os.PathLike[str], interval: float = 60.0) -> None:
-        self.path, self.wall_interval = check_writable(path), _positive(interval, type(self).__name__)
+        self.path, self.wall_interval = check_writable(path), check_interval(interval, type(self).__name__)
         self._last: float | None = None
 
     def observe(self, flow: Any) -> None:

@@ -15,7 +15,7 @@ def advance(flow: DebrisFlow, scene: Scene) -> None:
         Of `Scene.flow`, or loaded.
     scene : Scene
     """
-    reached = getattr(flow, "unfinished_until", None) or flow.elapsed_time
+    reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
     for time in sorted({release.time for release in scene.releases if release.time > 0.0}):
         if time < reached * (1.0 - 1e-12):
             continue

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..core.errors import InputError, OutputError
 from ..core.version import __version__
+from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
 from .files import CHECKPOINT, LOCK, RECORD, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
@@ -65,8 +66,7 @@ class OutputDirectory:
     @property
     def checkpoints(self) -> list[Path]:
         """Checkpoints that are there, the latest first."""
-        previous = self.checkpoint.with_name(f"{self.checkpoint.stem}.previous{self.checkpoint.suffix}")
-        return [path for path in (self.checkpoint, previous) if path.is_file()]
+        return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
         """Begin a run here: refuse to lose results, remove those that may go, write its record.

@@ -4,11 +4,15 @@ from pathlib import Path
 from typing import Any
 
 from ..record.budget_series import BudgetSeries
+from ..record.checkpoints import Checkpoints
 from ..record.files import write_dataset
 from ..record.map_series import MapSeries
 from .directory import OutputDirectory
 from .files import BUDGET, SERIES
 from .scene import Scene
+
+NEVER = 1e12
+"""Wall time between checkpoints of which there is to be none but at an interruption [s]."""
 
 BUDGET_INTERVAL = 5.0
 """Time between two values of the budget unless maps are written as the run goes [s]."""
@@ -39,6 +43,7 @@ class Observers:
             folder.mkdir(exist_ok=True)
             crs = scene.terrain.attrs.get("crs_wkt") or None
             self.all.append(MapSeries(keys.interval, folder, keys.variables, crs, replace=True))
+        self.all.append(Checkpoints(directory.checkpoint, keys.checkpoint_interval or NEVER))
 
     def write(self, folder: Path) -> None:
         """Write what was seen into a directory, a file for each observer."""

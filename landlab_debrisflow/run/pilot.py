@@ -204,7 +204,8 @@ def run_start(scene: Scene) -> Start:
     times = columns.consolidation_time.values
     return Start(
         particles=int(flow.particles.sizes["particle"]),
-        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=walls[0] - clock.began, seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
+        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=walls[0] - clock.began,
+        seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
     )  # fmt: skip
 
 

@@ -1,21 +1,25 @@
-"""Run a scene from its first release to rest, and write its results."""
+"""Run a scene from its first release to rest, or go on with a run, and write its results."""
 
 import contextlib
+import logging
 import os
 from collections.abc import Callable
 from pathlib import Path
 
 from ..component import DebrisFlow
+from ..core.errors import InputError
 from ..core.jit import compilations
 from ..record.monitor import COMPILING, Monitor
 from .advance import advance
 from .directory import OutputDirectory
-from .files import SCENE
+from .files import RECORD, SCENE
 from .maps import write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .results import Results
 from .scene import Scene
+
+log = logging.getLogger("landlab_debrisflow")
 
 
 def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
@@ -41,7 +45,7 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     OutputError, OSError
         If a file cannot be written. What was computed until the last checkpoint is kept.
     KeyboardInterrupt
-        After the step. What was computed is kept.
+        After the step. What was computed is kept: `resume_scene` goes on.
     """
     _ = scene.releases  # what cannot be used is known before anything is written, and results of before removed
     with OutputDirectory.claimed(scene.output_directory) as directory:
@@ -49,37 +53,134 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
         return _compute(scene, directory, scene.flow, monitor)
 
 
+def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
+    """Go on with the run of a scene from its last checkpoint; results are those of a run that was never interrupted.
+
+    Without a checkpoint the run begins anew. A run that had come to its end stays as it is, unless it still moved and
+    the scene now has a longer `max_duration`.
+
+    Parameters
+    ----------
+    scene : Scene
+    monitor : Monitor, optional
+        As of `run_scene`.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    InputError
+        If there is no run of this scene, or the scene or a file of it has changed.
+    OutputError, OSError, KeyboardInterrupt
+        As of `run_scene`.
+    """
+    path = scene.output_directory
+    if not (path / RECORD).is_file():
+        raise InputError(f"{path} holds no run to go on with; landlab-debrisflow run begins one")
+    _ = scene.releases
+    with OutputDirectory.claimed(path) as directory:
+        record = _record(scene, directory)
+        directory.check_scene(record)
+        longest = scene.output_keys.max_duration
+        if directory.record.state == FINISHED and (
+            directory.record.at_rest or longest <= directory.record.elapsed_time
+        ):
+            log.warning("the run in %s had come to its end; nothing is to be done", path)
+            return Results(path)
+        if not directory.checkpoints:
+            log.warning("the run in %s had no checkpoint yet; it begins anew", path)
+            directory.begin(record, overwrite=True)
+            return _compute(scene, directory, scene.flow, monitor)
+        directory.note(scene=record.scene, digest=record.digest)
+        return _compute(scene, directory, lambda observers: _load(directory, observers), monitor)
+
+
+def resume(path: str | Path, *, monitor: Monitor | None = None) -> Results:
+    """Go on with a run, given the directory of its results or its scene file; see `resume_scene`.
+
+    Parameters
+    ----------
+    path : str or Path
+    monitor : Monitor, optional
+
+    Returns
+    -------
+    Results
+    """
+    path = Path(path)
+    if path.is_dir():
+        file = Results(path).record.scene_file
+        if file is None:
+            raise InputError(f"{path}: the run came from no scene file; go on with Scene(...).resume() in Python")
+        scene = Scene.from_file(Path(os.path.normpath(path / file)))
+        if scene.output_directory.resolve() != path.resolve():
+            raise InputError(
+                f"{path} was written by {file}, which now writes to {scene.output_directory}; change output: directory"
+            )
+    else:
+        scene = Scene.from_file(path)
+    return resume_scene(scene, monitor=monitor)
+
+
 def _record(scene: Scene, directory: OutputDirectory) -> RunRecord:
     file = scene.file and os.path.relpath(Path(scene.file).resolve(), directory.path.resolve())
     return RunRecord.of(scene, file)
 
 
-def _compute(scene: Scene, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor) -> Results:
+def _load(directory: OutputDirectory, observers: list) -> DebrisFlow:
+    """Return the flow of the latest checkpoint that is whole."""
+    *earlier, last = directory.checkpoints
+    for path in earlier:
+        try:
+            return DebrisFlow.load(path, observers=observers)
+        except InputError as error:
+            log.warning("%s; the checkpoint before it is taken", error)
+    return DebrisFlow.load(last, observers=observers)
+
+
+def _compute(
+    scene: Scene, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor: Monitor | None
+) -> Results:
     """Run the flow that `build` returns when it is given observers, and write the results of its scene."""
     monitor = monitor or Monitor()
     monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
-    directory.note(state=RUNNING)
-    if scene.file:
-        text = Path(scene.file).read_bytes()
-        directory.publish(lambda folder: (folder / SCENE).write_bytes(text))
     flow = None
     try:
+        directory.note(state=RUNNING)
+        if scene.file:
+            text = Path(scene.file).read_bytes()
+            directory.publish(lambda folder: (folder / SCENE).write_bytes(text))
         observers = Observers(scene, directory)
         with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])
             advance(flow, scene)
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
+        if not flow.at_rest:
+            flow.save(directory.checkpoint)
+        state = {"elapsed_time": flow.elapsed_time, "at_rest": flow.at_rest, "budget": flow.budget}
+        directory.note(state=FINISHED, reason="", **state)
     except BaseException as failure:
-        time = 0.0 if flow is None else flow.elapsed_time
-        state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
-        with contextlib.suppress(OSError, ValueError):  # the disk may be full
-            if time == 0.0 and not directory.checkpoints:
-                directory.remove_results()
-            else:
-                directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
+        _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
-    directory.note(state=FINISHED, elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget, reason="")
+    if flow.at_rest:
+        directory.remove_checkpoints()
     return Results(directory.path)
+
+
+def _note_failure(directory: OutputDirectory, failure: BaseException, time: float) -> None:
+    """Note why a run ended early at a time [s], and add to the failure how to go on."""
+    state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
+    failure.__notes__ = [f"at {time:.6g} s"] if time > 0.0 else []  # in place of what is said to callers of a flow
+    with contextlib.suppress(OSError, ValueError):  # the disk may be full
+        if not directory.checkpoints and time == 0.0:
+            directory.remove_results()
+            failure.add_note("nothing was kept")
+            return
+        directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
+    if directory.checkpoints:
+        failure.add_note(f"a checkpoint is kept: landlab-debrisflow resume {directory.path} goes on from there")
 
 
 def _write(folder: Path, flow: DebrisFlow, scene: Scene, observers: Observers) -> None:
