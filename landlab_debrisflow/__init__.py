@@ -13,6 +13,8 @@ from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
 from .record.measures import measures
+from .run.scene import Scene
+from .run.simulate import simulate
 from .scene.setup import Setup
 
 __all__ = [
@@ -22,10 +24,12 @@ __all__ = [
     "Material",
     "Numerics",
     "ParameterError",
+    "Scene",
     "Setup",
     "SimulationError",
     "__version__",
     "exact",
     "measures",
+    "simulate",
     "solve_column",
 ]

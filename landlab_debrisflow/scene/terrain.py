@@ -7,6 +7,7 @@ import xarray as xr
 
 from ..geo.lattice import Lattice
 from ..geo.rasters import read_raster
+from .gully import gully
 from .keys import TerrainKeys
 
 
@@ -25,6 +26,8 @@ def build_terrain(keys: TerrainKeys, folder: Path) -> xr.Dataset:
         With ``topographic__elevation`` and, if there is erodible soil, ``soil__depth``, named as fields of the grid;
         the attribute ``crs_wkt`` is the coordinate reference system, "" if it is not known.
     """
+    if keys.example is not None:
+        return _example(keys)
     dem = read_raster(folder / str(keys.elevation), keys.crs)
     fields = {"topographic__elevation": dem.values}
     if isinstance(keys.soil_depth, str):
@@ -36,6 +39,17 @@ def build_terrain(keys: TerrainKeys, folder: Path) -> xr.Dataset:
         {name: (("y", "x"), values) for name, values in fields.items()},
         {"y": lattice.y, "x": lattice.x},
         {"crs_wkt": lattice.crs or "", "dem": dem.path.name, "dem_sha256": dem.checksum},
+    )
+
+
+def _example(keys: TerrainKeys) -> xr.Dataset:
+    """Return the ground that is built in; a number for the soil depth [m] replaces its own soil."""
+    elevation, soil, lattice = gully()
+    soil = soil if keys.soil_depth is None else np.full(soil.shape, float(keys.soil_depth))
+    return xr.Dataset(
+        {"topographic__elevation": (("y", "x"), elevation), "soil__depth": (("y", "x"), soil)},
+        {"y": lattice.y, "x": lattice.x},
+        {"crs_wkt": lattice.crs or "", "dem": f"example: {keys.example}", "dem_sha256": ""},
     )
 
 
