@@ -6,6 +6,7 @@ from .files import check_writable, write_atomically, write_dataset
 from .map_series import MapSeries
 from .measures import quantile
 from .observers import Progress, Series, Snapshots
+from .written_maps import mask_peaks, write_maps
 
 __all__ = [
     "MapSeries",
@@ -14,8 +15,10 @@ __all__ = [
     "Snapshots",
     "check_writable",
     "combine_maps",
+    "mask_peaks",
     "quantile",
     "stack",
     "write_atomically",
     "write_dataset",
+    "write_maps",
 ]
