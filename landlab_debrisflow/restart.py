@@ -21,7 +21,7 @@ from .scene.setup import Setup
 
 
 class Restart:
-    """What of a component saves and loads it."""
+    """Saving and loading of a component."""
 
     _call: Any
     _setup: Setup
@@ -115,9 +115,9 @@ class Restart:
             flow = cls(grid, **vars(setup), observers=observers)
             put_fields()
             flow._call.load(dataset)
-        for observer, memory in zip(observers, memories, strict=True):
-            if memory is not None:
-                observer.restore(memory)
+            for observer, memory in zip(observers, memories, strict=True):
+                if memory is not None:
+                    observer.restore(memory)
         return flow
 
     def _completed(self, dataset: xr.Dataset) -> xr.Dataset:

@@ -31,7 +31,6 @@ class GridCall:
         grid = flow.grid
         self.flow, self._simulation = flow, flow._simulation
         self.interruption = Interruption()
-        self._end: float | None = None  # of the call that runs [s]
         self._reader = GridReader(grid, self._simulation.setup)
         self._writer = FieldWriter(grid, self._simulation, self.interruption)
         self._listener = CallListener(flow, self._writer, self.interruption)
@@ -50,28 +49,22 @@ class GridCall:
         ------
         As `DebrisFlow.run_one_step`.
         """
-        try:
-            self._run(duration, stop_at_rest)
-        finally:
-            self._end = None
-            while self._listener.requests:  # of another thread, after the last step
-                self._listener.requests.pop(0)()
-
-    def _run(self, duration: float, stop_at_rest: bool) -> None:
         sim = self._simulation
         with self.rollback.around_call() as interrupted:
-            end = self._end = sim.state.time + duration
+            end = self.interruption.end = sim.state.time + duration
             if interrupted is None:
                 done = sim.run(*self._prepare(), end, stop_at_rest, self._listener)
             else:
                 if np.isclose(end, interrupted.end, rtol=1e-12, atol=0.0):
-                    end = self._end = interrupted.end  # the rest of the duration was computed with rounding
+                    end = self.interruption.end = interrupted.end  # the rest of the duration was computed with rounding
                 done = sim.advance(end, stop_at_rest, self._listener)
             if done:
                 self._listener.ended(stop_at_rest)
             else:
                 self._listener.broken_off()
                 self.rollback.break_off(end)
+        while self._listener.requests:  # of another thread, after the last step
+            self._listener.requests.pop(0)()
 
     def settle(self) -> None:
         """Lay down the mass at rest."""
@@ -119,12 +112,12 @@ class GridCall:
             with self.rollback.between_calls() as end:
                 write(self._capture(end))
         elif self._listener.between_steps:
-            write(self._capture(self._end))
+            write(self._capture(self.interruption.end))
         else:
             self._listener.requests.append(partial(self.save, write))
 
     def load(self, dataset) -> None:
-        """Go to the state of a Dataset that `save` handed out; the fields of the grid are those of the Dataset."""
+        """Put the flow into the state of a Dataset from `save`, whose fields the grid has already."""
         end = checkpoint.restore(self._writer, self._reader, self._listener.reports, dataset)
         if end is not None:
             self.rollback.break_off(end)

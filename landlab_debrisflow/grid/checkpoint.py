@@ -82,7 +82,7 @@ def capture(grid, writer, laws, reports, end: float | None) -> xr.Dataset:
 
 
 def restore(writer, reader, reports, dataset: xr.Dataset) -> float | None:
-    """Put a flow that was just built into the state of a Dataset; the fields of its grid are those of the Dataset.
+    """Put a flow that was just built into the state of a Dataset, whose fields the grid has already.
 
     Parameters
     ----------

@@ -106,7 +106,7 @@ NODE_FIELDS = (
 
 
 def fields_in_use(grid, laws) -> dict:
-    """Return the fields of a grid at nodes, by name, that a component reads or writes, or that its laws name.
+    """Return the fields of a grid at nodes by name: all that a component reads or writes, or its laws name.
 
     `laws` are those that may read fields, by kind.
     """

@@ -12,7 +12,8 @@ class CallListener:
     Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
     methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
     ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
-    call with ``began`` equal to ``time``; ``keep(flow, broken_off)`` between two steps, when all have seen the last.
+    call with ``began`` equal to ``time``;
+    ``keep(flow, broken_off)`` between two steps, when all have seen the last one.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ class CallListener:
                 self._call(observer.observe, self._flow)
 
     def _pause(self, broken_off: bool = False) -> None:
-        """Do what was requested during the step, then let observers keep the state; `broken_off`: the run ends here."""
+        """Carry out requests made during the step, then let observers keep the state; `broken_off`: the run ends here."""
         keepers = [observer for observer in self._flow._observers if hasattr(observer, "keep")]
         if not (keepers or self.requests):
             return

@@ -83,7 +83,7 @@ class RowBackup:
         }  # fmt: skip
 
     def set_variables(self, variables) -> None:
-        """Keep what `variables` returned, values by name, instead of anything kept before."""
+        """Replace all copies by values that `variables` returned, by name."""
         stretches, copies, self._kept, first = variables["stretches"], variables["copies"], [], 0
         for begin, end in stretches.tolist():
             last = first + end - begin
@@ -94,7 +94,7 @@ class RowBackup:
             self._first, self._last = int(stretches.min()) // self._columns, int(stretches.max()) // self._columns
 
     def keep_nodes(self, nodes: slice) -> None:
-        """Copy some nodes, a slice of whole rows, as they are now, and nothing around them."""
+        """Replace all copies by the present values at some nodes, a slice of whole rows."""
         self._first, self._last = nodes.start // self._columns, nodes.stop // self._columns
         self._kept = [(nodes, [array[nodes].copy() for array in self._arrays])] if nodes.start < nodes.stop else []
 

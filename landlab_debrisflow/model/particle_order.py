@@ -1,4 +1,4 @@
-"""Order of the particles in a file: that of their identity, with the place of each in memory as a variable.
+"""Order of the particles in a file, by identity, with the place of each in memory as a variable.
 
 The order in memory follows from who sleeps, and may be another one in another version; a run goes on to the bit only
 if sums over neighbours are done in the order in which they were.

@@ -114,7 +114,7 @@ def read_checkpoint(path: str | os.PathLike[str]) -> xr.Dataset:
 
 
 def _checked(path: Path, data: bytes) -> bytes:
-    """Return the NetCDF in the bytes of a file, or raise InputError that tells what is wrong with it."""
+    """Return the NetCDF in the bytes of a file, or raise InputError with the reason why it is no checkpoint."""
     content, trailer = data[: -TRAILER.size], data[-TRAILER.size :]
     if not trailer.startswith(MAGIC) or len(trailer) < TRAILER.size:
         if not data:

@@ -1,4 +1,4 @@
-"""Memory of observers in a checkpoint: what ``state()`` returns, for ``restore(mapping)``."""
+"""Memory of observers in a checkpoint, from ``state()`` for ``restore(mapping)``."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -11,7 +11,7 @@ from ..core.errors import InputError
 
 
 def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
-    """Return a Dataset with the memory of observers added, of those that have a method ``state()``.
+    """Return a Dataset with the memory of all observers added that have a method ``state()``.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
 
 
 def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping[str, Any] | None]:
-    """Return the memory of observers in a Dataset, one mapping each, None for those that had none.
+    """Return the memory of observers in a Dataset, one mapping each, or None without memory.
 
     Parameters
     ----------
@@ -78,6 +78,40 @@ def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping
             text = values.tobytes().decode() if data.attrs["text"] else values
             memories[int(data.attrs["observer"])][data.attrs["key"]] = text if data.ndim else values.item()
     return memories
+
+
+def pack_maps(maps: Sequence[xr.Dataset]) -> dict[str, Any]:
+    """Return maps of one grid as arrays by name, and a text of all else in them; `unpack_maps` undoes it."""
+    names = dict.fromkeys(name for one in maps for name in one.variables)
+    words = {
+        name: [data.dims, data.attrs, data.encoding]
+        for name in names if (data := next(one.variables[name] for one in maps if name in one.variables)) is not None
+    }  # fmt: skip
+    each = [[list(one.variables), list(one.coords), one.attrs] for one in maps]
+    packed: dict[str, Any] = {"words": json.dumps({"variables": words, "maps": each})}
+    for name in names:
+        values = [one.variables[name].values for one in maps if name in one.variables]
+        packed[f"map {name}"] = np.stack(values[:1] if words[name][0] == (name,) else values)  # an axis is the same
+    return packed
+
+
+def unpack_maps(packed: Mapping[str, Any]) -> list[xr.Dataset]:
+    """Return the maps of which `pack_maps` made a mapping."""
+    words, maps, seen = json.loads(packed["words"]), [], dict.fromkeys(packed, 0)
+    for names, coords, attributes in words["maps"]:
+        data = {}
+        for name in names:
+            dims, attrs, encoding = words["variables"][name]
+            stacked, key = packed[f"map {name}"], f"map {name}"
+            data[name] = xr.Variable(dims, stacked[min(seen[key], len(stacked) - 1)], _as_given(attrs), encoding)
+            seen[key] += 1
+        maps.append(xr.Dataset(data, attrs=_as_given(attributes)).set_coords(coords))
+    return maps
+
+
+def _as_given(attributes):
+    """Return attributes that came from JSON with tuples instead of lists."""
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in attributes.items()}
 
 
 def _class(observer) -> str:

@@ -1,6 +1,7 @@
 """Advance a flow through the releases of a scene."""
 
 from ..component import DebrisFlow
+from ..scene.releases import set_release
 from .scene import Scene
 
 
@@ -16,11 +17,11 @@ def advance(flow: DebrisFlow, scene: Scene) -> None:
     scene : Scene
     """
     reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
-    for time in sorted({release.time for release in scene.releases if release.time > 0.0}):
-        if time < reached * (1.0 - 1e-12):
+    for release in scene.releases:
+        if release.time == 0.0 or release.time < reached * (1.0 - 1e-12):
             continue
-        if (left := time - flow.elapsed_time) > 0.0:
+        if (left := release.time - flow.elapsed_time) > 1e-12 * release.time:
             flow.run_one_step(left)
-        scene.set_releases(flow.grid, time)
+        set_release(flow.grid, release)
     if (left := scene.output_keys.max_duration - flow.elapsed_time) > 0.0:
         flow.run_until_rest(left)

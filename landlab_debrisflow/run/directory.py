@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,8 +13,11 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, RECORD, UNFINISHED
+from .files import CHECKPOINT, LOCK, RECORD, SERIES, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
+
+TEMPORARY = re.compile(r"\.(run|checkpoint|maps_\d+)\.\d+\.(json|nc)")
+"""Names of files that are being written (record/files.py)."""
 
 
 class OutputDirectory:
@@ -53,6 +57,7 @@ class OutputDirectory:
         check_directory(path)
         try:
             with _lock(path):
+                _remove_temporaries(path)
                 yield cls(path)
         finally:
             with contextlib.suppress(OSError):  # it holds something, as it should
@@ -207,6 +212,13 @@ def listed(words: list[str], most: int = 3) -> str:
     'a; b; c; and 2 more'
     """
     return "; ".join([*words[:most], *([f"and {len(words) - most} more"] if len(words) > most else [])])
+
+
+def _remove_temporaries(directory: Path) -> None:
+    """Remove files that a process was writing here when it was killed."""
+    for path in (*directory.glob(".*"), *directory.glob(f"{SERIES}/.*")):
+        if TEMPORARY.fullmatch(path.name) and not path.is_dir():
+            path.unlink()
 
 
 @contextlib.contextmanager

@@ -13,6 +13,7 @@ import numpy as np
 from ..component import DebrisFlow
 from ..model.time_step import TERRAIN_FRACTION
 from ..record.measures import measures
+from ..scene.releases import set_release
 from .advance import advance
 from .scene import Scene
 
@@ -210,7 +211,9 @@ def run_start(scene: Scene) -> Start:
 
 
 def _flow(scene: Scene, grid: Any, observer: Any, **changes: Any) -> DebrisFlow:
-    scene.set_releases(grid, 0.0)
+    for release in scene.releases:
+        if release.time == 0.0:
+            set_release(grid, release)
     return DebrisFlow(grid, observers=[observer], **(vars(scene.setup) | changes))
 
 

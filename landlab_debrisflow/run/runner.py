@@ -47,7 +47,8 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     KeyboardInterrupt
         After the step. What was computed is kept: `resume_scene` goes on.
     """
-    _ = scene.releases  # what cannot be used is known before anything is written, and results of before removed
+    if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
+        raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(_record(scene, directory), overwrite)
         return _compute(scene, directory, scene.flow, monitor)
@@ -79,7 +80,6 @@ def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
     path = scene.output_directory
     if not (path / RECORD).is_file():
         raise InputError(f"{path} holds no run to go on with; landlab-debrisflow run begins one")
-    _ = scene.releases
     with OutputDirectory.claimed(path) as directory:
         record = _record(scene, directory)
         directory.check_scene(record)
@@ -125,7 +125,7 @@ def resume(path: str | Path, *, monitor: Monitor | None = None) -> Results:
 
 
 def _record(scene: Scene, directory: OutputDirectory) -> RunRecord:
-    file = scene.file and os.path.relpath(Path(scene.file).resolve(), directory.path.resolve())
+    file = scene.path and os.path.relpath(scene.path.resolve(), directory.path.resolve())
     return RunRecord.of(scene, file)
 
 
@@ -149,9 +149,8 @@ def _compute(
     flow = None
     try:
         directory.note(state=RUNNING)
-        if scene.file:
-            text = Path(scene.file).read_bytes()
-            directory.publish(lambda folder: (folder / SCENE).write_bytes(text))
+        if scene.text is not None:
+            directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)
         with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])

@@ -16,7 +16,7 @@ from .setup import Setup, written_mapping
 
 
 def law_digests(setup: Setup) -> dict[str, str]:
-    """Return digests of the laws, by kind, that cannot be built from plain values."""
+    """Return digests, by kind, of laws that cannot be built from plain values."""
     laws = {kind: getattr(setup, kind) for kind in LAWS}
     return {kind: _digest(kind, law) for kind, law in laws.items() if law_name(kind, law) not in LAWS[kind]}
 
@@ -71,7 +71,7 @@ def _digest(kind, law) -> str:
 
 
 def _difference(written, now) -> str:
-    """Return in words how two values of a setup differ, those of a file and those given; "" if they do not."""
+    """Return in words how a value of a setup in a file and a given one differ; "" if they do not."""
     if isinstance(written, Mapping) and isinstance(now, Mapping):
         found = (f"{key}: {words}" for key in written if (words := _difference(written[key], now.get(key))))
         return next(found, "")

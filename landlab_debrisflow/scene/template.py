@@ -83,7 +83,9 @@ def yaml_text(value: Any) -> str:
     ('null', 'dem 5m.tif', '"no: way"', '[1.5, "null"]')
     """
     if isinstance(value, str):
-        word = PLAIN.match(value) and value.lower() not in ("null", "true", "false") and not re.match(r"\.(?!\.?/)", value)
+        word = (
+            PLAIN.match(value) and value.lower() not in ("null", "true", "false") and not re.match(r"\.(?!\.?/)", value)
+        )
         return value if word else json.dumps(value, ensure_ascii=False)
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(yaml_text, value))}]"
