@@ -50,9 +50,11 @@ def scene_schema() -> dict[str, Any]:
         "terrain": _declared(TerrainKeys), "release": _declared(ReleaseKeys), "output": _declared(OutputKeys),
         "material": _declared(Material), "numerics": _declared(Numerics), "inflow": _declared(Hydrograph),
     }  # fmt: skip
-    definitions["release"]["oneOf"] = [{"required": [kind]} for kind in ("polygons", "raster", "points")]
-    definitions["inflow"]["required"] = ["line_start", "line_end", "times", "discharge", "velocity"]
-    definitions["terrain"]["oneOf"] = [{"required": ["elevation"]}, {"required": ["example"]}]
+    definitions["release"]["oneOf"] = [_is_set(kind) for kind in ("polygons", "raster", "points")]
+    definitions["terrain"]["oneOf"] = [_is_set(kind) for kind in ("elevation", "example")]
+    definitions["inflow"]["allOf"] = [
+        _is_set(key) for key in ("line_start", "line_end", "times", "discharge", "velocity")
+    ]
     properties: dict[str, Any] = {"terrain": _reference("terrain")}
     properties["release"] = _one_or_several(_reference("release")) | {"description": MEANINGS["release"]}
     properties["output"] = _or_null(_reference("output"))
@@ -69,6 +71,11 @@ def scene_schema() -> dict[str, Any]:
 
 def _reference(name: str) -> dict[str, Any]:
     return {"$ref": f"#/$defs/{name}"}
+
+
+def _is_set(key: str) -> dict[str, Any]:
+    """Return the schema of mappings in which a key is there and not null."""
+    return {"required": [key], "properties": {key: {"not": {"type": "null"}}}}
 
 
 def _or_null(schema: Mapping[str, Any]) -> dict[str, Any]:
