@@ -11,6 +11,7 @@ from .keys import OutputKeys, ReleaseKeys, TerrainKeys
 from .location import located
 from .read_yaml import YamlFile
 from .setup import Setup
+from .zones import varying_parameters
 
 SETUP_KEYS = tuple(keys_of(Setup))
 SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS)
@@ -73,7 +74,10 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
         for path, one in _entries(key, value) if key == "inflow" else [((key,), value)]:
             with located(file, *path):
                 Setup(**{key: one})
-    return SceneContent(terrain, release, output, Setup(**given))
+    setup = Setup(**given)
+    with located(file, "terrain"):
+        varying_parameters(setup, terrain.zones)
+    return SceneContent(terrain, release, output, setup)
 
 
 def to_mapping(content: SceneContent) -> dict[str, Any]:
