@@ -28,7 +28,16 @@ LINES = {"river": [[0.0, 0.0], [5.0, 5.0]]}
 def whole(laws):
     """Return the mapping of a scene with every key that these laws leave room for."""
     mapping = {
-        "terrain": {"example": "gully", "soil_depth": 1.5},
+        "terrain": {
+            "example": "gully", "soil_depth": 1.5, "window": [0.0, 0.0, 50.0, 50.0], "spacing": 4.0, "nodata": 0.0,
+            "zones": [
+                {"polygons": [TRIANGLE], "soil_depth": 0.5}, {"polygons": "forest.gpkg", "bed_pressure_ratio": 0.3},
+            ],
+            "edits": [
+                {"dam": [LINES["river"]], "crest_height": 5.0}, {"buildings": "houses.gpkg", "height": 9.0},
+                {"excavation": [TRIANGLE], "depth": 2.0, "slope": 30.0},
+            ],
+        },
         "release": [
             {"polygons": [TRIANGLE], "depth": 2.0, "velocity": [1.0, -2.0], "failure_surface": "uniform"},
             {"points": [[1.0, 2.0]], "hydrograph": [[0.0, 0.0], [60.0, 20.0]], "width": 5.0, "speed": 2.0},
@@ -114,6 +123,7 @@ BAD = st.one_of(
     st.just({}), st.just({"law": "bingham"}), st.just([[1, 2, 3]]),
 )  # fmt: skip
 NOT_IN_THE_SCHEMA = (
+    "give exactly one of dam", "needs either", "give soil_depth, bed_pressure_ratio", "with west < east",
     "not both", "must exceed", "belongs to", "given exactly", "missing", "must increase", "values for", "same point",
     "0 m3 s-1", "runs along", "from is above", "at most max_duration", "one line", "two numbers, x and y",
     "must be at least two", "speed must be more than 0", "infinitely thick", "an example",
