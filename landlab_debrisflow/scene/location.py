@@ -43,7 +43,7 @@ def located(file: YamlFile | None, *path: str | int) -> Iterator[None]:
 
 
 def _blamed(mapping: Any, path: tuple, message: str) -> tuple:
-    """Return the path of the key that a message names: below `path` by its word or value, else anywhere by its value."""
+    """Return the path of the key that a message names: below `path` by its word or value, else anywhere by value."""
     value, named = mapping, path
     for step in path:
         if not _holds(value, step):

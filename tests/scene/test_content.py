@@ -112,8 +112,9 @@ def test_errors_of_files_name_the_line_of_the_name(tmp_path):
     from landlab_debrisflow import Scene
 
     path = tmp_path / "scene.yaml"
-    path.write_text(GROUND + "release:\n- depth: 2\n  polygons: nowhere.gpkg\noutput:\n  gauges: none.gpkg\n")
+    path.write_text(GROUND + "release:\n- depth: 2\n  polygons: nowhere.gpkg\n")
     with pytest.raises(InputError, match=r"line 5: release\[0\]: cannot read .*nowhere.gpkg"):
         _ = Scene.from_file(path).releases
-    with pytest.raises(InputError, match=r"line 7: output: gauges: cannot read .*none.gpkg"):
+    path.write_text(GROUND + "output:\n  interval: 3\n  gauges: none.gpkg\n")
+    with pytest.raises(InputError, match=r"line 5: output: gauges: cannot read .*none.gpkg"):
         _ = Scene.from_file(path).places
