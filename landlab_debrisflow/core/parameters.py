@@ -53,7 +53,7 @@ def parameter(
     choices : tuple of str, or mapping of str to float, optional
         Allowed words, for a parameter that is a choice and not a number; of a mapping, a law reads the number.
     kind : type
-        float, int, bool or str; tuple for one number or a list of them.
+        float, int, bool or str; tuple for one number or a list of them; dict for a mapping that is checked elsewhere.
     varies : bool
         Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for a number.
     open_below : bool
@@ -71,7 +71,8 @@ def parameter(
     named : bool
         Whether these features have names: then a mapping of names to them will do.
     length : int, optional
-        Number of values of a list, of the kind tuple; with `choices` a list holds words, any number of them.
+        Number of values of a list, of the kind tuple; with `choices` one of these words will do for the list. Without
+        `length`, a list with `choices` holds words, any number of them.
 
     Returns
     -------

@@ -75,7 +75,11 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return _checked_file(name, value)
     if meta["coordinates"]:
         return checked_coordinates(name, value, meta["coordinates"], meta["named"])
-    if kind is tuple and meta["choices"]:
+    if kind is dict:
+        return _checked_mapping(name, value)
+    if kind is tuple and meta["choices"] and meta["length"] is not None and isinstance(value, str):
+        return _checked_word(name, value, meta["choices"])
+    if kind is tuple and meta["choices"] and meta["length"] is None:
         return _checked_words(name, value, meta["choices"])
     if kind is tuple:
         return _checked_list(name, value, meta)
@@ -126,6 +130,12 @@ def _item(name: str, cls: type, mapping):
         return from_mapping(cls, mapping)
     except ParameterError as error:
         raise ParameterError(f"{name}: {error}") from error
+
+
+def _checked_mapping(name: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+        raise ParameterError(f"{name} must be a mapping of words to values, got {value!r:.60}")
+    return dict(value)
 
 
 def _checked_file(name: str, value: Any) -> str:

@@ -20,6 +20,7 @@ from ..scene.read_yaml import YamlFile, read_yaml
 from ..scene.releases import ScheduledRelease, schedule_releases, set_release
 from ..scene.setup import Setup
 from ..scene.terrain import build_terrain, lattice_of
+from ..scene.zones import VaryingParameter, varying_parameters, with_fields
 from .grids import build_grid
 from .results import Results
 
@@ -164,7 +165,13 @@ class Scene:
     def terrain(self) -> xr.Dataset:
         """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
         with located(self._file, "terrain"):
-            return build_terrain(self.terrain_keys, self.folder)
+            return build_terrain(
+                self.terrain_keys, self.folder, self.release_keys, self._content.setup.inflow, self._varying
+            )
+
+    @property
+    def _varying(self) -> tuple[VaryingParameter, ...]:
+        return varying_parameters(self._content.setup, self.terrain_keys.zones)
 
     @property
     def lattice(self) -> Lattice:
@@ -179,7 +186,7 @@ class Scene:
     @cached_property
     def setup(self) -> Setup:
         """Laws, material, numerics and inflow, also the inflow at points."""
-        setup = self._content.setup
+        setup = with_fields(self._content.setup, self._varying)
         if not any(keys.kind == "points" for keys in self.release_keys):
             return setup
         points = point_hydrographs(self.release_keys, self.terrain, self.folder, self._file)
