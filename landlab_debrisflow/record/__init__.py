@@ -3,16 +3,25 @@
 from .combine import combine_maps
 from .datasets import stack
 from .files import check_writable, write_atomically, write_dataset
+from .front import Front
+from .gauges import Gauges
 from .map_series import MapSeries
 from .measures import quantile
 from .observers import Progress, Series, Snapshots
+from .sections import Sections
+from .tracks import MarkedColumns, Tracks
 from .written_maps import mask_peaks, write_maps
 
 __all__ = [
+    "Front",
+    "Gauges",
     "MapSeries",
+    "MarkedColumns",
     "Progress",
+    "Sections",
     "Series",
     "Snapshots",
+    "Tracks",
     "check_writable",
     "combine_maps",
     "mask_peaks",
