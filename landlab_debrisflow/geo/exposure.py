@@ -42,9 +42,9 @@ def exposure(
 
     A shape has the cells that it covers in part or whole, so one smaller than a cell has values, too. The **largest**
     value is that over all these cells, the **mean** is weighted with the area of each cell inside the shape (the length
-    for lines); cells that the flow did not reach count as 0. A **closed** cell, a building that was made a wall, has the
-    impact pressure and run-up at its own faces; for depth, speed, deposit and arrival the open cells at the faces of the
-    shape's closed cells take part in the largest value, and make the mean if no cell of the shape is open.
+    for lines); cells that the flow did not reach count as 0. A **closed** cell, a building that was made a wall, has
+    the impact pressure and run-up at its own faces; for depth, speed, deposit and arrival the open cells at the faces
+    of its closed cells take part in the largest value, and make the mean if no cell of the shape is open.
 
     Parameters
     ----------
@@ -70,8 +70,8 @@ def exposure(
     Raises
     ------
     InputError
-        If the maps lack a quantity, a shape is empty or broken, the identifier is missing or not unique, the file cannot
-        be read, the systems cannot be compared, or no shape touches the grid.
+        If the maps lack a quantity, a shape is empty or broken, the identifier is missing or not unique, the file
+        cannot be read, or no shape touches the grid.
     """
     frame = _frame(shapes)
     lattice = lattice_of(maps, crs)
@@ -87,8 +87,9 @@ def exposure(
     if not any(row["on_grid"] for row in rows):
         west, south, east, north = lattice.bounds
         raise InputError(
-            f"exposure: none of the {len(rows)} shapes touches the grid, x {west:.10g} to {east:.10g} m, y {south:.10g} to "
-            f"{north:.10g} m; theirs go from {_extent(frame)}: are they in the system of the maps?"
+            f"exposure: none of the {len(rows)} shapes touches the grid, which goes from ({west:.10g}, "
+            f"{south:.10g}) to ({east:.10g}, {north:.10g}) m; theirs go from {_extent(frame)}: are they in the system "
+            "of the maps?"
         )
     import geopandas
 
@@ -158,9 +159,9 @@ def _row(geometry, lattice, closed, values, arrival) -> dict[str, Any]:
 
 
 def _cells(geometry, lattice: Lattice):
-    """Return rows and columns of the cells under a shape, its area, length or number of points in each, and its part there.
+    """Return rows and columns of the cells under a shape, its measure in each, and the part of it on the grid.
 
-    A shape that touches cells along their sides only has those.
+    The measure is area, length or number of points. A shape that only touches sides of cells has these.
     """
     import shapely
 
@@ -171,7 +172,8 @@ def _cells(geometry, lattice: Lattice):
         min(lattice.shape[0] - 1, int(np.floor((north - y0) / dy + 0.5)) + 1),
         min(lattice.shape[1] - 1, int(np.floor((east - x0) / dx + 0.5)) + 1),
     )
-    rows, columns = np.mgrid[first[0] : last[0] + 1, first[1] : last[1] + 1].reshape(2, -1)
+    spans = (np.arange(low, high + 1) for low, high in zip(first, last, strict=True))
+    rows, columns = (each.ravel() for each in np.meshgrid(*spans, indexing="ij"))
     x, y = x0 + dx * columns, y0 + dy * rows
     boxes = shapely.box(x - 0.5 * dx, y - 0.5 * dy, x + 0.5 * dx, y + 0.5 * dy)
     touched = shapely.intersects(boxes, geometry)
