@@ -91,7 +91,7 @@ class CallListener:
                 self._call(observer.observe, self._flow)
 
     def _pause(self, broken_off: bool = False) -> None:
-        """Carry out requests made during the step, then let observers keep the state; `broken_off`: the run ends here."""
+        """Carry out requests of the step, then let observers keep the state; `broken_off`: the run ends here."""
         keepers = [observer for observer in self._flow._observers if hasattr(observer, "keep")]
         if not (keepers or self.requests):
             return
