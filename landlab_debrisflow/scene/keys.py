@@ -1,4 +1,4 @@
-"""Keys of a scene file: `terrain`, `release`, `output`; the others are those of `Setup`."""
+"""Keys of a scene file beside the ones of `Setup`: `terrain`, `release`, `output`."""
 
 from .output_keys import OutputKeys
 from .release_keys import ReleaseKeys

@@ -152,7 +152,6 @@ def test_buildings_are_closed_or_raised(tmp_path):
     assert_allclose(z, np.where(second, 1000.0 - 0.4 * 102.5 + 7.0, GROUND))
     assert_array_equal(soil == 0.0, first | second)
     assert notes[-1] == "edits[0]: buildings: 1 are closed nodes, 1 are raised ground"
-    buildings = [{"buildings": "houses.gpkg"}]
     grid = Scene.from_mapping(
         {"terrain": {"elevation": "dem.tif", "edits": [{"buildings": "houses.gpkg"}]}}, tmp_path
     ).grid()
