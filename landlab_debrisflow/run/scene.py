@@ -53,7 +53,7 @@ class Scene:
     ...     "friction": {"law": "voellmy", "basal_friction_angle": 28.0},
     ... })
     >>> scene.setup.friction.turbulent_coefficient, scene.grid().shape
-    (500.0, (61, 121))
+    (500.0, (61, 141))
     """
 
     def __init__(
@@ -132,7 +132,7 @@ class Scene:
         return self.folder / (self.output_keys.directory or f"{self.name}_out")
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return all keys as plain values, defaults included, without what is not set.
+        """Return keys and defaults as plain values, without unset ones.
 
         Returns
         -------
@@ -180,7 +180,7 @@ class Scene:
 
     @cached_property
     def setup(self) -> Setup:
-        """Laws, material, numerics and inflow, that at points included."""
+        """Laws, material, numerics and inflow, also the inflow at points."""
         setup = with_fields(self._content.setup, self._varying)
         if not any(keys.kind == "points" for keys in self.release_keys):
             return setup
@@ -194,7 +194,7 @@ class Scene:
 
     @property
     def notes(self) -> list[str]:
-        """What was done to files and values, and what is odd, as sentences."""
+        """Remarks and doubts about terrain and releases, as sentences."""
         notes = [*self.terrain.attrs.get("notes", ()), *(note for one in self.releases for note in one.notes)]
         if not self.releases and not self.setup.inflow:
             notes.append("nothing is released and nothing flows in; give release or inflow")

@@ -20,7 +20,7 @@ def simulate(
     terrain: xr.Dataset | RasterModelGrid | Scene,
     max_duration: float | None = None,
 ) -> xr.Dataset:
-    """Simulate an event from its release to rest and return its maps; nothing that is given is changed.
+    """Simulate an event from its release to rest and return its maps, without a change to the arguments.
 
     Parameters
     ----------

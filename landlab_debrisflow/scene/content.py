@@ -81,7 +81,7 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
 
 
 def to_mapping(content: SceneContent) -> dict[str, Any]:
-    """Return a scene as plain values, defaults included, without what is not set; `read_content` reads it back.
+    """Return a scene and its defaults as plain values, without unset keys; `read_content` reads them back.
 
     Parameters
     ----------

@@ -5,8 +5,8 @@ import numpy as np
 from ..geo.lattice import Lattice
 
 CRS = "EPSG:32632"
-LATTICE = Lattice((61, 121), (5.0, 5.0), (400000.0, 5200000.0), CRS)
-"""300 m x 600 m with nodes every 5 m; the place on the map is invented."""
+LATTICE = Lattice((61, 141), (5.0, 5.0), (400000.0, 5200000.0), CRS)
+"""300 m x 700 m with nodes every 5 m; the place on the map is invented."""
 HEAD_SLOPE, FAN_SLOPE = 34.0, 6.0
 """Slope of the ground at its western and its eastern end [deg]."""
 GULLY_DEPTH, GULLY_WIDTH = 12.0, 45.0
@@ -22,7 +22,7 @@ def gully() -> tuple[np.ndarray, np.ndarray, Lattice]:
 
     Returns
     -------
-    elevation, soil : ndarray, shape (61, 121)
+    elevation, soil : ndarray, shape (61, 141)
         [m]
     lattice : Lattice
         Place of the nodes.
@@ -31,7 +31,7 @@ def gully() -> tuple[np.ndarray, np.ndarray, Lattice]:
     --------
     >>> elevation, soil, lattice = gully()
     >>> elevation.shape, lattice.spacing, bool(elevation[30, 0] > elevation[30, 60] > elevation[30, 120])
-    ((61, 121), (5.0, 5.0), True)
+    ((61, 141), (5.0, 5.0), True)
     """
     x, y = LATTICE.x - LATTICE.x[0], (LATTICE.y - LATTICE.y[0])[:, None]
     easing = _smooth_step((x - 40.0) / (FAN_APEX + 100.0))

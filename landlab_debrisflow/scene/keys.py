@@ -1,4 +1,4 @@
-"""Keys of a scene file beside the ones of `Setup`: `terrain`, `release`, `output`."""
+"""Keys of a scene file: `terrain`, `release`, `output`; other keys are the attributes of `Setup`."""
 
 from .output_keys import OutputKeys
 from .release_keys import ReleaseKeys

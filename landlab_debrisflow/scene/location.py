@@ -31,7 +31,7 @@ def located(file: YamlFile | None, *path: str | int) -> Iterator[None]:
         message, first = str(error), str(path[0]) if path else "scene"
         if file is not None and message.startswith(f"{file.path} line "):
             raise
-        label = first + "".join(f"[{step}]" for step in path[1:])
+        label = first + "".join(f"[{step}]" if isinstance(step, int) else f": {step}" for step in path[1:])
         if not message.startswith(label):
             message = f"{label}: {message.removeprefix(f'{first}: ').removeprefix(f'{first.capitalize()}: ')}"
         if file is not None:

@@ -17,7 +17,7 @@ LOOKED_AT = ("depth", "speed", "basal_excess_pore_pressure", "eroded_depth", "de
 
 @declared
 class OutputKeys:
-    """Output of a scene: how long it runs, and what is written where."""
+    """Output of a scene: duration of the run, files, places and variables."""
 
     keyword: ClassVar = "output"
 

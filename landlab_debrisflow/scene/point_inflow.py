@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..core.errors import InputError
+from ..geo.lattice import extent
 from ..model.inflow.hydrograph import Hydrograph
 from .hydrograph_file import read_hydrograph
 from .keys import ReleaseKeys
@@ -50,7 +51,7 @@ def point_hydrographs(
         path = ("release", k) if file is None or ("release", k) in file.lines else ("release",)
         with located(file, *path):
             table = read_hydrograph(folder / keys.hydrograph) if isinstance(keys.hydrograph, str) else keys.hydrograph
-            for shape in shapes_of(keys.points, "points", ground.lattice, folder, "points"):
+            for shape in shapes_of(keys.points, "point", ground.lattice, folder):
                 for point in getattr(shape.geometry, "geoms", [shape.geometry]):
                     found.append(_hydrograph(keys, table, np.array([point.x, point.y]), ground, shape.label))
     return tuple(found)
@@ -60,10 +61,9 @@ def _hydrograph(keys: ReleaseKeys, table, point: np.ndarray, ground: Ground, lab
     (dx, dy), (rows, columns) = ground.lattice.spacing, ground.lattice.shape
     column, row = (point - ground.lattice.lower_left) / (dx, dy)
     if not (0.5 <= column <= columns - 1.5 and 0.5 <= row <= rows - 1.5):
-        bounds = ", ".join(f"{edge:.10g}" for edge in ground.lattice.bounds)
         raise InputError(
-            f"{label} at {point[0]:.10g}, {point[1]:.10g} lies outside of the terrain [{bounds}] (west, south, east, "
-            "north) [m]; compare their coordinate systems"
+            f"{label} at {point[0]:.10g}, {point[1]:.10g} lies on the edge of the terrain, "
+            f"{extent(ground.lattice.bounds)}; the line of the inflow needs ground around it"
         )
     x, y = np.arange(columns) * dx, np.arange(rows) * dy
     radius = max(0.5 * keys.width, 1.5 * max(dx, dy))

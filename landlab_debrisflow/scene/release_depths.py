@@ -8,9 +8,10 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..core.hints import did_you_mean, python_value
-from ..geo.lattice import Lattice
-from ..geo.rasters import read_raster
-from ..geo.shapes import Shape, covered_fraction
+from ..geo.cover import covered_fraction
+from ..geo.lattice import Lattice, extent
+from ..geo.resampling import read_onto
+from ..geo.shapes import Shape
 from .keys import ReleaseKeys
 from .shapes import shapes_of
 from .terrain import lattice_of
@@ -107,10 +108,13 @@ def polygon_depths(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body
     InputError
         If a polygon has neither depth nor volume, or one out of bounds, or lies outside of the terrain.
     """
-    shapes = shapes_of(keys.polygons, "polygons", ground.lattice, folder, "polygons")
-    if not shapes:
-        raise InputError(f"polygons: {keys.polygons} holds no polygon")
-    return [_polygon_body(keys, shape, ground) for shape in shapes]
+    notes: list[str] = []
+    bodies = [
+        _polygon_body(keys, shape, ground)
+        for shape in shapes_of(keys.polygons, "polygon", ground.lattice, folder, notes)
+    ]
+    bodies[0].notes[:0] = notes
+    return bodies
 
 
 def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
@@ -120,11 +124,10 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
     usable = np.where(ground.core, fraction, 0.0)
     inside = float(usable.sum()) * ground.lattice.area
     if inside <= 0.0:
-        west, south, east, north = (f"{edge:.10g}" for edge in shape.geometry.bounds)
-        bounds = ", ".join(f"{edge:.10g}" for edge in ground.lattice.bounds)
         raise InputError(
-            f"{shape.label} covers no node of the terrain that may hold mass: it lies at [{west}, {south}, {east}, "
-            f"{north}], the terrain at [{bounds}] (west, south, east, north) [m]; compare their coordinate systems"
+            f"{shape.label} covers no node of the terrain that may hold mass: all of it, "
+            f"{extent(shape.geometry.bounds)}, lies on the edge of the grid or without elevation; "
+            "use a larger DEM, or move the polygon"
         )
     if inside < 0.999 * whole:
         kept = "the volume is kept" if volume is not None else "what lies there is left out"
@@ -189,21 +192,18 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
     Raises
     ------
     InputError
-        If the raster is not on the nodes of the terrain, has negative values, or nothing in it is > 0.
+        If the raster does not reach the terrain, has negative values, or nothing in it is > 0.
     """
-    raster = read_raster(folder / str(keys.raster), ground.lattice.crs)
-    if raster.values.shape != ground.elevation.shape:
-        raise InputError(
-            f"{raster.path} has {raster.values.shape} nodes, the terrain has {ground.elevation.shape} (rows, columns)"
-        )
-    depth, notes = np.nan_to_num(raster.values), []
+    notes: list[str] = []
+    path = folder / str(keys.raster)
+    depth = np.nan_to_num(read_onto(path, ground.lattice, notes=notes))
     if depth.min() < 0.0:
-        raise InputError(f"{raster.path}: depths must be 0 m or more, got {depth.min():g}; deposits are no release")
+        raise InputError(f"{path.name}: depths must be 0 m or more, got {depth.min():g}; deposits are no release")
     if depth.max() > MOST_DEPTH:
-        raise InputError(f"{raster.path}: depths must be at most {MOST_DEPTH:g} m, got {depth.max():g}; give metres")
+        raise InputError(f"{path.name}: depths must be at most {MOST_DEPTH:g} m, got {depth.max():g}; give metres")
     usable = np.where(ground.core, depth, 0.0)
     if usable.max() <= 0.0:
-        raise InputError(f"{raster.path} has no depth > 0 where the terrain may hold mass; look at values and place")
+        raise InputError(f"{path.name} has no depth > 0 where the terrain may hold mass; look at values and place")
     if lost := float((depth - usable).sum()) * ground.lattice.area:
-        notes.append(f"{raster.path.name}: {lost:.4g} m3 on the edge of the grid or without elevation are left out")
+        notes.append(f"{path.name}: {lost:.4g} m3 on the edge of the grid or without elevation are left out")
     return [Body(usable, notes)]

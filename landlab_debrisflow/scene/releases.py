@@ -107,7 +107,7 @@ def _start_velocity(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> np.
 
 
 def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
-    """Return what is odd about a release, as sentences."""
+    """Return doubts about a release as sentences."""
     lattice, count, notes = ground.lattice, int(np.count_nonzero(depth)), []
     if count < FEWEST_NODES:
         notes.append(

@@ -147,8 +147,13 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
     forms: list[dict[str, Any]] = [{"type": "string", "pattern": r"\S"}] if meta["file"] else []
     if meta["coordinates"]:
         return forms + _coordinates(meta["coordinates"], meta["named"])
+    if kind is dict:
+        return [{"type": "object", "additionalProperties": {"type": "number"}}]
     if meta["choices"]:
         words = {"enum": list(meta["choices"])}
+        if meta["length"] is not None:
+            number = {"type": "number"}
+            return [words, {"type": "array", "items": number, "minItems": meta["length"], "maxItems": meta["length"]}]
         return [words, {"type": "array", "items": words}] if kind is tuple else [words]
     if kind is str:
         return forms
