@@ -47,6 +47,7 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     KeyboardInterrupt
         After the step. What was computed is kept: `resume_scene` goes on.
     """
+    _ = scene.places
     if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
         raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
     with OutputDirectory.claimed(scene.output_directory) as directory:
@@ -165,6 +166,7 @@ def _compute(
         raise
     if flow.at_rest:
         directory.remove_checkpoints()
+        observers.remove_single_maps()
     return Results(directory.path)
 
 
