@@ -1,5 +1,6 @@
 """Export of the maps that a run wrote as it went."""
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -85,6 +86,11 @@ def _convert(maps: xr.Dataset, path: Path) -> None:
     for k in range(maps.sizes["time"]):
         kept = maps.isel(time=[k]) if k == 0 else maps.isel(time=[k]).drop_vars(_timeless(maps))
         kept.to_zarr(path, mode="w" if k == 0 else "a", append_dim="time" if k else None, consolidated=False)
+    import zarr
+
+    with warnings.catch_warnings():  # xarray looks for it first, zarr says that it is no part of its standard
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path)
 
 
 def _timeless(maps: xr.Dataset) -> list:

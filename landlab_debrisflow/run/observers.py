@@ -1,6 +1,5 @@
 """Observers that the output keys of a scene ask for, and the files of what they saw."""
 
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -67,14 +66,6 @@ class Observers:
                 _write_table(folder / f"{name}.csv", dataset)
         if self._maps is not None and self._maps.files:
             combine_maps(self._maps.directory, folder / f"{SERIES}{SERIES_SUFFIX[self._format]}")
-
-    def remove_single_maps(self) -> None:
-        """Remove the maps that were written one by one, which are in one file now."""
-        if self._maps is not None and self._maps.files:
-            for path in self._maps.files:
-                path.unlink()
-            if not any(self._maps.directory.iterdir()):
-                shutil.rmtree(self._maps.directory)
 
 
 def _series(scene: Scene) -> dict[str, Any]:

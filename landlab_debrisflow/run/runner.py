@@ -89,6 +89,8 @@ def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
             directory.record.at_rest or longest <= directory.record.elapsed_time
         ):
             log.warning("the run in %s had come to its end; nothing is to be done", path)
+            if directory.record.at_rest:
+                directory.tidy()
             return Results(path)
         if not directory.checkpoints:
             log.warning("the run in %s had no checkpoint yet; it begins anew", path)
@@ -165,8 +167,7 @@ def _compute(
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
     if flow.at_rest:
-        directory.remove_checkpoints()
-        observers.remove_single_maps()
+        directory.tidy()
     return Results(directory.path)
 
 
