@@ -145,7 +145,9 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
             momentum = asked * velocity + depth * values.reshape(-1)
             np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
     asked += depth
-    soil = at.get("soil__depth", None)
+    soil = None
+    if "soil__depth" in at:  # at.get() of a grid returns a copy
+        soil = at["soil__depth"]
     if release.source == "above":
         at["topographic__elevation"] += depth
         if soil is not None:
