@@ -134,4 +134,6 @@ def _tell(results, quiet: bool) -> int:
             f"eroded, {grouped(budget['deposited'])} m3 deposited, {grouped(budget['outflow'])} m3 left the grid"
         )
         say(f"results in {results.directory}")
+        if not results.at_rest:
+            say("to go on: a longer max_duration in the scene, and landlab-debrisflow resume")
     return DONE if results.at_rest else STILL_MOVING

@@ -34,8 +34,8 @@ class MapSeries:
     """Writes maps at intervals, each to a small NetCDF file of its own, numbered from 0.
 
     A file holds numbers of single precision over a rectangle of nodes that has all flow so far in it, and is there as a
-    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one file of all, and a
-    small one: single maps are not compressed, which would take longer than all the rest.
+    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one small file
+    of all: single maps are not compressed, which would take longer than all the rest.
 
     Parameters
     ----------

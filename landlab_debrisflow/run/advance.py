@@ -17,11 +17,12 @@ def advance(flow: DebrisFlow, scene: Scene) -> None:
     scene : Scene
     """
     reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
+    end = scene.output_keys.max_duration
     for release in scene.releases:
-        if release.time == 0.0 or release.time < reached * (1.0 - 1e-12):
+        if release.time == 0.0 or not reached * (1.0 - 1e-12) <= release.time < end:
             continue
         if (left := release.time - flow.elapsed_time) > 1e-12 * release.time:
             flow.run_one_step(left)
         set_release(flow.grid, release)
-    if (left := scene.output_keys.max_duration - flow.elapsed_time) > 0.0:
+    if (left := end - flow.elapsed_time) > 0.0:
         flow.run_until_rest(left)
