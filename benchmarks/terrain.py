@@ -27,8 +27,8 @@ def write_dem(path, side=SIDE):
     from rasterio.windows import Window
 
     profile = {
-        "driver": "GTiff", "height": side, "width": side, "count": 1, "dtype": "int16", "crs": "EPSG:32633", "tiled": True,
-        "transform": Affine(SPACING, 0.0, WEST, 0.0, -SPACING, NORTH), "nodata": -32768,
+        "driver": "GTiff", "height": side, "width": side, "count": 1, "dtype": "int16", "crs": "EPSG:32633",
+        "tiled": True, "transform": Affine(SPACING, 0.0, WEST, 0.0, -SPACING, NORTH), "nodata": -32768,
     }  # fmt: skip
     with rasterio.open(path, "w", **profile) as target:
         target.scales = (0.1,)
