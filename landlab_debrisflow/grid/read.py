@@ -204,14 +204,19 @@ class GridReader:
         """Log doubts about the release that were not logged before; return the kinds of doubt logged.
 
         `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
-        logged before, "depth" and "nothing".
+        logged before, "depth", "velocity" and "nothing".
         """
         logged = ()
-        for doubt in () if "depth" in warned else doubts.release_doubts(self._grid, release.nodes, release.depth):
-            log.warning("%s", doubt)
-            logged = ("depth",)
+        found = {
+            "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
+            "velocity": doubts.velocity_doubts(release.velocity),
+        }
+        for kind, sentences in found.items():
+            for doubt in () if kind in warned else sentences:
+                log.warning("%s", doubt)
+                logged += (kind,)
         if release.nodes.size == 0 and new_event and "nothing" not in warned:
-            found = doubts.missing_release_reason(self._grid, soil.depth)
-            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
-            logged = ("nothing",)
+            reason = doubts.missing_release_reason(self._grid, soil.depth)
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", reason)
+            logged += ("nothing",)
         return logged
