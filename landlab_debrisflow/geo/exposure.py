@@ -1,4 +1,4 @@
-"""Exposure: what reached buildings, roads and other shapes, as a table."""
+"""Exposure of buildings, roads and further shapes to the flow, as a table."""
 
 import os
 from pathlib import Path
@@ -38,7 +38,7 @@ def exposure(
     crs: str | None = None,
     least_depth: float = LEAST_DEPTH,
 ) -> Any:
-    """Tell for every shape whether the flow reached it, how deep, how fast, with what pressure, and when first.
+    """Return the largest depth, speed and pressure, and the first arrival, at every shape.
 
     A shape has the cells that it covers in part or whole, so one smaller than a cell has values, too. The **largest**
     value is that over all these cells, the **mean** is weighted with the area of each cell inside the shape (the length

@@ -136,7 +136,7 @@ def _layers(frame: Frame) -> Iterator[tuple[int, str, np.ndarray]]:
 
 
 def _attributes(frame: Frame) -> dict[str, Any]:
-    """Return the attributes of the whole: those of the maps that hold at every time."""
+    """Return the attributes of the maps that hold at every time."""
     setup = {name: value for name, value in frame.first.attrs.items() if name.startswith("setup")}
     return file_attributes() | date_created() | _plain(setup)
 

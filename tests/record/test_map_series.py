@@ -105,6 +105,7 @@ def test_files_that_are_gone_are_told_of(tmp_path):
 def test_an_earlier_series_is_replaced_only_when_asked_to(tmp_path):
     (tmp_path / "maps_000007.nc").write_bytes(b"old")
     (tmp_path / "maps_of_mine.nc").write_bytes(b"mine")
+    (tmp_path / ".maps_000007.4711.nc").write_bytes(b"half a file of a process that was killed")
     with pytest.raises(InputError, match=r"already holds 1 maps of a series.*replace=True"):
         MapSeries(1.0, tmp_path)
     series = MapSeries(1.0, tmp_path, ["depth"], replace=True)
