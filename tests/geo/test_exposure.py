@@ -107,6 +107,7 @@ def test_without_a_system_a_table_is_written_alike(tmp_path):
     assert exposure(by_hand(), shapes(box(18, 8, 2, 2)), crs="EPSG:32633").crs.to_epsg() == 32633
 
 
+@pytest.mark.slow
 def test_a_building_in_the_way_of_a_flow():
     grid = inclined((20, 60), 5.0, 0.5, soil=1.0, foot=150.0)
     house = shapely.box(85.0, 40.0, 97.0, 56.0)
