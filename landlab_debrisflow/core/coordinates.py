@@ -91,7 +91,7 @@ def _depth(value) -> int:
 def _feature(name, value, levels, fewest, written) -> tuple:
     """Return one pair, or the tuple of pairs of a line or polygon."""
     if not isinstance(value, list | tuple | np.ndarray):
-        raise ParameterError(f"{name} must be {written}, got {_told(value)}")
+        raise ParameterError(f"{name} must be {written.split(' or ')[0]}, got {_told(value)}")
     if levels == 0:
         return _pair(name, value)
     pairs = tuple(_pair(f"{name}[{k}]", one) for k, one in enumerate(value))
@@ -101,7 +101,8 @@ def _feature(name, value, levels, fewest, written) -> tuple:
 
 
 def _pair(name, value) -> Pair:
-    if not isinstance(value, list | tuple | np.ndarray) or np.ndim(value) != 1 or len(value) != 2:
+    value = python_value(value)
+    if not isinstance(value, list | tuple | np.ndarray) or len(value) != 2:
         raise ParameterError(f"{name} must be two numbers in brackets, such as [500, 20.5], got {_told(value)}")
     numbers = [python_value(number) for number in value]
     for number in numbers:

@@ -13,7 +13,7 @@ from pathlib import Path
 import netCDF4
 import xarray as xr
 
-from ..core.errors import InputError
+from ..core.errors import InputError, OutputError
 from .files import check_writable
 
 VERSION = 1
@@ -81,7 +81,7 @@ def write_checkpoint(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
         os.replace(temporary, path)
     except OSError as error:
         kept = "; the checkpoint before is still there" if path.exists() else ""
-        raise InputError(f"cannot write checkpoint {path}: {error.strerror}{kept}") from error
+        raise OutputError(f"cannot write checkpoint {path}: {error.strerror}{kept}") from error
     finally:
         temporary.unlink(missing_ok=True)
     return path

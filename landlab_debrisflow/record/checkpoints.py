@@ -1,7 +1,7 @@
 """Observer that saves a flow by the clock on the wall."""
 
 import os
-import time
+from time import monotonic
 from typing import Any
 
 from .files import check_writable
@@ -37,7 +37,8 @@ class Checkpoints:
 
     def __init__(self, path: str | os.PathLike[str], interval: float = 60.0) -> None:
         self.path, self.wall_interval = check_writable(path), check_interval(interval, type(self).__name__)
-        self._last: float | None = None
+        self._last: float | None = None  # wall time [s]
+        self._tried: float | None = None  # elapsed time, if it was the last step [s]
 
     def observe(self, flow: Any) -> None:
         """Do nothing: checkpoints are made between steps."""
@@ -57,9 +58,14 @@ class Checkpoints:
         InputError
             If the file cannot be written; the checkpoint before stays.
         """
-        now = time.monotonic()
+        now = monotonic()
         if self._last is None:
             self._last = now
-        if broken_off or now - self._last >= self.wall_interval:
+        due = now - self._last >= self.wall_interval
+        if broken_off:  # what was saved after this step, or failed, is not tried again
+            due = self._tried != flow.elapsed_time
+        self._tried = None
+        if due:
+            self._last, self._tried = now, flow.elapsed_time
             flow.save(self.path)
-            self._last = time.monotonic()
+            self._last = monotonic()

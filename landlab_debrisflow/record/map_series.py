@@ -34,8 +34,8 @@ class MapSeries:
     """Writes maps at intervals, each to a small NetCDF file of its own, numbered from 0.
 
     A file holds numbers of single precision over a rectangle of nodes that has all flow so far in it, and is there as a
-    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one file of all, a
-    small one: single maps are not compressed, which would take longer than all the rest.
+    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one small file
+    of all: single maps are not compressed, which would take longer than all the rest.
 
     Parameters
     ----------
@@ -201,7 +201,13 @@ class MapSeries:
         return self.directory / f"{PREFIX}_{number:06d}.nc"
 
     def _remove_from(self, number: int) -> None:
-        """Remove the files with this number and later ones, the last first: what is left has no gap."""
+        """Remove the files from a number on, the last first, so that no gap is left.
+
+        Half a file that a killed process left beside them goes, too.
+        """
+        for path in self.directory.glob(f".{PREFIX}_*.nc"):
+            if re.fullmatch(rf"\.{PREFIX}_\d{{6,}}\.\d+\.nc", path.name):
+                path.unlink()
         for path in reversed(numbered_files(self.directory)):
             if (_number(path) or 0) >= number:
                 path.unlink()
@@ -219,7 +225,8 @@ def numbered_files(directory: str | os.PathLike[str]) -> list[Path]:
     -------
     list of pathlib.Path
     """
-    return sorted(path for path in Path(directory).iterdir() if _number(path) is not None)
+    numbers = {path: number for path in Path(directory).iterdir() if (number := _number(path)) is not None}
+    return sorted(numbers, key=numbers.__getitem__)
 
 
 def occupied(fields: Sequence[np.ndarray]) -> tuple[tuple[int, int], tuple[int, int]] | None:

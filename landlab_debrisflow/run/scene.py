@@ -10,7 +10,6 @@ import xarray as xr
 from landlab import RasterModelGrid
 
 from ..component import DebrisFlow
-from ..core.errors import InputError
 from ..geo.lattice import Lattice
 from ..scene.content import named_files, read_content, to_mapping
 from ..scene.digest import digest, file_digest
@@ -23,6 +22,7 @@ from ..scene.setup import Setup
 from ..scene.terrain import build_terrain, lattice_of
 from ..scene.zones import VaryingParameter, varying_parameters, with_fields
 from .grids import build_grid
+from .results import Results
 
 
 class Scene:
@@ -127,6 +127,11 @@ class Scene:
         return None if self._file is None else self._file.text
 
     @property
+    def path(self) -> Path | None:
+        """Scene file; None if the scene is from a mapping."""
+        return None if self._file is None else self._file.path
+
+    @property
     def output_directory(self) -> Path:
         """Directory of the results."""
         return self.folder / (self.output_keys.directory or f"{self.name}_out")
@@ -226,21 +231,40 @@ class Scene:
                 set_release(grid, release)
         return DebrisFlow(grid, observers=observers, **vars(self.setup))
 
-    def run(self, **options: Any) -> Path:
-        """Run the scene to rest and write its results.
+    def run(self, *, overwrite: bool = False) -> Results:
+        """Run the scene to rest and write its results; a line shows how it gets on.
 
         Parameters
         ----------
-        **options
-            As of `run_scene`.
+        overwrite : bool
+            Whether results of an earlier run in the output directory may be removed.
 
         Returns
         -------
-        Path
-            Directory of the results.
+        Results
+            Maps, budget and files in `output_directory`.
+
+        Raises
+        ------
+        InputError, ParameterError, OutputError, OSError, KeyboardInterrupt
+            As of `runner.run_scene`; after an interruption `resume` goes on.
         """
         from .runner import run_scene
 
-        if not self.releases and not self.setup.inflow:
-            raise InputError(f"{self.name}: nothing is released and nothing flows in; give release or inflow")
-        return run_scene(self, **options)
+        return run_scene(self, overwrite=overwrite)
+
+    def resume(self) -> Results:
+        """Go on with a run that was interrupted, to the results that it would have had without.
+
+        Returns
+        -------
+        Results
+
+        Raises
+        ------
+        InputError
+            If there is no run of this scene, or the scene or a file of it has changed.
+        """
+        from .runner import resume_scene
+
+        return resume_scene(self)

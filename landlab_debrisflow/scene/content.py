@@ -99,14 +99,27 @@ def to_mapping(content: SceneContent) -> dict[str, Any]:
 
 
 def named_files(content: SceneContent, folder: Path) -> list[Path]:
-    """Return the existing files that terrain and releases of a scene name, each once, in the order of the keys."""
+    """Return the existing files that terrain, releases and laws of a scene name, each once, in the order of the keys.
+
+    With a Shapefile come its siblings.
+
+    Parameters
+    ----------
+    content : SceneContent
+    folder : Path
+        Directory to which names of files are relative.
+
+    Returns
+    -------
+    list of Path
+    """
     files: dict[Path, None] = {}
-    for keys in (content.terrain, *content.release):
-        for text in _texts(_plain_keys(keys)):
-            for path in (folder / text, folder / text.rpartition(":")[0]):
-                if "\0" not in text and path.is_file():
-                    siblings = path.parent.glob(f"{path.stem}.*") if path.suffix.lower() == ".shp" else (path,)
-                    files |= dict.fromkeys(sorted(siblings))
+    for text in _texts({**to_mapping(content), "output": {}}):
+        for name in (text, text.rpartition(":")[0]):
+            path = folder / name
+            if name and "\0" not in name and path.is_file():
+                siblings = path.parent.glob(f"{path.stem}.*") if path.suffix.lower() == ".shp" else (path,)
+                files |= dict.fromkeys(sorted(siblings))
     return list(files)
 
 

@@ -28,20 +28,23 @@ def located(file: YamlFile | None, *path: str | int) -> Iterator[None]:
     try:
         yield
     except (ParameterError, InputError) as error:
-        message, first = str(error), str(path[0]) if path else "scene"
+        message = str(error)
         if file is not None and message.startswith(f"{file.path} line "):
             raise
+        blamed = path if file is None else _blamed(file.mapping, path, message)
+        if blamed[:1] != path[:1]:  # files of releases are read for the window of the terrain
+            path = blamed[:2] if len(blamed) > 1 and isinstance(blamed[1], int) else blamed[:1]
+        first = str(path[0]) if path else "scene"
         label = first + "".join(f"[{step}]" if isinstance(step, int) else f": {step}" for step in path[1:])
         if not message.startswith(label):
             message = f"{label}: {message.removeprefix(f'{first}: ').removeprefix(f'{first.capitalize()}: ')}"
-        if file is not None:
-            message = f"{file.path} line {file.lines.get(_blamed(file.mapping, path, message), 1)}: {message}"
-        raise type(error)(message) from error
+        place = "" if file is None else f"{file.path} line {file.lines.get(blamed, 1)}: "
+        raise type(error)(place + message) from error
 
 
 def _blamed(mapping: Any, path: tuple, message: str) -> tuple:
-    """Return the path of the key below `path` that a message names: by its word, else by its value."""
-    value = mapping
+    """Return the path of the key that a message names: below `path` by its word or value, else anywhere by value."""
+    value, named = mapping, path
     for step in path:
         if not _holds(value, step):
             return path
@@ -49,8 +52,10 @@ def _blamed(mapping: Any, path: tuple, message: str) -> tuple:
     for index, word in re.findall(r"\[(\d+)\]|(\w+)", re.split(r", got |; | must ", message)[0]):
         step = int(index) if index else word
         if _holds(value, step):
-            path, value = (*path, step), value[step]
-    return next((inner for inner, text in _texts(value, path) if text in message), path)
+            named, value = (*named, step), value[step]
+    here = [inner for inner, text in _texts(value, named) if text in message]
+    anywhere = [inner for inner, text in _texts(mapping, ()) if text in message] if named == path else []
+    return (here or anywhere or [named])[0]
 
 
 def _holds(value: Any, step: str | int) -> bool:

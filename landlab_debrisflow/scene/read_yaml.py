@@ -136,7 +136,7 @@ class _Reader:
         yaml = self._yaml
         if isinstance(event, yaml.AliasEvent) or event.anchor is not None:
             self._refuse(event, "anchors (&) and aliases (*) are not read; write the value out")
-        if event.tag is not None and event.tag != "!":  # "!" is how quotes are told by some parsers
+        if event.tag is not None:
             self._refuse(event, f"the tag {event.tag!r:.60} is not read; write plain values")
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)

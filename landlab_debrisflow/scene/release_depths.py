@@ -1,5 +1,6 @@
 """Depth over nodes of the bodies of a release: from polygons with a depth or volume, or from a raster."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,6 +13,7 @@ from ..geo.cover import covered_fraction
 from ..geo.lattice import Lattice, extent
 from ..geo.resampling import read_onto
 from ..geo.shapes import Shape
+from .failure_surface import failure_surface
 from .keys import ReleaseKeys
 from .shapes import shapes_of
 from .terrain import lattice_of
@@ -89,8 +91,8 @@ class Body(NamedTuple):
     notes: list[str]
 
 
-def polygon_depths(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
-    """Return the bodies below the polygons of a release.
+def polygon_depths(keys: ReleaseKeys, ground: Ground, folder: Path) -> Iterator[Body]:
+    """Yield the bodies below the polygons of a release.
 
     Parameters
     ----------
@@ -99,22 +101,21 @@ def polygon_depths(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body
     folder : Path
         Directory to which names of files are relative.
 
-    Returns
-    -------
-    list of Body
+    Yields
+    ------
+    Body
 
     Raises
     ------
     InputError
-        If a polygon has neither depth nor volume, or one out of bounds, or lies outside of the terrain.
+        If a polygon has neither depth nor volume, or one out of bounds, or lies outside of the terrain, or if no body
+        of that size could leave it.
     """
     notes: list[str] = []
-    bodies = [
-        _polygon_body(keys, shape, ground)
-        for shape in shapes_of(keys.polygons, "polygon", ground.lattice, folder, notes)
-    ]
-    bodies[0].notes[:0] = notes
-    return bodies
+    for shape in shapes_of(keys.polygons, "polygon", ground.lattice, folder, notes):
+        body = _polygon_body(keys, shape, ground)
+        yield Body(body.depth, [*notes, *body.notes])
+        notes = []
 
 
 def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
@@ -135,8 +136,34 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
             f"{shape.label}: {100.0 * (1.0 - inside / whole):.3g} % of it lie outside, on the edge of the grid or "
             f"without elevation; {kept}"
         )
-    depth = usable * (mean_depth if volume is None else volume / inside)
-    return Body(depth, notes)
+    if keys.from_ == "above" or keys.failure_surface == "uniform":
+        return Body(usable * (mean_depth if volume is None else volume / inside), notes)
+    return Body(_failing_depth(keys, usable, mean_depth, volume, ground, shape.label), notes)
+
+
+def _failing_depth(
+    keys: ReleaseKeys, usable: np.ndarray, mean_depth: float | None, volume: float | None, ground: Ground, label: str
+) -> np.ndarray:
+    """Return the depth of the body that fails within an outline [m]; only the nodes around it are looked at.
+
+    `usable` is the fraction of each cell inside [-], shape (rows, columns); of `mean_depth` [m] and `volume` [m3] one
+    is None.
+    """
+    rows, columns = np.nonzero(usable)
+    near = slice(rows.min() - 1, rows.max() + 2), slice(columns.min() - 1, columns.max() + 2)  # the rim has no release
+    depth, kind = np.zeros_like(usable), keys.failure_surface or "tapered"
+    try:
+        depth[near] = failure_surface(
+            usable[near],
+            ground.elevation[near],
+            ground.lattice.spacing,
+            kind=kind,
+            mean_depth=mean_depth,
+            volume=volume,
+        )
+    except InputError as error:
+        raise InputError(f"{label}: {error}; in a scene that is from: above") from error
+    return depth
 
 
 def _amount(keys: ReleaseKeys, shape: Shape) -> tuple[float | None, float | None]:

@@ -81,14 +81,16 @@ def schedule_releases(
 
 def _scheduled(keys: ReleaseKeys, ground: Ground, folder: Path, label: str) -> ScheduledRelease:
     found = polygon_depths(keys, ground, folder) if keys.kind == "polygons" else raster_depth(keys, ground, folder)
-    depth, notes = np.zeros(ground.lattice.shape), []
-    weighted = np.zeros((2, *ground.lattice.shape))
+    shape, moves = ground.lattice.shape, keys.velocity is not None or keys.speed is not None
+    depth, weighted, notes = np.zeros(shape), np.zeros((2, *shape)) if moves else None, []
     for body in found:
         depth += body.depth
         notes += body.notes
-        weighted += body.depth * _start_velocity(keys, body.depth, ground)[:, None, None]
-    moves = keys.velocity is not None or keys.speed is not None
-    velocity = np.divide(weighted, depth, out=np.zeros_like(weighted), where=depth > 0.0) if moves else None
+        if weighted is not None:
+            weighted += body.depth * _start_velocity(keys, body.depth, ground)[:, None, None]
+    velocity = None
+    if weighted is not None:
+        velocity = np.divide(weighted, depth, out=np.zeros_like(weighted), where=depth > 0.0)
     notes += _doubts(keys, depth, ground)
     return ScheduledRelease(keys.time, depth, keys.from_, velocity, label, tuple(f"{label}: {note}" for note in notes))
 
@@ -143,7 +145,7 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
             momentum = asked * velocity + depth * values.reshape(-1)
             np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
     asked += depth
-    soil = at.get("soil__depth", None)
+    soil = at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401  get() of Landlab's finds none
     if release.source == "above":
         at["topographic__elevation"] += depth
         if soil is not None:

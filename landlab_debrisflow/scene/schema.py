@@ -17,6 +17,7 @@ from ..model.numerics import Numerics
 from ..physics.material import Material
 from ..physics.registry import LAWS
 from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .zones import KINDS as ZONED
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 MEANINGS = {
@@ -50,9 +51,13 @@ def scene_schema() -> dict[str, Any]:
         "terrain": _declared(TerrainKeys), "release": _declared(ReleaseKeys), "output": _declared(OutputKeys),
         "material": _declared(Material), "numerics": _declared(Numerics), "inflow": _declared(Hydrograph),
     }  # fmt: skip
-    definitions["release"]["oneOf"] = [{"required": [kind]} for kind in ("polygons", "raster", "points")]
-    definitions["inflow"]["required"] = ["line_start", "line_end", "times", "discharge", "velocity"]
-    definitions["terrain"]["oneOf"] = [{"required": ["elevation"]}, {"required": ["example"]}]
+    definitions["release"]["oneOf"] = [_is_set(kind) for kind in ("polygons", "raster", "points")]
+    for form in definitions["terrain"]["properties"]["zones"]["anyOf"]:
+        _restrict_zone(form.get("items", form))
+    definitions["terrain"]["oneOf"] = [_is_set(kind) for kind in ("elevation", "example")]
+    definitions["inflow"]["allOf"] = [
+        _is_set(key) for key in ("line_start", "line_end", "times", "discharge", "velocity")
+    ]
     properties: dict[str, Any] = {"terrain": _reference("terrain")}
     properties["release"] = _one_or_several(_reference("release")) | {"description": MEANINGS["release"]}
     properties["output"] = _or_null(_reference("output"))
@@ -67,8 +72,27 @@ def scene_schema() -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _restrict_zone(zone: dict[str, Any]) -> None:
+    """Restrict the parameters of laws in a zone to numbers that may vary in space, in place."""
+    for kind in ZONED:
+        varying = {}
+        for law in LAWS[kind].values():
+            for name, field in keys_of(law).items():
+                if field.metadata["varies"]:
+                    varying[name] = _number(field.metadata)
+        zone["properties"][kind] = {
+            "description": f"parameters of the {kind} law inside, by name",
+            "anyOf": [{"type": "object", "properties": varying, "additionalProperties": False}, {"type": "null"}],
+        }
+
+
 def _reference(name: str) -> dict[str, Any]:
     return {"$ref": f"#/$defs/{name}"}
+
+
+def _is_set(key: str) -> dict[str, Any]:
+    """Return the schema of mappings in which a key is there and not null."""
+    return {"required": [key], "properties": {key: {"not": {"type": "null"}}}}
 
 
 def _or_null(schema: Mapping[str, Any]) -> dict[str, Any]:
@@ -144,6 +168,8 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
         return [item, {"type": "array", "items": item}]
     if kind is bool:
         return [{"type": "boolean"}]
+    if kind is dict:
+        return [{"type": "object"}]
     forms: list[dict[str, Any]] = [{"type": "string", "pattern": r"\S"}] if meta["file"] else []
     if meta["coordinates"]:
         return forms + _coordinates(meta["coordinates"], meta["named"])
@@ -152,17 +178,13 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
     if meta["choices"]:
         words = {"enum": list(meta["choices"])}
         if meta["length"] is not None:
-            number = {"type": "number"}
-            return [words, {"type": "array", "items": number, "minItems": meta["length"], "maxItems": meta["length"]}]
+            return [words, _numbers(meta)]
         return [words, {"type": "array", "items": words}] if kind is tuple else [words]
     if kind is str:
         return forms
-    number = _number(meta)
-    several = {"type": "array", "items": number}
     if kind is tuple:
-        length = meta["length"]
-        return [number, several] if length is None else [several | {"minItems": length, "maxItems": length}]
-    forms.insert(0, number)
+        return [_numbers(meta)] if meta["length"] is not None else [_number(meta), _numbers(meta)]
+    forms.insert(0, _number(meta))
     if meta["varies"]:
         forms += [
             {"type": "string", "pattern": NO_NUMBER},
@@ -179,6 +201,12 @@ def _number(meta: Mapping[str, Any]) -> dict[str, Any]:
     if high < math.inf:
         schema["maximum"] = high
     return schema
+
+
+def _numbers(meta: Mapping[str, Any]) -> dict[str, Any]:
+    length = meta["length"]
+    fixed = {} if length is None else {"minItems": length, "maxItems": length}
+    return {"type": "array", "items": _number(meta)} | fixed
 
 
 def _coordinates(form: str, named: bool) -> list[dict[str, Any]]:

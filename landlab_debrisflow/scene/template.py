@@ -17,7 +17,8 @@ from .keys import OutputKeys, ReleaseKeys, TerrainKeys
 COMMENT_AT, WIDTH = 44, 118
 """Column at which comments begin, and length of a line at most."""
 SCHEMA_FILE = "scene.schema.json"
-PLAIN = re.compile(r"[A-Za-z_./][\w./-]*( [\w./-]+)*\Z")
+PLAIN = re.compile(r"([A-Za-z_/]|\.\.?/)[\w./-]*( [\w./-]+)*\Z")
+"""Text that needs no quotes."""
 HEAD = f"""\
 # yaml-language-server: $schema={SCHEMA_FILE}
 #
@@ -41,7 +42,7 @@ def scene_text(
     name: str, terrain: Mapping[str, Any], release: Mapping[str, Any], remarks: Iterable[str] = (),
     notes: Mapping[str, str] | None = None, settings: Mapping[str, Mapping[str, Any]] | None = None,
 ) -> str:  # fmt: skip
-    """Return the text of a scene file with some keys set and all others as comments.
+    """Return the text of a scene file with some keys set and every other key as a comment.
 
     Parameters
     ----------
@@ -95,7 +96,7 @@ def yaml_text(value: Any) -> str:
 
 
 def _keys(cls: type, given: Mapping[str, Any], notes: Mapping[str, str]) -> list[str]:
-    """Return a line, or some, for every key of a declared class: first those given, then the others as comments."""
+    """Return a line, or some, for every key of a declared class: first the given keys, then other keys as comments."""
     lines = []
     fields = keys_of(cls)
     for key in [*given, *(key for key in fields if key not in given)]:
@@ -107,11 +108,10 @@ def _keys(cls: type, given: Mapping[str, Any], notes: Mapping[str, str]) -> list
 
 def _line(text: str, comment: str) -> list[str]:
     """Return a line of text with a comment behind, on further lines if it is long."""
-    words = textwrap.wrap(comment, WIDTH - COMMENT_AT - 2)
+    lines = [f"# {line}" for line in textwrap.wrap(comment, WIDTH - COMMENT_AT - 4, subsequent_indent="  ")]
     if len(text) > COMMENT_AT - 2:
-        return [*(f"  # {line}" for line in textwrap.wrap(comment, WIDTH - 4)), text]
-    first, *others = words
-    return [f"{text:<{COMMENT_AT}}# {first}", *(f"{'':{COMMENT_AT}}#   {line}" for line in others)]
+        return [text, *(f"{'':{COMMENT_AT}}{line}" for line in lines)]
+    return [f"{text:<{COMMENT_AT}}{lines[0]}", *(f"{'':{COMMENT_AT}}{line}" for line in lines[1:])]
 
 
 def _meaning(meta: Mapping[str, Any]) -> str:
@@ -128,7 +128,7 @@ def _mapping(key: str, lines: list[str]) -> list[str]:
 
 
 def _laws(kind: str, laws: Mapping[str, type], given: Mapping[str, Any]) -> list[str]:
-    """Return the lines of a kind of law: one that is chosen, then the others as comments."""
+    """Return the lines of a kind of law: the chosen law, then every other law as a comment."""
     chosen = given.get("law", next(iter(laws)))
     values = {key: value for key, value in given.items() if key != "law"}
     lines = [f"{kind}:", *_line(f"  law: {chosen}", ", ".join(laws)), *_keys(laws[chosen], values, {})]
@@ -140,5 +140,5 @@ def _laws(kind: str, laws: Mapping[str, type], given: Mapping[str, Any]) -> list
 
 
 def _commented(lines: list[str]) -> list[str]:
-    """Return lines as comments, all with the mark in front."""
+    """Return lines as comments, every line with the mark in front."""
     return [f"# {line.replace('  # ', '  ', 1) if line.startswith('  # ') else line}" for line in lines]
