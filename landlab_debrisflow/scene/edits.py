@@ -71,10 +71,10 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
         source = folder / value if isinstance(value, str) else value
         try:
             shapes = read_shapes(source, extent.crs, kind=kind, bounds=extent.bounds, notes=notes)
-            change = {"dam": _raise_crest, "wall": _raise_crest, "excavation": _dig, "buildings": _build}[edit.kind]
             if edit.kind == "buildings":
-                told = change(edit, shapes, ground)
+                told = _build(edit, shapes, ground)
             else:
+                change = _dig if edit.kind == "excavation" else _raise_crest
                 told = "; ".join(filter(None, (change(edit, shape, ground) for shape in shapes)))
         except InputError as error:
             raise InputError(f"edits[{k}]: {edit.kind}: {error}") from error

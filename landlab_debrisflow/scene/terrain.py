@@ -237,5 +237,6 @@ def _number_or_raster(name: str, value, lattice: Lattice, folder: Path, crs, not
     if missing.any():
         said(notes, f"{name}: 0 at {np.count_nonzero(missing)} nodes without data in {value}")
     values[missing] = 0.0
-    in_range(f"{name}: values of {folder / value}", values, *bounds, unit, form="g", error=InputError)
+    low, high = bounds
+    in_range(f"{name}: values of {folder / value}", values, low, high, unit, form="g", error=InputError)
     return values
