@@ -36,7 +36,7 @@ class Terrain(NamedTuple):
     lower_left : tuple of float
         Map coordinates of the first node [m].
     changed : bool
-        Whether elevation or status differ from what the last call left.
+        Whether elevation or status differ from what the last call left, other than by what is released now.
     """
 
     elevation: np.ndarray
@@ -148,6 +148,8 @@ class GridReader:
         parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
         check_lines(terrain, inflow)
         release = read_release(grid, soil.depth) if with_release else NO_RELEASE
+        if terrain.changed and grid_bed.is_below(release, terrain.elevation, terrain.status):
+            terrain = terrain._replace(changed=False)
         warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
 

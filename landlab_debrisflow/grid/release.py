@@ -97,7 +97,7 @@ def read_velocity(grid, nodes):
         moving = moving[grid.status_at_node[moving] != CLOSED]
         if (bad := moving[~np.isfinite(values[moving]) | is_fill(values[moving])]).size:
             raise InputError(
-                f"{name} must be a velocity in m/s, got {values[bad[0]]:g} at {where(grid, bad[0])}; set 0 where "
+                f"{name} must be finite, in m/s, got {values[bad[0]]:g} at {where(grid, bad[0])}; set 0 where "
                 f"nothing fails, or fails at rest{replacement_remedy(name, values, values[bad[0]])}"
             )
         if (alone := np.setdiff1d(moving, nodes, assume_unique=True)).size:

@@ -124,7 +124,7 @@ def _warn_of_pits(bed, sites, nodes, depth) -> None:
     if volume > WORTH_SAYING * sites.volume.sum():
         log.warning(
             "%.3g of the %.3g m3 released lie below the lowest ground beside their scar: a pit that they cannot leave "
-            "by themselves. Let the depth taper towards the lower rim, or add the release to topographic__elevation "
-            "(and soil__depth) first, which lays it on top of the ground",
+            "by themselves. Let the depth taper towards the lower rim (failure_surface of landlab_debrisflow.scene), "
+            "or lay the release on top of the ground (lay_on_top)",
             volume, sites.volume.sum(),
         )  # fmt: skip
