@@ -218,8 +218,8 @@ class Landscape:
             flow.new_event()
             flow.run_until_rest()
             edge.append(before["outflow"] - flow.budget["outflow"])
-        peaks = flow.maps[PEAKS].assign_coords(year=year, trigger=trigger, released=volume)
-        self.events.append(peaks.drop_attrs())  # parameters are those of the flow
+        peaks = flow.maps[PEAKS].drop_attrs().expand_dims(year=[year])  # its attributes are those of the flow
+        self.events.append(peaks.assign(trigger=("year", [trigger]), released=("year", [volume])))
 
 
 def main(years: int = 100, rows: int = 100, columns: int = 100, particles: int = 1500, seed: int = 2) -> Landscape:
@@ -256,7 +256,7 @@ def main(years: int = 100, rows: int = 100, columns: int = 100, particles: int =
             f"debris flows close to {abs(flows.residual) / flows.moved:.0e} of what they moved", highlight=False
         )
     for event in landscape.events:
-        told = f"year {int(event.year):3}, {event.trigger.item():8}: {event.released.item():8.0f} m3, peak depth"
+        told = f"year {event.year.item():3}, {event.trigger.item():8}: {event.released.item():8.0f} m3, peak depth"
         console.print(f"{told} {event.debris_flow__max_depth.max().item():4.1f} m", highlight=False)
     return landscape
 

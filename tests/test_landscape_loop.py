@@ -22,7 +22,8 @@ PEAK, ARRIVAL = "debris_flow__max_depth", "debris_flow__arrival_time"
 def test_the_example_shortened(capsys, monkeypatch):
     example = load("landscape")
     monkeypatch.setitem(example.SLOPE_STRENGTH, "soil__internal_friction_angle", 34.0)  # more fails in a few years
-    monkeypatch.setitem(example.ROCK_STRENGTH, "angle_int_frict", 0.65)
+    weak = {"angle_int_frict": 0.55, "cohesion_eff": 5e3, "landslides_return_time": 500.0}
+    monkeypatch.setattr(example, "ROCK_STRENGTH", weak)
     landscape = example.main(years=15, rows=60, columns=60, particles=150)
     entries, grid = landscape.ledger.entries, landscape.grid
     told = capsys.readouterr().out

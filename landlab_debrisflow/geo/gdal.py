@@ -24,7 +24,7 @@ PICTURE = ("red", "green", "blue", "alpha", "palette", "cyan", "hue", "Y", "Cb",
 
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[Any]:
-    """Open a raster by rasterio; refuse what its libraries refuse, also while the block reads.
+    """Open a raster by rasterio, and turn failures of its libraries, also in the block, into refusals.
 
     Raises
     ------

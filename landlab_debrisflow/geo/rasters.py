@@ -91,7 +91,7 @@ def read_raster(
 
 
 def open_raster(path: str | Path, crs: str | None = None, notes: list[str] | None = None) -> RasterSource:
-    """Open a raster without reading its values; arguments, errors and notes are those of `read_raster`."""
+    """Open a raster without reading its values; arguments, errors and notes are as of `read_raster`."""
     path, choice = find_file(path)
     if not path.is_file():
         raise InputError(f"cannot read {path}: it is a directory; give the name of a file in it")
@@ -113,7 +113,7 @@ def read_window(
     source: RasterSource, window: Window, shape: tuple[int, int] | None = None, *, missing: float | None = None,
     lengths: bool = True, notes: list[str] | None = None,
 ) -> np.ndarray:  # fmt: skip
-    """Return the values of a window of a raster [m, or what they are in], NaN where there are no data.
+    """Return the values of a window of a raster [m], NaN where there are no data.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def checksum_of(path: Path) -> str:
 
 
 def _referenced(lattice: Lattice, crs: str | None, path: Path, notes: list[str] | None) -> Lattice:
-    """Return a lattice with a coordinate reference system in metres, that of the file or the one given."""
+    """Return a lattice with a coordinate reference system in metres, its own or the one given."""
     given = None if crs is None else wkt_of(crs)
     if lattice.crs is None:
         if given is None:

@@ -136,7 +136,7 @@ def _moved_bounds(lattice: Lattice, crs: str) -> Bounds:
 
 
 def _check_cover(source: RasterSource, wanted: Bounds, system: str) -> None:
-    """Refuse a raster that ends more than a cell before the edge of what is wanted."""
+    """Refuse a raster that ends more than a cell before the edge of a rectangle [m]."""
     west, south, east, north = source.lattice.bounds
     dx, dy = (math.ceil(1e6 * step) / 1e6 for step in source.lattice.spacing)
     if wanted[0] < west - dx or wanted[1] < south - dy or wanted[2] > east + dx or wanted[3] > north + dy:

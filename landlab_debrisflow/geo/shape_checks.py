@@ -24,7 +24,7 @@ MOST_LISTED = 5
 
 
 def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, notes: list[str] | None) -> list[Any]:
-    """Return geometries in two dimensions, mended; refuse the others.
+    """Return geometries in two dimensions, mended; refuse unusable ones.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def _joined(geometry, label: str):
 
 
 def note_outside(geometries: Sequence[Any], labels: Sequence[str], bounds: Bounds, notes: list[str] | None) -> None:
-    """Refuse shapes wholly outside a rectangle [m], and note which part of the others is outside.
+    """Refuse shapes wholly outside a rectangle [m], and note the percentage of shapes that is outside.
 
     Raises
     ------

@@ -138,7 +138,7 @@ def _features(path: Path, choice: str | None, notes: list[str] | None):
 
 
 def _is_set(value) -> bool:
-    """Return whether an attribute has a value; missing ones are None, NaN or NaT, none of which equals itself."""
+    """Return whether an attribute has a value, which None, NaN and NaT are not."""
     try:
         return value is not None and bool(value == value)
     except (TypeError, ValueError):  # pandas.NA, lists

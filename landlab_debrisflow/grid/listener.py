@@ -37,7 +37,7 @@ class CallListener:
         self._flow, self._writer, self._interruption = flow, writer, interruption
         self.reports, self.requests, self.between_steps = Reports(flow), [], False
         for observer in flow._observers:
-            if hasattr(observer, "prepare"):
+            if callable(getattr(observer, "prepare", None)):
                 observer.prepare(flow.grid, flow.setup)
 
     def begun(self) -> None:
@@ -78,9 +78,11 @@ class CallListener:
 
     def _follow(self, began: float, time: float) -> None:
         """Tell observers of a step from `began` to `time` [s], even if one of them fails."""
+        particles = self._writer.simulation.particles
         for observer in self._flow._observers:
-            if hasattr(observer, "follow"):
-                self._call(observer.follow, self._writer.simulation.particles, began, time)
+            if callable(getattr(observer, "follow", None)):
+                self._call(observer.follow, particles, began, time)
+        particles.departed = None  # no more is to be known of them
 
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
@@ -92,7 +94,7 @@ class CallListener:
 
     def _pause(self, broken_off: bool = False) -> None:
         """Carry out requests of the step, then let observers keep the state; `broken_off`: the run ends here."""
-        keepers = [observer for observer in self._flow._observers if hasattr(observer, "keep")]
+        keepers = [observer for observer in self._flow._observers if callable(getattr(observer, "keep", None))]
         if not (keepers or self.requests):
             return
         self.between_steps = True

@@ -31,7 +31,7 @@ def write_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> xr.Dataset:
     """
     added, kept = {}, []
     for k, observer in enumerate(observers):
-        kept.append(hasattr(observer, "state"))
+        kept.append(callable(getattr(observer, "state", None)))
         for j, (key, value) in enumerate(observer.state().items() if kept[-1] else ()):
             name, text = f"observer_{k}_{j}", isinstance(value, str)
             values = np.frombuffer(value.encode(), np.uint8) if text else np.asarray(value)

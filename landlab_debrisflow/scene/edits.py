@@ -82,7 +82,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
 
 
 def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Raise the ground along a line to a crest, with sloping sides or upright ones; return what was done.
+    """Raise the ground along a line to a crest, with sloping sides or upright ones; return a report.
 
     Every node within half a diagonal of a cell from the line gets the crest, so that it has no gap between nodes.
     """
@@ -157,7 +157,7 @@ def _check_thickness(shape: Shape, nodes: np.ndarray, ground: Ground, width: flo
 
 
 def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return what was done."""
+    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return a report."""
     lattice = ground.lattice
     nodes = nodes_inside(shape.geometry, lattice)
     if nodes.size == 0:
@@ -191,7 +191,7 @@ def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
 
 
 def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
-    """Close the nodes of buildings, or raise them by a height; return what was done."""
+    """Close the nodes of buildings, or raise them by a height; return a report."""
     lattice = ground.lattice
     raised, closed, thin = 0, 0, []
     for shape in shapes:

@@ -173,6 +173,8 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
     forms: list[dict[str, Any]] = [{"type": "string", "pattern": r"\S"}] if meta["file"] else []
     if meta["coordinates"]:
         return forms + _coordinates(meta["coordinates"], meta["named"])
+    if kind is dict:
+        return [{"type": "object", "additionalProperties": {"type": "number"}}]
     if meta["choices"]:
         words = {"enum": list(meta["choices"])}
         if meta["length"] is not None:

@@ -37,7 +37,7 @@ def build_terrain(
     keys: TerrainKeys, folder: Path, releases: Sequence[ReleaseKeys] = (), inflow: Sequence[Hydrograph] = (),
     parameters: Sequence[VaryingParameter] = (),
 ) -> xr.Dataset:  # fmt: skip
-    """Return elevation, soil and what else varies over ``y`` and ``x``, named as fields of the grid.
+    """Return elevation, soil and varying parameters over ``y`` and ``x``, named as fields of the grid.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ EDITS_WITH = {
 
 @declared
 class Zone:
-    """Polygons in which soil or parameters of the laws of friction and erosion differ from those of the scene."""
+    """Polygons with soil and parameters of friction and erosion of their own."""
 
     keyword: ClassVar = "zone"
 

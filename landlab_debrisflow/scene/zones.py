@@ -69,7 +69,7 @@ def has_suffix(name: Any, suffixes: Sequence[str]) -> bool:
 
 
 def varying_parameters(setup: Setup, zones: Iterable[Zone]) -> tuple[VaryingParameter, ...]:
-    """Return the parameters that zones change, or that a setup gives as rasters; no file is read.
+    """Return the parameters that vary by zones or rasters, without reading a file.
 
     Parameters
     ----------
