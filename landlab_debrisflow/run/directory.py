@@ -13,7 +13,7 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, RECORD, SERIES, UNFINISHED
+from .files import CHECKPOINT, LOCK, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
 TEMPORARY = re.compile(r"\.(run|checkpoint|maps_\d+)\.\d+\.(json|nc)")
@@ -175,8 +175,16 @@ class OutputDirectory:
             shutil.rmtree(temporary, ignore_errors=True)
         return names
 
-    def remove_checkpoints(self) -> None:
-        """Remove the checkpoints of a run that has ended."""
+    def tidy(self) -> None:
+        """Remove what only a run that goes on needs: checkpoints, and single maps that are in one file now."""
+        self._remove_checkpoints()
+        if any((self.path / f"{SERIES}{suffix}").exists() for suffix in SERIES_SUFFIX.values()):
+            for path in self.path.glob(f"{SERIES}/maps_*.nc"):
+                path.unlink()
+            with contextlib.suppress(OSError):  # it holds something else
+                (self.path / SERIES).rmdir()
+
+    def _remove_checkpoints(self) -> None:
         for path in self.checkpoints:
             path.unlink()
 
@@ -185,7 +193,7 @@ class OutputDirectory:
         shutil.rmtree(self.path / UNFINISHED, ignore_errors=True)
         if self.record is None:
             return
-        self.remove_checkpoints()
+        self._remove_checkpoints()
         folder = self.path.resolve()
         for name in self.record.files:
             if not isinstance(name, str) or not name or Path(name).is_absolute() or ".." in Path(name).parts:

@@ -47,6 +47,7 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     KeyboardInterrupt
         After the step. What was computed is kept: `resume_scene` goes on.
     """
+    _ = scene.places
     if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
         raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
     with OutputDirectory.claimed(scene.output_directory) as directory:
@@ -88,6 +89,8 @@ def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
             directory.record.at_rest or longest <= directory.record.elapsed_time
         ):
             log.warning("the run in %s had come to its end; nothing is to be done", path)
+            if directory.record.at_rest:
+                directory.tidy()
             return Results(path)
         if not directory.checkpoints:
             log.warning("the run in %s had no checkpoint yet; it begins anew", path)
@@ -164,7 +167,7 @@ def _compute(
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
     if flow.at_rest:
-        directory.remove_checkpoints()
+        directory.tidy()
     return Results(directory.path)
 
 
