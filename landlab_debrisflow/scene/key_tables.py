@@ -66,4 +66,6 @@ def _allowed(meta: Mapping[str, Any]) -> str:
         forms.append(f"list of {meta['length']} numbers")
     elif meta["choices"] or meta["kind"] is not str:
         forms.append(allowed(meta))
+    elif not forms:
+        forms.append("text")
     return " or ".join(forms)
