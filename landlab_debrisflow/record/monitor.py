@@ -101,7 +101,7 @@ class Monitor:
             self._display.close()
 
     def say(self, text: str) -> None:
-        """Show a text in place of the line until it is renewed, such as what takes long before the first step."""
+        """Show a text in place of the line until the next step, such as the reason why the first one takes long."""
         if text != self._said:
             log.info("%s", text)
         self._said = text

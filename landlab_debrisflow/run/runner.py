@@ -56,7 +56,7 @@ def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = 
 
 
 def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
-    """Go on with the run of a scene from its last checkpoint; results are those of a run that was never interrupted.
+    """Go on with the run of a scene from its last checkpoint, to the results of a run without interruption.
 
     Without a checkpoint the run begins anew. A run that had come to its end stays as it is, unless it still moved and
     the scene now has a longer `max_duration`.
