@@ -49,7 +49,7 @@ def test_run_tells_volumes_and_that_it_still_moves(scene, capsys):
     first, second, third = out.splitlines()
     assert first.startswith("still moving at 3 s: ") and " m3 released, " in first
     assert second == "results in slope_out" and "landlab-debrisflow resume" in third
-    assert "front at" in err  # no terminal: a log
+    assert ", moving " in err  # no terminal: a log
     line = refused(["run", scene], exit_codes.USER_ERROR, capsys)
     assert "--overwrite" in line
     assert main.main(["run", scene, "--overwrite", "--quiet"]) == exit_codes.STILL_MOVING
@@ -61,7 +61,7 @@ def test_a_log_gets_what_standard_error_does_not(scene, tmp_path, capsys):
     assert main.main(["run", scene, "--quiet", "--log", "run.log"]) == exit_codes.STILL_MOVING
     assert capsys.readouterr() == ("", "")
     log = (tmp_path / "run.log").read_text(encoding="utf-8")
-    assert "front at" in log and "warning: not at rest after 3 s" in log
+    assert ", moving " in log and "warning: not at rest after 3 s" in log
     assert "cannot write" in refused(["run", scene, "--log", "no/run.log"], exit_codes.CANNOT_WRITE, capsys)
 
 
