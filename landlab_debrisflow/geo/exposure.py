@@ -1,6 +1,7 @@
-"""Exposure: what reached buildings, roads and other shapes, as a table."""
+"""Exposure of buildings, roads and further shapes to the flow, as a table."""
 
 import os
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,7 @@ def exposure(
     crs: str | None = None,
     least_depth: float = LEAST_DEPTH,
 ) -> Any:
-    """Tell for every shape whether the flow reached it, how deep, how fast, with what pressure, and when first.
+    """Return the largest depth, speed and pressure, and the first arrival, at every shape.
 
     A shape has the cells that it covers in part or whole, so one smaller than a cell has values, too. The **largest**
     value is that over all these cells, the **mean** is weighted with the area of each cell inside the shape (the length
@@ -94,7 +95,7 @@ def exposure(
     import geopandas
 
     columns = {"id": names} | {name: [row[name] for row in rows] for name in rows[0]}
-    return geopandas.GeoDataFrame(columns, geometry=list(frame.geometry), crs=frame.crs)
+    return geopandas.GeoDataFrame(columns, geometry=list(frame.geometry), crs=frame.crs or lattice.crs)
 
 
 def write_exposure(path: str | os.PathLike[str], table: Any) -> Path:
@@ -129,7 +130,9 @@ def write_exposure(path: str | os.PathLike[str], table: Any) -> Path:
         text = table.drop(columns=table.geometry.name).to_csv(index=False)
         return write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
     if path.suffix == ".gpkg":
-        return write_atomically(path, lambda temporary: table.to_file(temporary, driver="GPKG", layer="exposure"))
+        with warnings.catch_warnings():  # that no system is known, which is so where the maps have none
+            warnings.filterwarnings("ignore", message="'crs' was not provided")
+            return write_atomically(path, lambda temporary: table.to_file(temporary, driver="GPKG", layer="exposure"))
     raise InputError(f"write_exposure: the name must end in .gpkg or .csv, got {path.name!r}")
 
 

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 
 from . import checkpoint
+from .checkpoint_checks import check_contents
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
@@ -118,6 +119,9 @@ class GridCall:
 
     def load(self, dataset) -> None:
         """Put the flow into the state of a Dataset from `save`, whose fields the grid has already."""
+        terrain = self.flow.grid.shape, (self.flow.grid.dx, self.flow.grid.dy)
+        rows = self._simulation.inflow.rows
+        check_contents(dataset, self._capture(None), checkpoint.PARTICLE, *terrain, rows)
         end = checkpoint.restore(self._writer, self._reader, self._listener.reports, dataset)
         if end is not None:
             self.rollback.break_off(end)

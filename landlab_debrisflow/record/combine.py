@@ -12,7 +12,7 @@ import xarray as xr
 
 from ..core.errors import InputError
 from .attributes import date_created, file_attributes, variable_attributes
-from .files import check_directory, write_atomically
+from .files import check_directory, raise_if_full, write_atomically
 from .georeference import GRID_MAPPING
 from .map_series import numbered_files
 
@@ -136,7 +136,7 @@ def _layers(frame: Frame) -> Iterator[tuple[int, str, np.ndarray]]:
 
 
 def _attributes(frame: Frame) -> dict[str, Any]:
-    """Return the attributes of the whole: those of the maps that hold at every time."""
+    """Return the attributes of the maps that hold at every time."""
     setup = {name: value for name, value in frame.first.attrs.items() if name.startswith("setup")}
     return file_attributes() | date_created() | _plain(setup)
 
@@ -199,6 +199,9 @@ def _replace_store(path: Path, frame: Frame) -> Path:
         if path.exists():
             os.replace(path, old)
         os.replace(temporary, path)
+    except Exception as failure:
+        raise_if_full(path, failure)
+        raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
         shutil.rmtree(old, ignore_errors=True)

@@ -1,5 +1,7 @@
 """Crossings of paths and a line."""
 
+from typing import Any
+
 import numpy as np
 
 
@@ -30,13 +32,7 @@ def crossings(start: np.ndarray, end: np.ndarray, line: np.ndarray) -> tuple[np.
     >>> crossings(np.array([[1.0], [-1.0]]), np.array([[1.0], [3.0]]), np.array([[0.0, 0.0], [2.0, 0.0]]))
     (array([0]), array([0.25]), array([1.]))
     """
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    west, south = line.min(axis=0)
-    east, north = line.max(axis=0)
-    near = np.flatnonzero((low[0] <= east) & (high[0] >= west) & (low[1] <= north) & (high[1] >= south))
-    if near.size == 0:
-        return near, np.empty(0), np.empty(0)
-    begin, stop = start[:, near, None], end[:, near, None]
+    begin, stop = start[:, :, None], end[:, :, None]
     first, last = line[:-1].T[:, None], line[1:].T[:, None]
     along, way = last - first, stop - begin
     shifted = np.where(along[1] == 0.0, along[0], -along[1]) > 0.0  # side of a position on the line
@@ -46,7 +42,26 @@ def crossings(start: np.ndarray, end: np.ndarray, line: np.ndarray) -> tuple[np.
     ends = (np.where(area == 0.0, passed, area > 0.0) for area in (_area(begin, stop, v) for v in (first, last)))
     path, segment = np.nonzero((left != arrives) & np.not_equal(*ends))
     before, after = before[path, segment], after[path, segment]
-    return near[path], before / (before - after), np.where(arrives[path, segment], 1.0, -1.0)
+    return path, before / (before - after), np.where(arrives[path, segment], 1.0, -1.0)
+
+
+def near(low: np.ndarray, high: np.ndarray, line: np.ndarray) -> np.ndarray:
+    """Return the numbers of paths whose rectangle has a point in common with that of a line.
+
+    Parameters
+    ----------
+    low, high : ndarray, shape (2, n)
+        South-western and north-eastern corner of the rectangle around each path [m].
+    line : ndarray, shape (m, 2)
+        Vertices of the line [m].
+
+    Returns
+    -------
+    ndarray of int
+    """
+    west, south = line.min(axis=0)
+    east, north = line.max(axis=0)
+    return np.flatnonzero((low[0] <= east) & (high[0] >= west) & (low[1] <= north) & (high[1] >= south))
 
 
 def _area(first, last, point):
@@ -69,11 +84,11 @@ class Paths:
     def __init__(self) -> None:
         self.identity, self.position = np.empty(0, np.int64), np.empty((2, 0))
 
-    def begin(self, particles) -> None:
+    def begin(self, particles: Any) -> None:
         """Note where the particles are."""
         self.identity, self.position = particles.identity.copy(), np.array([particles.x, particles.y])
 
-    def since(self, particles) -> tuple[np.ndarray, np.ndarray]:
+    def since(self, particles: Any) -> tuple[np.ndarray, np.ndarray]:
         """Return the places of particles that were there at the last step, shape (k,), and where they were, (2, k) [m].
 
         Examples

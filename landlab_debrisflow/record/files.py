@@ -93,15 +93,47 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     ------
     OutputError (an InputError)
         If it cannot be written; see `check_writable`.
+    OSError
+        If the disk is full.
     """
     path = check_writable(path)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         write(temporary)
         os.replace(temporary, path)
+    except Exception as failure:
+        raise_if_full(path, failure)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
     return path
+
+
+LEAST_ROOM = 2**22
+"""Room below which a disk is full [bytes]: less than a chunk of HDF5 may need."""
+
+
+def raise_if_full(path: Path, failure: Exception) -> None:
+    """Raise an OSError from a failure if the disk is full: HDF5, GDAL and SQLite report that as anything else.
+
+    Parameters
+    ----------
+    path : Path
+        The file that could not be written.
+    failure : Exception
+        Failure of a library.
+
+    Raises
+    ------
+    OSError
+        With the path; not if there is room.
+    """
+    try:
+        with tempfile.TemporaryFile(dir=path.parent) as room:
+            room.write(bytes(LEAST_ROOM))
+            room.flush()
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from failure
 
 
 def write_dataset(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:

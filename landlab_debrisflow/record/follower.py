@@ -42,7 +42,7 @@ class TimeRows:
         self._rows.append({name: np.array(value) for name, value in values.items()})
 
     def forget_after(self, time: float) -> None:
-        """Forget the rows that are later than a time [s]: they are of a call that was undone."""
+        """Forget the rows later than a time [s], made in a call that was undone."""
         while self._times and self._times[-1] > time:
             self._times.pop()
             self._rows.pop()
@@ -53,7 +53,7 @@ class TimeRows:
         return {"time": np.array(self._times)} | {name: np.stack([row[name] for row in self._rows]) for name in names}
 
     def restore(self, state: Mapping[str, Any]) -> None:
-        """Put back what `arrays` returned; other entries of the mapping are left out."""
+        """Put back the times [s] and values that `arrays` returned; further entries of the mapping are left out."""
         self._times = np.ravel(state["time"]).tolist()
         stacked = {name: np.asarray(values) for name, values in state.items() if name != "time"}
         names = [name for name, values in stacked.items() if values.ndim and len(values) == len(self._times)]

@@ -1,4 +1,4 @@
-"""Series at gauges: what a sensor over the bed would see."""
+"""Series at gauges, as of sensors over the bed."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any

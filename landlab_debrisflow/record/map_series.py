@@ -201,7 +201,13 @@ class MapSeries:
         return self.directory / f"{PREFIX}_{number:06d}.nc"
 
     def _remove_from(self, number: int) -> None:
-        """Remove the files with this number and later ones, the last first: what is left has no gap."""
+        """Remove the files from a number on, the last first, so that no gap is left.
+
+        Half a file that a killed process left beside them goes, too.
+        """
+        for path in self.directory.glob(f".{PREFIX}_*.nc"):
+            if re.fullmatch(rf"\.{PREFIX}_\d{{6,}}\.\d+\.nc", path.name):
+                path.unlink()
         for path in reversed(numbered_files(self.directory)):
             if (_number(path) or 0) >= number:
                 path.unlink()
@@ -219,7 +225,8 @@ def numbered_files(directory: str | os.PathLike[str]) -> list[Path]:
     -------
     list of pathlib.Path
     """
-    return sorted(path for path in Path(directory).iterdir() if _number(path) is not None)
+    numbers = {path: number for path in Path(directory).iterdir() if (number := _number(path)) is not None}
+    return sorted(numbers, key=numbers.__getitem__)
 
 
 def occupied(fields: Sequence[np.ndarray]) -> tuple[tuple[int, int], tuple[int, int]] | None:

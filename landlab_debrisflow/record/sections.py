@@ -1,4 +1,4 @@
-"""Hydrographs at sections: what crosses lines between two steps, particle by particle."""
+"""Hydrographs at sections, from the particles that cross lines between two steps."""
 
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..physics.contracts import WATER
 from .attributes import file_attributes, variable_attributes
-from .crossings import Paths, crossings
+from .crossings import Paths, crossings, near
 from .follower import check_same_names
 from .observers import check_interval
 from .places import check_on_grid, line, named_places
@@ -87,7 +87,7 @@ class Sections:
         self._paths, self._two_phases = Paths(), setup.two_phases
 
     def follow(self, particles: Any, began: float, time: float) -> None:
-        """Count what crossed the lines in a step.
+        """Count the volume that crossed the lines in a step [m3].
 
         Parameters
         ----------
@@ -117,11 +117,14 @@ class Sections:
     def _count(self, p, began, time):
         places, start = self._paths.since(p)
         end = np.array([p.x[places], p.y[places]])
+        low, high = np.minimum(start, end), np.maximum(start, end)
         for number, (vertices, positive) in enumerate(zip(self._local, self._signs, strict=True)):
-            path, fraction, sign = crossings(start, end, vertices)
+            if (close := near(low, high, vertices)).size == 0:
+                continue
+            path, fraction, sign = crossings(start[:, close], end[:, close], vertices)
             if path.size == 0:
                 continue
-            k = places[path]
+            k = places[close[path]]
             volume, grains = positive * sign * p.volume[k], p.phase[k] != WATER
             solid = volume * grains if self._two_phases else volume * (1.0 - p.porosity[k])
             event = np.empty((k.size, len(COLUMNS)))

@@ -145,7 +145,7 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
             momentum = asked * velocity + depth * values.reshape(-1)
             np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
     asked += depth
-    soil = at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401  a get() of Landlab's finds no field
+    soil = at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401  get() of Landlab's finds none
     if release.source == "above":
         at["topographic__elevation"] += depth
         if soil is not None:

@@ -101,6 +101,13 @@ def test_shapes_of_another_system_are_brought_into_that_of_the_maps(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["houses.gpkg", "maps.nc", "table.csv", "table.gpkg"]
 
 
+def test_without_a_system_a_table_is_written_alike(tmp_path):
+    table = exposure(by_hand(), shapes(box(18, 8, 2, 2)))
+    assert geopandas.read_file(write_exposure(tmp_path / "table.gpkg", table)).max_depth_m[0] == pytest.approx(0.7)
+    assert exposure(by_hand(), shapes(box(18, 8, 2, 2)), crs="EPSG:32633").crs.to_epsg() == 32633
+
+
+@pytest.mark.slow
 def test_a_building_in_the_way_of_a_flow():
     grid = inclined((20, 60), 5.0, 0.5, soil=1.0, foot=150.0)
     house = shapely.box(85.0, 40.0, 97.0, 56.0)

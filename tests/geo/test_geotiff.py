@@ -18,7 +18,7 @@ from landlab_debrisflow.geo.styles import STYLES, Style, class_colours, class_la
 from validation.grids import inclined, release_slab
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def flow():
     grid = inclined((20, 60), (5.0, 4.0), 0.5, soil=1.0, foot=150.0, xy_of_lower_left=(500000.0, 4100000.0))
     release_slab(grid, (500050.0, 4100038.0), 8.0, 1.0)

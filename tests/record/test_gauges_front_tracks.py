@@ -61,6 +61,7 @@ def test_a_gauge_tells_grains_from_water():
     assert np.nanmin(solid) > 0.2 and np.nanmax(solid) < 0.9
 
 
+@pytest.mark.slow
 def test_a_gauge_beside_a_wall_does_not_see_it():
     grid = inclined((24, 60), 5.0, 0.5, soil=1.0, foot=150.0, xy_of_lower_left=(WEST, SOUTH))
     wall = np.isclose(grid.x_of_node, WEST + 60.0)
@@ -87,6 +88,7 @@ def test_the_front_is_the_quantile_of_the_volume():
     assert float(data.front_elevation[0]) > float(data.front_elevation[-1])
 
 
+@pytest.mark.slow
 def test_tracks_are_the_particles():
     tracks, chosen, particles = Tracks(1.0, 7), Tracks(1.0, [3, 11]), Every(1.0, lambda flow: flow.particles)
     flow = slope(tracks, chosen, particles)
@@ -103,6 +105,7 @@ def test_tracks_are_the_particles():
             assert now.speed.values == pytest.approx(speed.values, rel=1e-14, nan_ok=True)
 
 
+@pytest.mark.slow
 def test_a_particle_that_left_has_no_place():
     grid = inclined((24, 30), 5.0, 0.5, soil=1.0, xy_of_lower_left=(WEST, SOUTH))
     release_slab(grid, (WEST + 30.0, SOUTH + 60.0), 8.0, 1.0)

@@ -93,6 +93,7 @@ def test_a_run_that_goes_on_ends_with_the_same_files(tmp_path):
             xr.testing.assert_equal(one, two)
 
 
+@pytest.mark.slow
 def test_files_that_are_gone_are_told_of(tmp_path):
     series = MapSeries(1.0, tmp_path, ["depth"])
     flow_with(series).run_one_step(2.0)
@@ -105,6 +106,7 @@ def test_files_that_are_gone_are_told_of(tmp_path):
 def test_an_earlier_series_is_replaced_only_when_asked_to(tmp_path):
     (tmp_path / "maps_000007.nc").write_bytes(b"old")
     (tmp_path / "maps_of_mine.nc").write_bytes(b"mine")
+    (tmp_path / ".maps_000007.4711.nc").write_bytes(b"half a file of a process that was killed")
     with pytest.raises(InputError, match=r"already holds 1 maps of a series.*replace=True"):
         MapSeries(1.0, tmp_path)
     series = MapSeries(1.0, tmp_path, ["depth"], replace=True)
@@ -114,6 +116,7 @@ def test_an_earlier_series_is_replaced_only_when_asked_to(tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["maps_000000.nc", "maps_of_mine.nc"]
 
 
+@pytest.mark.slow
 def test_a_full_disk_ends_the_call_and_leaves_whole_files(tmp_path, monkeypatch):
     series = MapSeries(1.0, tmp_path, ["depth"])
     flow = flow_with(series)

@@ -107,6 +107,7 @@ def test_inflow_before_and_beyond_a_line_closes(flow_law):
         assert 0.3 < float(sections.dataset.crossed_solid_volume[2]) / crossed[2] < 0.9
 
 
+@pytest.mark.slow
 def test_round_the_end_of_a_line_nothing_crosses():
     whole, half = (
         Sections({"whole": line_at(WEST + 100.0)}),
@@ -118,6 +119,7 @@ def test_round_the_end_of_a_line_nothing_crosses():
     assert parts[0] == pytest.approx(parts[1] + parts[2], rel=1e-12) and min(parts) > 10.0
 
 
+@pytest.mark.slow
 def test_a_line_drawn_the_other_way_round_counts_alike():
     one, other = Sections({"a": line_at(WEST + 100.0)}), Sections({"a": line_at(WEST + 100.0)[::-1]})
     slope(one, other).run_one_step(20.0)
@@ -139,6 +141,7 @@ def test_a_run_that_goes_on_ends_with_the_same_hydrograph():
         Sections({"b": line_at(WEST)}).restore(state)
 
 
+@pytest.mark.slow
 def test_an_undone_call_is_forgotten():
     class Fails:
         interval = 1e9

@@ -11,7 +11,7 @@ from landlab_debrisflow.record import mask_peaks, write_maps
 from validation.grids import inclined, release_slab
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def flow():
     grid = inclined((20, 60), 5.0, 0.5, soil=1.0, foot=150.0, xy_of_lower_left=(500000.0, 4100000.0))
     release_slab(grid, (500050.0, 4100048.0), 8.0, 1.0)
