@@ -1,6 +1,7 @@
-"""Maps of the end of a run as files: NetCDF with all parameters, GeoTIFF with styles, a table of what was exposed."""
+"""Maps of the end of a run as files: NetCDF with all parameters, GeoTIFF with styles, a table of exposed polygons."""
 
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
@@ -9,12 +10,11 @@ from ..geo.geotiff import write_geotiffs
 from ..record.written_maps import write_maps
 from ..scene.output_keys import ALWAYS
 from .files import MAPS
-from .scene import Scene
 
 EXPOSURE = "exposure"
 
 
-def write_results(folder: Path, maps: xr.Dataset, scene: Scene) -> None:
+def write_results(folder: Path, maps: xr.Dataset, scene: Any) -> None:
     """Write the maps of the end into a directory, and the exposure of polygons, if there are any.
 
     Parameters
@@ -36,7 +36,7 @@ def write_results(folder: Path, maps: xr.Dataset, scene: Scene) -> None:
             write_exposure(folder / f"{EXPOSURE}{suffix}", table)
 
 
-def _frame(scene: Scene):
+def _frame(scene: Any):
     """Return the polygons of a scene that may be exposed as a GeoDataFrame."""
     import geopandas
 

@@ -1,4 +1,4 @@
-"""Observers that the output keys of a scene ask for, and the files of what they saw."""
+"""Observers that the output keys of a scene ask for, and their files."""
 
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,6 @@ from ..record.sections import Sections
 from ..record.tracks import MarkedColumns, Tracks
 from .directory import OutputDirectory
 from .files import SERIES, SERIES_SUFFIX
-from .scene import Scene
 
 NEVER = 1e12
 """Wall time between checkpoints of which there is to be none but at an interruption [s]."""
@@ -30,7 +29,7 @@ TABLES = ("budget", "gauges", "sections", "thalweg")
 
 
 class Observers:
-    """Observers of a scene, and the files of what they saw.
+    """Observers of a scene, and their files.
 
     Parameters
     ----------
@@ -44,7 +43,7 @@ class Observers:
         For `DebrisFlow`.
     """
 
-    def __init__(self, scene: Scene, directory: OutputDirectory):
+    def __init__(self, scene: Any, directory: OutputDirectory):
         keys = scene.output_keys
         self._format, self._maps = keys.format, None
         self._series = _series(scene)
@@ -68,8 +67,8 @@ class Observers:
             combine_maps(self._maps.directory, folder / f"{SERIES}{SERIES_SUFFIX[self._format]}")
 
 
-def _series(scene: Scene) -> dict[str, Any]:
-    """Return the observers that keep what they see in memory, by the names of their files."""
+def _series(scene: Any) -> dict[str, Any]:
+    """Return the observers that keep their series in memory, by the names of their files."""
     keys, places = scene.output_keys, scene.places
     series: dict[str, Any] = {"budget": BudgetSeries(keys.interval or BUDGET_INTERVAL)}
     if places.gauges:
@@ -85,8 +84,8 @@ def _series(scene: Scene) -> dict[str, Any]:
     return series
 
 
-def _evenly(count: int, scene: Scene) -> list[int]:
-    """Return the numbers of so many particles, evenly from those of the first release."""
+def _evenly(count: int, scene: Any) -> list[int]:
+    """Return the numbers of `count` particles, evenly from the first release."""
     dx, dy = scene.lattice.spacing
     area = np.count_nonzero(scene.releases[0].depth) * dx * dy if scene.releases else 0.0
     particles = max(count, scene.setup.numerics.count_for(area))
