@@ -126,8 +126,6 @@ class TwoPhaseDynamics:
         dt : float
             Duration of the step [s].
         """
-        if velocity.shape[1] == 0:  # all have left in this step, and partners are still those of before
-            return
         material = self.material
         motion = Motion(
             velocity=velocity,
