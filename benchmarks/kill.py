@@ -2,7 +2,7 @@
 
     python -m benchmarks.kill --count 100
 
-A moment is drawn as the number of a checkpoint and a time after it; every third one lies while a checkpoint is being
+A moment is drawn as the number of a checkpoint and a time after it; every second one lies while a checkpoint is being
 written, which its temporary file shows. Only files are watched, so that any program that leaves a checkpoint will do.
 """
 
@@ -88,7 +88,7 @@ def run(program: Program, folder: Path, moment: Moment | None):
 def draw(rng, count: int, gap: float, writing: bool) -> Moment:
     """Return a moment in a run that leaves `count` more checkpoints, `gap` seconds apart."""
     if writing:
-        return Moment(int(rng.integers(0, max(count, 1))), float(rng.uniform(0.0, 0.015)), True)
+        return Moment(int(rng.integers(0, max(count, 1))), float(rng.uniform(0.0, 0.006)), True)
     return Moment(int(rng.integers(0, count + 1)), float(rng.uniform(0.0, 1.5 * gap)), False)
 
 
@@ -112,7 +112,7 @@ def main(program: Program = CHILD) -> int:
             folder, passed = Path(name), 0
             while True:
                 again = rng.uniform() < 0.7 or passed == 0  # most are killed more than once
-                moment = draw(rng, number - passed, gap, counts["killed"] % 3 == 0) if again else None
+                moment = draw(rng, max(number - passed, 0), gap, counts["killed"] % 2 == 0) if again else None
                 killed, writing, written = run(program, folder, moment)
                 passed += len(written)
                 if not killed:

@@ -89,6 +89,7 @@ def test_nodes_that_are_not_core_may_hold_anything():
     assert release_probable_sites(grid) == 75.0
 
 
+@pytest.mark.slow
 def test_sites_are_drawn_as_wholes_and_as_often_as_they_are_likely():
     grid = likely((slice(1, 3), slice(1, 3), 0.2), (slice(4, 6), slice(1, 3), 0.6), (slice(4, 6), slice(5, 9), 0.9))
     grid.at_node[PROBABILITY].reshape(grid.shape)[4, 1:3] = 1.0  # 0.8 on average
@@ -121,7 +122,7 @@ def test_a_seed_draws_the_same_again_and_a_generator_goes_on():
 @pytest.mark.parametrize(
     ("keywords", "said"),
     [
-        ({"probability": "landslide__probabilty_of_failure"}, r"did you mean 'landslide__probability_of_failure'\?"),
+        ({"probability": "landslide_probability_of_failure"}, r"did you mean 'landslide__probability_of_failure'\?"),
         ({"probability": "slope"}, "does not have at its nodes; run LandslideProbability first, or name another field"),
         ({"probability": np.full(96, 2.0)}, r"probability must lie in \[0, 1\], got 2 at node 13 \(row 1, column 1\)"),
         ({"probability": np.full(96, np.nan)}, r"probability must lie in \[0, 1\], got nan at node 13"),

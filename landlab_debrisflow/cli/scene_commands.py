@@ -94,7 +94,7 @@ def _schema(arguments) -> int:
 
 
 def _check(arguments) -> int:
-    from ..core.jit import compilations
+    from ..core.compilations import compilations
     from ..run.forecast import forecast
     from ..run.scene import Scene
 
@@ -117,14 +117,14 @@ def _run(arguments) -> int:
 
 
 def _resume(arguments) -> int:
-    from ..run.runner import resume
+    from ..run.resume import resume
 
     with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
         return _tell(resume(arguments.scene, monitor=monitor), arguments.quiet)
 
 
 def _tell(results, quiet: bool) -> int:
-    """Print where results are and what happened; return the exit code."""
+    """Print the place of the results and the volumes; return the exit code."""
     if not quiet:
         budget = results.budget
         state = "at rest" if results.at_rest else "still moving"

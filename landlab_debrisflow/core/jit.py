@@ -13,13 +13,13 @@ several is best a kernel that Python calls (3 to 6 us). `python -m benchmarks.st
 what each costs. A kernel calls no kernel: see `inner`.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numba
-from numba.core import event
+from numba.core import event as events
 from numba.extending import register_jitable
+
+__all__ = ["approximate_kernel", "events", "inner", "kernel"]
 
 _REORDER = {"reassoc", "contract", "arcp", "nsz"}
 
@@ -42,34 +42,3 @@ the time to compile. Called from Python they run as plain Python.
 Such a function always becomes a part of its callers. As a function of its own it would be in the object code of each of
 them, by one name, reordered differently; a process calls the copy it meets first, which is another one when kernels are
 compiled than when they are loaded."""
-
-
-class _CompilationListener(event.Listener):
-    """Calls a function when numba begins to compile a kernel that it did not find in its cache."""
-
-    def __init__(self, notify: Callable[[], None]):
-        self._notify = notify
-
-    def on_start(self, event):
-        """Notify of a compilation that begins."""
-        self._notify()
-
-    def on_end(self, event):
-        """Let a compilation end."""
-
-
-@contextmanager
-def compilations(notify: Callable[[], None]) -> Iterator[None]:
-    """Call `notify` whenever the compilation of a kernel begins within a block; kernels from the cache are loaded.
-
-    Examples
-    --------
-    >>> begun = []
-    >>> with compilations(lambda: begun.append("compiling")):
-    ...     numba.njit(lambda x: x + 1)(1)
-    2
-    >>> begun
-    ['compiling']
-    """
-    with event.install_listener("numba:compile", _CompilationListener(notify)):
-        yield

@@ -9,6 +9,9 @@ from .lattice import Lattice
 FEW_CELLS = 64
 """Cells that are cut by a polygon one by one rather than sorted out in blocks first."""
 
+MANY_CORNERS, TILE = 500, 32
+"""Corners of a polygon from which on it is cut into tiles first, and their width in cells."""
+
 
 class Cover(NamedTuple):
     """Cells that a polygon covers.
@@ -40,11 +43,9 @@ def cover_cells(polygon: Any, lattice: Lattice) -> Cover:
     -------
     Cover
     """
-    import shapely
-
     polygon = _in_cells(polygon, lattice)
     inside, edge = _sorted_out(polygon, lattice.shape)
-    fraction = shapely.area(shapely.intersection(_boxes(*edge, 1), polygon))
+    fraction = _cut_areas(polygon, *edge)
     columns = lattice.shape[1]
     nodes = np.concatenate([inside[0] * columns + inside[1], edge[0] * columns + edge[1]])
     fraction = np.concatenate([np.ones(inside[0].size), np.minimum(fraction, 1.0)])
@@ -136,6 +137,21 @@ def _in_cells(polygon, lattice: Lattice):
     x0, y0 = lattice.lower_left
     dx, dy = lattice.spacing
     return shapely.transform(polygon, lambda points: (points - (x0, y0)) / (dx, dy) + 0.5)
+
+
+def _cut_areas(polygon, rows, columns) -> np.ndarray:
+    """Return the area of a polygon in each of some cells; a long outline is cut into tiles first."""
+    import shapely
+
+    if shapely.get_num_coordinates(polygon) <= MANY_CORNERS:
+        return shapely.area(shapely.intersection(_boxes(rows, columns, 1), polygon))
+    areas = np.zeros(rows.size)
+    tiles, tile_of = np.unique(np.stack([rows // TILE, columns // TILE]), axis=1, return_inverse=True)
+    order = np.argsort(tile_of.reshape(-1), kind="stable")
+    for tile, cells in zip(tiles.T, np.split(order, np.cumsum(np.bincount(tile_of.reshape(-1)))[:-1]), strict=True):
+        piece = shapely.intersection(polygon, _boxes(TILE * tile[0], TILE * tile[1], TILE))
+        areas[cells] = shapely.area(shapely.intersection(_boxes(rows[cells], columns[cells], 1), piece))
+    return areas
 
 
 def _boxes(rows, columns, size):

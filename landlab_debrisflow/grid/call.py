@@ -1,10 +1,12 @@
 """A call of the component: read the grid, run the model, write the results; or leave everything as it was."""
 
 from functools import partial
+from threading import get_ident
 
 import numpy as np
 
 from . import checkpoint
+from .checkpoint_checks import check_contents
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
@@ -111,13 +113,16 @@ class GridCall:
         if not self.interruption.running:
             with self.rollback.between_calls() as end:
                 write(self._capture(end))
-        elif self._listener.between_steps:
+        elif self._listener.paused == get_ident():
             write(self._capture(self.interruption.end))
         else:
             self._listener.requests.append(partial(self.save, write))
 
     def load(self, dataset) -> None:
         """Put the flow into the state of a Dataset from `save`, whose fields the grid has already."""
+        terrain = self.flow.grid.shape, (self.flow.grid.dx, self.flow.grid.dy)
+        rows = self._simulation.inflow.rows
+        check_contents(dataset, self._capture(None), checkpoint.PARTICLE, *terrain, rows)
         end = checkpoint.restore(self._writer, self._reader, self._listener.reports, dataset)
         if end is not None:
             self.rollback.break_off(end)

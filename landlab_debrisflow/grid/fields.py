@@ -50,6 +50,14 @@ NODE_FIELDS = (
     NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
     NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
     NodeField(
+        "debris_flow__release_velocity_x", "inout", "m/s",
+        "Velocity over the map along x at which ground fails, 0 once taken", True,
+    ),
+    NodeField(
+        "debris_flow__release_velocity_y", "inout", "m/s",
+        "Velocity over the map along y at which ground fails, 0 once taken", True,
+    ),
+    NodeField(
         "mass__wasting_id", "inout", "-",
         "integer or float id of each mass wasting area is assigned                 "  # a continued line there
         "to all nodes representing the mass wasting area.",

@@ -56,6 +56,26 @@ class GridBed:
         known = self.elevation is not None
         return known and np.array_equal(self.elevation, elevation) and np.array_equal(self.status, status)
 
+    def is_below(self, release, elevation, status) -> bool:
+        """Return whether the ground was raised only where a release takes it off again, since the last call left it.
+
+        The bed of the call is then as after a release from the ground, of the depth less the rise: nothing but what
+        fails has changed, and what lies elsewhere need not know of it.
+
+        Parameters
+        ----------
+        release : Release
+        elevation, status : ndarray, shape (nodes,)
+            Elevation [m], release included, and node statuses now.
+        """
+        if self.elevation is None or not np.array_equal(self.status, status):
+            return False
+        nodes = release.nodes
+        raised = elevation != self.elevation
+        raised[nodes] = False
+        rise, rounding = elevation[nodes] - self.elevation[nodes], np.spacing(np.abs(elevation[nodes]))
+        return not raised.any() and bool(np.all((rise >= 0.0) & (rise <= release.depth + rounding)))
+
     def lay(self, given, rows, inflow, time: float) -> Bed:
         """Take the release off the ground and return the bed below.
 

@@ -36,7 +36,7 @@ class Terrain(NamedTuple):
     lower_left : tuple of float
         Map coordinates of the first node [m].
     changed : bool
-        Whether elevation or status differ from what the last call left.
+        Whether elevation or status differ from what the last call left, other than by what is released now.
     """
 
     elevation: np.ndarray
@@ -148,6 +148,8 @@ class GridReader:
         parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
         check_lines(terrain, inflow)
         release = read_release(grid, soil.depth) if with_release else NO_RELEASE
+        if terrain.changed and grid_bed.is_below(release, terrain.elevation, terrain.status):
+            terrain = terrain._replace(changed=False)
         warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
 
@@ -204,14 +206,19 @@ class GridReader:
         """Log doubts about the release that were not logged before; return the kinds of doubt logged.
 
         `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
-        logged before, "depth" and "nothing".
+        logged before, "depth", "velocity" and "nothing".
         """
         logged = ()
-        for doubt in () if "depth" in warned else doubts.release_doubts(self._grid, release.nodes, release.depth):
-            log.warning("%s", doubt)
-            logged = ("depth",)
+        found = {
+            "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
+            "velocity": doubts.velocity_doubts(release.velocity),
+        }
+        for kind, sentences in found.items():
+            for doubt in () if kind in warned else sentences:
+                log.warning("%s", doubt)
+                logged += (kind,)
         if release.nodes.size == 0 and new_event and "nothing" not in warned:
-            found = doubts.missing_release_reason(self._grid, soil.depth)
-            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
-            logged = ("nothing",)
+            reason = doubts.missing_release_reason(self._grid, soil.depth)
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", reason)
+            logged += ("nothing",)
         return logged

@@ -61,9 +61,11 @@ class Checkpoints:
         now = monotonic()
         if self._last is None:
             self._last = now
-        due, tried = now - self._last >= self.wall_interval, self._tried == flow.elapsed_time
+        due = now - self._last >= self.wall_interval
+        if broken_off:  # what was saved after this step, or failed, is not tried again
+            due = self._tried != flow.elapsed_time
         self._tried = None
-        if due or (broken_off and not tried):  # what failed after this step is not tried again
+        if due:
             self._last, self._tried = now, flow.elapsed_time
             flow.save(self.path)
             self._last = monotonic()

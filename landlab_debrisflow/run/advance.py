@@ -1,11 +1,12 @@
 """Advance a flow through the releases of a scene."""
 
+from typing import Any
+
 from ..component import DebrisFlow
 from ..scene.releases import set_release
-from .scene import Scene
 
 
-def advance(flow: DebrisFlow, scene: Scene) -> None:
+def advance(flow: DebrisFlow, scene: Any) -> None:
     """Advance a new flow, or one from a checkpoint, to rest or the longest time, with the releases still to come.
 
     A release at the time at which an unfinished call was to end is still to come; one at its beginning is in the flow.

@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, never mixed with those of another, nothing half written."""
+"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
 
 import contextlib
 import dataclasses
@@ -13,7 +13,7 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, RECORD, SERIES, UNFINISHED
+from .files import CHECKPOINT, LOCK, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
 TEMPORARY = re.compile(r"\.(run|checkpoint|maps_\d+)\.\d+\.(json|nc)")
@@ -74,7 +74,7 @@ class OutputDirectory:
         return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
-        """Begin a run here: refuse to lose results, remove those that may go, write its record.
+        """Begin a run here: refuse to lose results, remove them if they may go, write its record.
 
         Parameters
         ----------
@@ -175,17 +175,25 @@ class OutputDirectory:
             shutil.rmtree(temporary, ignore_errors=True)
         return names
 
-    def remove_checkpoints(self) -> None:
-        """Remove the checkpoints of a run that has ended."""
+    def tidy(self) -> None:
+        """Remove checkpoints and the single maps of a series, which only a run that goes on needs."""
+        self._remove_checkpoints()
+        if any((self.path / f"{SERIES}{suffix}").exists() for suffix in SERIES_SUFFIX.values()):
+            for path in self.path.glob(f"{SERIES}/maps_*.nc"):
+                path.unlink()
+            with contextlib.suppress(OSError):  # it holds something else
+                (self.path / SERIES).rmdir()
+
+    def _remove_checkpoints(self) -> None:
         for path in self.checkpoints:
             path.unlink()
 
     def remove_results(self) -> None:
-        """Remove the files that the recorded run wrote here, and nothing else."""
+        """Remove the files that the recorded run wrote here; other files stay."""
         shutil.rmtree(self.path / UNFINISHED, ignore_errors=True)
         if self.record is None:
             return
-        self.remove_checkpoints()
+        self._remove_checkpoints()
         folder = self.path.resolve()
         for name in self.record.files:
             if not isinstance(name, str) or not name or Path(name).is_absolute() or ".." in Path(name).parts:

@@ -5,9 +5,10 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-RECORD, SCENE, MAPS, BUDGET = "run.json", "scene.yaml", "maps.nc", "budget.nc"
+RECORD, SCENE, MAPS = "run.json", "scene.yaml", "maps.nc"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"
+SERIES_SUFFIX = {"netcdf": ".nc", "zarr": ".zarr"}
 LOCK = ".lock"
 
 UNFINISHED = ".unfinished"

@@ -5,10 +5,11 @@ import logging
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ..component import DebrisFlow
+from ..core.compilations import compilations
 from ..core.errors import InputError
-from ..core.jit import compilations
 from ..record.monitor import COMPILING, Monitor
 from .advance import advance
 from .directory import OutputDirectory
@@ -17,12 +18,11 @@ from .maps import write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .results import Results
-from .scene import Scene
 
 log = logging.getLogger("landlab_debrisflow")
 
 
-def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
+def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
     """Run a scene to rest and write its results.
 
     Parameters
@@ -47,6 +47,7 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
     KeyboardInterrupt
         After the step. What was computed is kept: `resume_scene` goes on.
     """
+    _ = scene.places
     if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
         raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
     with OutputDirectory.claimed(scene.output_directory) as directory:
@@ -54,8 +55,8 @@ def run_scene(scene: Scene, *, overwrite: bool = False, monitor: Monitor | None 
         return _compute(scene, directory, scene.flow, monitor)
 
 
-def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
-    """Go on with the run of a scene from its last checkpoint; results are those of a run that was never interrupted.
+def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
+    """Go on with the run of a scene from its last checkpoint, to the results of a run without interruption.
 
     Without a checkpoint the run begins anew. A run that had come to its end stays as it is, unless it still moved and
     the scene now has a longer `max_duration`.
@@ -88,6 +89,8 @@ def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
             directory.record.at_rest or longest <= directory.record.elapsed_time
         ):
             log.warning("the run in %s had come to its end; nothing is to be done", path)
+            if directory.record.at_rest:
+                directory.tidy()
             return Results(path)
         if not directory.checkpoints:
             log.warning("the run in %s had no checkpoint yet; it begins anew", path)
@@ -97,34 +100,7 @@ def resume_scene(scene: Scene, *, monitor: Monitor | None = None) -> Results:
         return _compute(scene, directory, lambda observers: _load(directory, observers), monitor)
 
 
-def resume(path: str | Path, *, monitor: Monitor | None = None) -> Results:
-    """Go on with a run, given the directory of its results or its scene file; see `resume_scene`.
-
-    Parameters
-    ----------
-    path : str or Path
-    monitor : Monitor, optional
-
-    Returns
-    -------
-    Results
-    """
-    path = Path(path)
-    if path.is_dir():
-        file = Results(path).record.scene_file
-        if file is None:
-            raise InputError(f"{path}: the run came from no scene file; go on with Scene(...).resume() in Python")
-        scene = Scene.from_file(Path(os.path.normpath(path / file)))
-        if scene.output_directory.resolve() != path.resolve():
-            raise InputError(
-                f"{path} was written by {file}, which now writes to {scene.output_directory}; change output: directory"
-            )
-    else:
-        scene = Scene.from_file(path)
-    return resume_scene(scene, monitor=monitor)
-
-
-def _record(scene: Scene, directory: OutputDirectory) -> RunRecord:
+def _record(scene: Any, directory: OutputDirectory) -> RunRecord:
     file = scene.path and os.path.relpath(scene.path.resolve(), directory.path.resolve())
     return RunRecord.of(scene, file)
 
@@ -141,7 +117,7 @@ def _load(directory: OutputDirectory, observers: list) -> DebrisFlow:
 
 
 def _compute(
-    scene: Scene, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor: Monitor | None
+    scene: Any, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor: Monitor | None
 ) -> Results:
     """Run the flow that `build` returns when it is given observers, and write the results of its scene."""
     monitor = monitor or Monitor()
@@ -152,19 +128,21 @@ def _compute(
         if scene.text is not None:
             directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)
-        with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
+        with compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])
             advance(flow, scene)
+        monitor.finish()
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
         if not flow.at_rest:
             flow.save(directory.checkpoint)
         state = {"elapsed_time": flow.elapsed_time, "at_rest": flow.at_rest, "budget": flow.budget}
         directory.note(state=FINISHED, reason="", **state)
     except BaseException as failure:
+        monitor.finish()
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
     if flow.at_rest:
-        directory.remove_checkpoints()
+        directory.tidy()
     return Results(directory.path)
 
 
@@ -182,6 +160,6 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
         failure.add_note(f"a checkpoint is kept: landlab-debrisflow resume {directory.path} goes on from there")
 
 
-def _write(folder: Path, flow: DebrisFlow, scene: Scene, observers: Observers) -> None:
+def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
     write_results(folder, flow.maps, scene)
     observers.write(folder)

@@ -135,35 +135,3 @@ def _size_asked(**sizes: float | None) -> tuple[str, float]:
     unit = "m3" if name == "volume" else "m"
     in_range(f"{CALLER}{name}", value, 0.0, np.inf, unit, open_ends=(True, True), error=InputError)
     return name, float(value)
-
-
-def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
-    """Return the vertical depth of the body that fails within an outline, at the nodes of a grid [m].
-
-    Parameters
-    ----------
-    grid : RasterModelGrid
-        With ``topographic__elevation`` [m]; nothing leaves over closed nodes.
-    inside : array_like, shape (nodes,) or (rows, columns)
-        Nodes of the outline, as bool, or the fraction of every cell that lies inside.
-    **keywords
-        As of `failure_surface`: the kind, and one of ``mean_depth``, ``largest_depth`` and ``volume``.
-
-    Returns
-    -------
-    ndarray, shape (nodes,)
-        Vertical depth [m], for ``debris_flow__release_depth``; 0 outside.
-
-    Raises
-    ------
-    InputError
-        As of `failure_surface`, or if `inside` does not fit the grid.
-    """
-    outline = np.asarray(inside)
-    if outline.size != grid.number_of_nodes:
-        count = grid.number_of_nodes
-        raise InputError(f"failing_depth: inside must have a value for each of {count} nodes, got {outline.size}")
-    closed = grid.status_at_node == grid.BC_NODE_IS_CLOSED
-    elevation = np.where(closed, np.nan, grid.at_node["topographic__elevation"]).reshape(grid.shape)
-    spacing = float(grid.dx), float(grid.dy)
-    return failure_surface(outline.reshape(grid.shape), elevation, spacing, **keywords).ravel()

@@ -67,7 +67,7 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     lines = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
     if not lines:
         raise InputError(f"{path} is empty; give a table with time [s] and discharge [m3 s-1]")
-    mark = next((mark for mark in (";", "\t", ",") if mark in lines[-1][1]), None)
+    mark = next((mark for mark in (";", "\t", ",") if mark in lines[0][1]), None)
     if mark is None:
         return [(k, line.split()) for k, line in lines]
     try:

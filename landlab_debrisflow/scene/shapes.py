@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from ..core.errors import InputError
 from ..geo.lattice import Lattice
 from ..geo.shapes import Shape, read_shapes
 
@@ -38,9 +39,13 @@ def shapes_of(
     """
     if isinstance(value, str):
         return read_shapes(folder / value, lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
-    features = [feature for _, feature in value] if named else list(value)
-    shapes = read_shapes(features, lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
     if not named:
-        return shapes
-    names = [name for name, _ in value]
-    return [shape._replace(attributes={"name": name}, label=name) for shape, name in zip(shapes, names, strict=True)]
+        return read_shapes(list(value), lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
+    shapes = []
+    for name, feature in value:
+        try:
+            (shape,) = read_shapes([feature], lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from error
+        shapes.append(shape._replace(attributes={"name": name}, label=name))
+    return shapes

@@ -108,11 +108,10 @@ def _keys(cls: type, given: Mapping[str, Any], notes: Mapping[str, str]) -> list
 
 def _line(text: str, comment: str) -> list[str]:
     """Return a line of text with a comment behind, on further lines if it is long."""
-    words = textwrap.wrap(comment, WIDTH - COMMENT_AT - 2)
+    lines = [f"# {line}" for line in textwrap.wrap(comment, WIDTH - COMMENT_AT - 4, subsequent_indent="  ")]
     if len(text) > COMMENT_AT - 2:
-        return [*(f"  # {line}" for line in textwrap.wrap(comment, WIDTH - 4)), text]
-    first, *others = words
-    return [f"{text:<{COMMENT_AT}}# {first}", *(f"{'':{COMMENT_AT}}#   {line}" for line in others)]
+        return [text, *(f"{'':{COMMENT_AT}}{line}" for line in lines)]
+    return [f"{text:<{COMMENT_AT}}{lines[0]}", *(f"{'':{COMMENT_AT}}{line}" for line in lines[1:])]
 
 
 def _meaning(meta: Mapping[str, Any]) -> str:

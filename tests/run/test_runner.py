@@ -82,9 +82,7 @@ def test_a_finished_run_stays_and_is_replaced_on_request(tmp_path, caplog):
     assert "come to its end" in caplog.text and (results.directory / "maps.nc").stat().st_mtime_ns == before
     with pytest.raises(InputError, match="holds the results of this scene already, until 3 s; run with --overwrite"):
         run_scene(scene(tmp_path, max_duration=3.0), **QUIET)
-    with pytest.raises(
-        InputError, match=r"results of another scene: output.max_duration was 3.0, is 2.0; output.interv"
-    ):
+    with pytest.raises(InputError, match=r"of another scene: output.max_duration was 3.0, is 2.0; output.interv"):
         run_scene(scene(tmp_path, interval=1.0, max_duration=2.0), **QUIET)
     run_scene(scene(tmp_path, interval=None, max_duration=2.0), overwrite=True, monitor=Monitor(live=False))
     assert not (results.directory / "series").exists()
