@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, Hydrograph, Material, Numerics, Setup, SimulationError
-from landlab_debrisflow.core.parameters import NodeValues, on_nodes
+from landlab_debrisflow.core.parameters import on_nodes
+from landlab_debrisflow.core.values import NodeValues
 from landlab_debrisflow.physics.registry import LAWS
 from landlab_debrisflow.spatial.cells import over_cells, sort_into_cells
 from tests.twins import SCENES, build, state

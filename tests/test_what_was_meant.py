@@ -12,7 +12,7 @@ from landlab_debrisflow import (  # fmt: skip
     ParameterError,
     solve_column,
 )
-from landlab_debrisflow.core.parameters import NodeValues
+from landlab_debrisflow.core.values import NodeValues
 from landlab_debrisflow.physics.column import ALE
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 from landlab_debrisflow.physics.registry import LAWS, build_law

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.checks import in_range
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, give_number
-from ..core.parameters import checked
+from ..core.values import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.contracts import BaseContact

@@ -8,7 +8,7 @@ import numpy as np
 from ..core.checks import in_range, require
 from ..core.errors import InputError, ParameterError
 from ..core.hints import did_you_mean, give_number, python_value
-from ..core.parameters import NodeValues
+from ..core.values import NodeValues
 from ..spatial.raster import CLOSED, FIXED_GRADIENT, LOOPED
 from .fields import NODE_FIELDS
 from .fill_values import LEAST_FILL, is_fill, replacement_remedy

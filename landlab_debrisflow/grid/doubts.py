@@ -8,7 +8,7 @@ from numbers import Real
 import numpy as np
 from scipy.ndimage import find_objects, label
 
-from ..core.parameters import NodeValues
+from ..core.values import NodeValues
 from ..spatial.raster import CLOSED
 from .checks import where
 from .fields import NODE_FIELDS

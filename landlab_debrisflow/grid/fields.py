@@ -113,6 +113,17 @@ NODE_FIELDS = (
 )  # fmt: skip
 
 
+def fields_in_use(grid, laws) -> dict:
+    """Return the fields of a grid at nodes by name: all that a component reads or writes, or its laws name.
+
+    `laws` are those that may read fields, by kind.
+    """
+    at, names = grid.at_node, {field.name for field in NODE_FIELDS}
+    for law in laws.values():
+        names.update(value for value in getattr(law, "__dict__", {}).values() if isinstance(value, str))
+    return {name: at[name] for name in sorted(names & set(at))}
+
+
 @contextmanager
 def no_new_fields(grid):
     """Enter a block at whose failure all fields that were added to `grid` in it are taken away again."""

@@ -116,6 +116,30 @@ class GridBed:
             self.event_eroded = None
         return self._bed(terrain, soil, time)
 
+    def lay_again(self, terrain, soil, time: float, accounts, pressure) -> Bed:
+        """Return the bed of a call that has begun, with its accounts; the surface is made of the elevation it had then.
+
+        Parameters
+        ----------
+        terrain : Terrain
+        soil : Soil
+        time : float
+            Time of the component [s].
+        accounts, pressure : mapping
+            As `Bed.variables` and `BedPressure.variables` returned them, values by name; empty: of no call.
+        """
+        bed = self._bed(terrain, soil, time)
+        if accounts:
+            bed.set_variables(accounts)
+        if pressure:
+            bed.pore_pressure.set_variables(pressure)
+        shape, closed = terrain.shape, terrain.status == CLOSED
+        surface = Surface(bed.elevation_before.reshape(shape), terrain.spacing, closed.reshape(shape))
+        lowered = np.flatnonzero(bed.taken)
+        surface.move_to(lowered, bed.elevation[lowered])
+        self.surface = bed.surface = surface
+        return bed
+
     def _bed(self, terrain, soil, time) -> Bed:
         material, pore_pressure = self.material, None
         raster = Raster.from_status(terrain.status.reshape(terrain.shape), terrain.spacing)

@@ -153,6 +153,24 @@ class GridReader:
         warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
 
+    def read_again(self, status, drained):
+        """Return terrain, soil and parameters of laws for a call that has begun, or was the last one, unchecked.
+
+        Parameters
+        ----------
+        status : ndarray of uint8, shape (nodes,)
+            Node statuses of the call.
+        drained : ndarray of bool, shape (nodes,), or None
+            Drains of the call.
+
+        Returns
+        -------
+        Terrain, Soil, dict
+        """
+        terrain = self._terrain(self._field("topographic__elevation"), status)
+        parameters = {kind: on_nodes(law, self._grid.at_node) for kind, law in self.laws.items()}
+        return terrain, self._soil()._replace(drained=drained), parameters
+
     def _read_terrain(self, grid_bed) -> Terrain:
         grid, elevation = self._grid, self._field("topographic__elevation")
         status = np.array(grid.status_at_node)
@@ -160,16 +178,25 @@ class GridReader:
         if changed:
             checks.check_boundaries(grid)
             elevation_checks.check_elevation(grid, elevation)
+        return self._terrain(elevation, status, changed)
+
+    def _terrain(self, elevation, status, changed: bool = False) -> Terrain:
+        grid = self._grid
         shape, spacing = tuple(map(int, grid.shape)), (float(grid.dx), float(grid.dy))
         return Terrain(elevation, status, shape, spacing, tuple(map(float, grid.xy_of_lower_left)), changed)
 
     def _read_soil(self) -> Soil:
-        ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
-        soil = Soil(self._field("soil__depth"), ratio, self._field(BED_PRESSURE) if self._loaded else None, drained)
-        checks.check_bed(self._grid, soil.depth, ratio, drained)
+        soil = self._soil()
+        checks.check_bed(self._grid, soil.depth, soil.pressure_ratio, soil.drained)
         if self._loaded:
-            checks.check_loaded_bed(self._grid, ratio, soil.pressure)
-        return soil._replace(drained=None if drained is None else drained > 0.0)
+            checks.check_loaded_bed(self._grid, soil.pressure_ratio, soil.pressure)
+        return soil._replace(drained=None if soil.drained is None else soil.drained > 0.0)
+
+    def _soil(self) -> Soil:
+        """Return the fields of the ground, unchecked; `drained` as numbers."""
+        pressure = self._field(BED_PRESSURE) if self._loaded else None
+        ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
+        return Soil(self._field("soil__depth"), ratio, pressure, drained)
 
     def _field(self, name):
         """Return the values of a field, sharing its memory, or None if the grid has no such field."""

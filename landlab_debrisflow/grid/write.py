@@ -66,15 +66,20 @@ class FieldWriter:
 
     def begin(self) -> None:
         """Prepare maps and accounts of a call, after the simulation was put on its bed."""
-        sim, state, at = self.simulation, self.state, self._grid.at_node
-        bed = state.bed = sim.bed
-        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
-        fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = PeakMaps(bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
+        state = self.state
+        bed = state.bed = self.simulation.bed
+        state.peak_maps = self.new_peak_maps()
         soil = None if bed.soil is None else RowBackup([bed.soil], bed.raster.columns)
         state.budget.measure_erosion(bed.raster.core, soil)
         self.keep_rows()
         self.record()
+
+    def new_peak_maps(self) -> PeakMaps:
+        """Return peak maps that write into the fields of the grid, from now on."""
+        sim, at = self.simulation, self._grid.at_node
+        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
+        fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
+        return PeakMaps(sim.bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
 
     def keep_rows(self, *others: RowBackup) -> None:
         """Keep the rows that the next step may change, in further backups too."""
@@ -120,8 +125,14 @@ class FieldWriter:
         columns, count = bed.raster.columns, bed.raster.core.size
         below, _ = bed.depth_of(p.x, p.y, p.half_width, p.volume)
         nodes = np.concatenate([below, self.state.peak_maps.under])
-        nodes = np.unique([nodes + k for k in (0, 1, -1, columns, -columns)])  # with closed ones at their faces
-        return nodes[(nodes >= 0) & (nodes < count)]
+        if nodes.size == 0:
+            return nodes
+        first = max(0, int(nodes.min()) - columns)
+        marked = np.zeros(min(count, int(nodes.max()) + columns + 1) - first, bool)  # a sort would cost ten times that
+        for k in (0, 1, -1, columns, -columns):  # with closed ones at their faces
+            beside = nodes + (k - first)
+            marked[beside[(beside >= 0) & (beside < marked.size)]] = True
+        return first + np.flatnonzero(marked)
 
     def _write(self, nodes: slice) -> None:
         """Bring columns, bed and fields to the present; accounts of erosion and deposit at some nodes."""

@@ -10,6 +10,7 @@ class Particles:
 
     Scalars have shape (n,), vectors (components, n), columns (n, levels), their memory (n, width). The first
     ``awake`` particles are awake, the others sleep (model/activity.py); ``identity`` numbers them for ever.
+    ``departed`` are the particles that left the grid in the last step, where they went, or None.
 
     Parameters
     ----------
@@ -30,6 +31,7 @@ class Particles:
     def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
         self.levels, self.variables = levels, tuple(variables)
         self.awake = self.ever = 0  # number of those awake; of those that there have been so far
+        self.departed: Particles | None = None
         for variable in self.variables:
             setattr(self, variable.name, self._new(variable, 0))
 
@@ -94,8 +96,16 @@ class Particles:
 
     def copy(self) -> "Particles":
         """Return an independent copy."""
+        return self._like(lambda variable: getattr(self, variable.name).copy())
+
+    def at(self, places) -> "Particles":
+        """Return a copy of the particles at `places`, an array of int."""
+        return self._like(lambda variable: np.take(getattr(self, variable.name), places, variable.axis))
+
+    def _like(self, values) -> "Particles":
+        """Return particles with new `values` of every variable, which a function returns."""
         other = object.__new__(Particles)
         vars(other).update(vars(self))
         for variable in self.variables:
-            setattr(other, variable.name, getattr(self, variable.name).copy())
+            setattr(other, variable.name, values(variable))
         return other

@@ -104,6 +104,7 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
         place = int(np.argmin(exit_node))
         raise SimulationError("velocity", int(p.identity[place]), time, float(p.velocity[:, place].sum()))
     gone = np.flatnonzero(exit_node >= 0)
+    p.departed = p.at(gone) if gone.size else None
     if gone.size:
         outflow.count(exit_node[gone], p.volume[gone], phases.solid_volume(p)[gone])
         support = 2.0 * p.smoothing_length

@@ -5,7 +5,7 @@ from typing import Any, TypeVar
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, python_value, same_word
-from ..core.parameters import from_mapping
+from ..core.values import from_mapping
 from .column import ALE, Classical, ConstantRatio, NoExcessPressure
 from .erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
 from .flow import OnePhase, TwoPhase

@@ -12,6 +12,7 @@ from ..spatial.raster import CLOSED
 from .attributes import (  # fmt: skip
     NO_FILL,
     OF_A_MOMENT,
+    axis_attributes,
     date_created,
     file_attributes,
     law_attributes,
@@ -142,11 +143,7 @@ def _axes(grid):
     axes = {}
     spacings = grid.dx, grid.dy
     for axis, first, spacing, count in zip("xy", grid.xy_of_lower_left, spacings, grid.shape[::-1], strict=True):
-        words = variable_attributes("m", axis) | {
-            "standard_name": f"projection_{axis}_coordinate",
-            "axis": axis.upper(),
-        }
-        axes[axis] = xr.Variable(axis, first + spacing * np.arange(count), words, NO_FILL)
+        axes[axis] = xr.Variable(axis, first + spacing * np.arange(count), axis_attributes(axis), NO_FILL)
     return axes
 
 

@@ -91,7 +91,8 @@ def fill_pits(inside: np.ndarray, elevation: np.ndarray) -> np.ndarray:
         level, row, column = heapq.heappop(waiting)
         for down, along in SIDES:
             there = row + down, column + along
-            if inside[there] and filled[there] == np.inf:
+            within = 0 <= there[0] < inside.shape[0] and 0 <= there[1] < inside.shape[1]  # a rim may be the edge
+            if within and inside[there] and filled[there] == np.inf:
                 filled[there] = max(float(elevation[there]), level + RISE)
                 heapq.heappush(waiting, (float(filled[there]), *there))
     return filled

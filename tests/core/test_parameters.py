@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.errors import ParameterError
-from landlab_debrisflow.core.parameters import declared, from_mapping, on_nodes, parameter
+from landlab_debrisflow.core.parameters import declared, on_nodes, parameter
+from landlab_debrisflow.core.values import from_mapping
 
 
 @declared

@@ -11,7 +11,8 @@ import pytest
 import xarray as xr
 
 from landlab_debrisflow import DebrisFlow, Material, Numerics, __version__
-from landlab_debrisflow.core.parameters import NodeValues, declared, from_mapping, parameter
+from landlab_debrisflow.core.parameters import declared, parameter
+from landlab_debrisflow.core.values import NodeValues, from_mapping
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Coulomb
 from landlab_debrisflow.physics.registry import LAWS

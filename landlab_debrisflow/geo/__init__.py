@@ -1,0 +1,1 @@
+"""Files of a GIS as plain arrays and shapes, and back."""

@@ -1,0 +1,1 @@
+"""Scenes as runs: files to a grid, a flow, and its results."""
