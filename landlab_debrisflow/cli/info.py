@@ -32,7 +32,7 @@ def _info(arguments) -> None:
 
 
 def _chosen(word: str | None) -> list:
-    """Return entries with a remark: all, those of a kind, or those of a name."""
+    """Return entries with a remark: of a kind, of a name, or of every law if there is no word."""
     entries = [
         (entry, " (default)" if number == 0 else "")
         for kind in LAWS for number, entry in enumerate(laws.law_entries(kind))

@@ -124,7 +124,7 @@ def _resume(arguments) -> int:
 
 
 def _tell(results, quiet: bool) -> int:
-    """Print where results are and what happened; return the exit code."""
+    """Print the place of the results and the volumes; return the exit code."""
     if not quiet:
         budget = results.budget
         state = "at rest" if results.at_rest else "still moving"

@@ -1,4 +1,4 @@
-"""Signals that end a run as Ctrl-C does, after its step and with a checkpoint: those of batch systems and terminals."""
+"""Signals of batch systems and terminals that end a run as Ctrl-C does, after its step and with a checkpoint."""
 
 import signal
 import threading
@@ -31,7 +31,7 @@ class EndingSignal:
 
 @contextmanager
 def ending_signals() -> Iterator[EndingSignal]:
-    """Let signals do in a block what Ctrl-C does there, unless they are ignored, as under ``nohup``."""
+    """Let signals end a run in a block as Ctrl-C does, unless ``nohup`` or so ignores them."""
     ending, earlier = EndingSignal(), {}
     if threading.current_thread() is threading.main_thread():
         for name in ENDING:

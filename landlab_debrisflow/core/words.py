@@ -1,4 +1,4 @@
-"""Text for people: what comes from files is shown, and never obeyed by a terminal."""
+"""Text for people: names and messages from files are shown, and never obeyed by a terminal."""
 
 import unicodedata
 

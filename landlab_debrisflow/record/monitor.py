@@ -48,7 +48,7 @@ class Monitor:
         self._estimate = EndEstimate()
         self._display = _display(console) if live else None
         self._due = self._due_in_log = -math.inf
-        self.line = self._said = ""
+        self.line = self._said = self._logged = ""
 
     def expect(self, until: float = math.inf, rest_energy: float = 1e-4) -> None:
         """Estimate the end of a run that begins now.
@@ -100,8 +100,18 @@ class Monitor:
         if self._display:
             self._display.close()
 
+    def finish(self) -> None:
+        """End the line that is shown, and log the last one if that was not done."""
+        if self.line != self._logged:
+            self._log()
+        self.close()
+
+    def _log(self) -> None:
+        self._logged = self.line
+        log.info("%s", self.line.strip())
+
     def say(self, text: str) -> None:
-        """Show a text in place of the line until it is renewed, such as what takes long before the first step."""
+        """Show a text in place of the line until the next step, such as the reason why the first one takes long."""
         if text != self._said:
             log.info("%s", text)
         self._said = text
@@ -119,7 +129,7 @@ class Monitor:
             self._display.show(self.line)
         if now >= self._due_in_log:
             self._due_in_log = now + LOGGED
-            log.info("%s", self.line.strip())
+            self._log()
 
 
 def _display(console: "Console | None") -> "TerminalLine | NotebookLine | None":

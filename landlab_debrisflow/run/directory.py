@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, never mixed with those of another, nothing half written."""
+"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
 
 import contextlib
 import dataclasses
@@ -74,7 +74,7 @@ class OutputDirectory:
         return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
-        """Begin a run here: refuse to lose results, remove those that may go, write its record.
+        """Begin a run here: refuse to lose results, remove them if they may go, write its record.
 
         Parameters
         ----------
@@ -176,7 +176,7 @@ class OutputDirectory:
         return names
 
     def tidy(self) -> None:
-        """Remove what only a run that goes on needs: checkpoints, and single maps that are in one file now."""
+        """Remove checkpoints and the single maps of a series, which only a run that goes on needs."""
         self._remove_checkpoints()
         if any((self.path / f"{SERIES}{suffix}").exists() for suffix in SERIES_SUFFIX.values()):
             for path in self.path.glob(f"{SERIES}/maps_*.nc"):
@@ -189,7 +189,7 @@ class OutputDirectory:
             path.unlink()
 
     def remove_results(self) -> None:
-        """Remove the files that the recorded run wrote here, and nothing else."""
+        """Remove the files that the recorded run wrote here; other files stay."""
         shutil.rmtree(self.path / UNFINISHED, ignore_errors=True)
         if self.record is None:
             return

@@ -60,7 +60,7 @@ def export(path: str | Path, to: str = "netcdf") -> list[Path]:
 
 @contextmanager
 def _series(directory: Path) -> Iterator[xr.Dataset]:
-    """Open the maps over time that a directory holds; they are read one by one."""
+    """Open the maps over time in a directory; time steps are read one by one."""
     singles = directory / SERIES
     combined = [path for suffix in SERIES_SUFFIX.values() if (path := directory / f"{SERIES}{suffix}").exists()]
     if not combined and any(singles.glob("maps_*.nc")):

@@ -1,4 +1,4 @@
-"""Forecast of a run: what will be simulated, how many steps it takes, how long, and what is odd."""
+"""Forecast of a run: particles, number of steps, wall time, memory, and doubts."""
 
 import dataclasses
 import math

@@ -1,4 +1,4 @@
-"""Maps of the end of a run as files: NetCDF with all parameters, GeoTIFF with styles, a table of what was exposed."""
+"""Maps of the end of a run as files: NetCDF with all parameters, GeoTIFF with styles, a table of exposed polygons."""
 
 from pathlib import Path
 from typing import Any

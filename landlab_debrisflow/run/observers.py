@@ -1,4 +1,4 @@
-"""Observers that the output keys of a scene ask for, and the files of what they saw."""
+"""Observers that the output keys of a scene ask for, and their files."""
 
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,7 @@ TABLES = ("budget", "gauges", "sections", "thalweg")
 
 
 class Observers:
-    """Observers of a scene, and the files of what they saw.
+    """Observers of a scene, and their files.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Observers:
 
 
 def _series(scene: Any) -> dict[str, Any]:
-    """Return the observers that keep what they see in memory, by the names of their files."""
+    """Return the observers that keep their series in memory, by the names of their files."""
     keys, places = scene.output_keys, scene.places
     series: dict[str, Any] = {"budget": BudgetSeries(keys.interval or BUDGET_INTERVAL)}
     if places.gauges:
@@ -85,7 +85,7 @@ def _series(scene: Any) -> dict[str, Any]:
 
 
 def _evenly(count: int, scene: Any) -> list[int]:
-    """Return the numbers of so many particles, evenly from those of the first release."""
+    """Return the numbers of `count` particles, evenly from the first release."""
     dx, dy = scene.lattice.spacing
     area = np.count_nonzero(scene.releases[0].depth) * dx * dy if scene.releases else 0.0
     particles = max(count, scene.setup.numerics.count_for(area))

@@ -116,7 +116,7 @@ class RunRecord:
 
 
 def _leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the keys of plain values, with those above before them, and the values."""
+    """Yield every key of plain values, with the keys above it in front, and its value."""
     if isinstance(values, Mapping):
         for name, value in values.items():
             yield from _leaves(value, f"{key}.{name}" if key else str(name))

@@ -56,7 +56,7 @@ def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = 
 
 
 def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
-    """Go on with the run of a scene from its last checkpoint; results are those of a run that was never interrupted.
+    """Go on with the run of a scene from its last checkpoint, to the results of a run without interruption.
 
     Without a checkpoint the run begins anew. A run that had come to its end stays as it is, unless it still moved and
     the scene now has a longer `max_duration`.
@@ -128,15 +128,17 @@ def _compute(
         if scene.text is not None:
             directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)
-        with contextlib.closing(monitor), compilations(lambda: monitor.say(COMPILING)):
+        with compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])
             advance(flow, scene)
+        monitor.finish()
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
         if not flow.at_rest:
             flow.save(directory.checkpoint)
         state = {"elapsed_time": flow.elapsed_time, "at_rest": flow.at_rest, "budget": flow.budget}
         directory.note(state=FINISHED, reason="", **state)
     except BaseException as failure:
+        monitor.finish()
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
     if flow.at_rest:

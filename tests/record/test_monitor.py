@@ -69,6 +69,16 @@ def test_a_file_gets_nothing_and_a_log_a_line_every_half_minute(clock, caplog):
     assert [record.getMessage()[:5] for record in caplog.records] == ["1.0 s", "31.0 ", "61.0 ", "91.0 "]
 
 
+def test_the_last_line_is_logged_once(clock, caplog):
+    shown = Monitor(live=False)
+    with caplog.at_level(logging.INFO, "landlab_debrisflow.progress"):
+        for time in (1.0, 2.0, 3.0):
+            shown.follow(particles(), time - 1.0, time)
+        shown.finish()
+        shown.finish()
+    assert [record.getMessage()[:5] for record in caplog.records] == ["1.0 s", "3.0 s"]
+
+
 def test_a_remark_is_logged_once(caplog):
     console = terminal()
     shown = Monitor(console)
