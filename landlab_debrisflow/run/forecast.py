@@ -35,7 +35,7 @@ class Forecast:
     consolidation_time : float
         T_c = h^2 / c_v, median over the particles at the start [s].
     erosion_time : float
-        T_e = h / e, thickness over erosion rate, median over the particles that erode and over time [s].
+        T_e = h / e, thickness over erosion rate, median over the particles that erode while the flow is fast [s].
     peclet_number, largest_peclet_number : float
         Pe_b = T_c / T_e at the base, median and largest of the peaks over the eroded area [-].
     duration : float

@@ -30,6 +30,10 @@ NEAR_LIMIT = 0.8
 """Part of the limit by the terrain from which on it is that which limits a step [-]."""
 
 
+FAST = 0.5
+"""Part of the peak speed from which on a flow is fast [-]."""
+
+
 class PilotOverError(Exception):
     """End of a pilot run."""
 
@@ -50,7 +54,7 @@ class Pilot(NamedTuple):
     steps : list of tuple of float
         For every step its length, and the longest that the speed allows on the terrain [s].
     erosion_time : float
-        Median over steps of that over particles; infinite without erosion [s].
+        Median over the particles that erode and over the steps in which the flow is fast; infinite without erosion [s].
     peclet_number, largest_peclet_number : float
         Median and largest of the basal Péclet numbers over the eroded area; NaN without erosion [-].
     eroded, peak_depth, peak_speed : float
@@ -114,7 +118,7 @@ class _Steps:
     def __init__(self, node_spacing: float, longest: float):
         self._way, self._longest, self._began = TERRAIN_FRACTION * node_spacing, longest, perf_counter()
         self.steps: list[tuple[float, float]] = []
-        self.erosion_times: list[float] = []
+        self._erosion_times: list[tuple[float, float]] = []
         self.particles = 0
 
     def observe(self, flow: Any) -> None:
@@ -130,9 +134,16 @@ class _Steps:
             eroding = particles.entrainment_rate[awake] > 0.0
             if eroding.any():
                 times = particles.depth[awake][eroding] / particles.entrainment_rate[awake][eroding]
-                self.erosion_times.append(float(np.median(times)))
+                self._erosion_times.append((math.sqrt(speed2), float(np.median(times))))
         if perf_counter() - self._began > self._longest:
             raise PilotOverError
+
+    @property
+    def erosion_time(self) -> float:
+        """Median over particles and over the steps in which the flow is fast; infinite without erosion [s]."""
+        fastest = max((speed for speed, _ in self._erosion_times), default=0.0)
+        fast = [time for speed, time in self._erosion_times if speed >= FAST * fastest]
+        return float(np.median(fast)) if fast else math.inf
 
 
 class _Clock:
@@ -177,7 +188,7 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     found = measures(flow)
     return Pilot(
         duration=flow.elapsed_time, complete=complete, at_rest=flow.at_rest, particles=max(1, steps.particles),
-        steps=steps.steps, erosion_time=float(np.median(steps.erosion_times)) if steps.erosion_times else math.inf,
+        steps=steps.steps, erosion_time=steps.erosion_time,
         peclet_number=float(found.median_basal_peclet_number),
         largest_peclet_number=float(found.max_basal_peclet_number), eroded=flow.budget["eroded"],
         peak_depth=float(found.max_depth), peak_speed=float(found.max_speed),
