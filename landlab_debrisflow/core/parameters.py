@@ -53,7 +53,8 @@ def parameter(
     choices : tuple of str, or mapping of str to float, optional
         Allowed words, for a parameter that is a choice and not a number; of a mapping, a law reads the number.
     kind : type
-        float, int, bool or str; tuple for one number or a list of them; dict for a mapping that is checked elsewhere.
+        float, int, bool or str, which without `choices` is any text; tuple for one number or a list of them; dict for
+        a mapping that is checked elsewhere.
     varies : bool
         Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for a number.
     open_below : bool

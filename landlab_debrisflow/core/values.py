@@ -84,7 +84,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
     if kind is tuple:
         return _checked_list(name, value, meta)
     if kind is str:
-        return _checked_word(name, value, meta["choices"])
+        return _checked_text(name, value) if meta["choices"] is None else _checked_word(name, value, meta["choices"])
     if kind is bool:
         if not isinstance(value, bool):
             raise ParameterError(f"{name} must be true or false, got {value!r}; give True or False without quotes")
@@ -157,6 +157,12 @@ def _checked_words(name: str, value: Any, choices) -> tuple[str, ...]:
     if isinstance(several, Mapping) or not hasattr(several, "__iter__"):
         raise ParameterError(f"{name} must be a list of words out of {', '.join(choices)}; got {value!r}")
     return tuple(dict.fromkeys(_checked_word(f"{name}[{k}]", one, choices) for k, one in enumerate(several)))
+
+
+def _checked_text(name: str, value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise ParameterError(f"{name} must be a text, got {value!r:.60}")
+    return value
 
 
 def _checked_list(name: str, value: Any, meta):

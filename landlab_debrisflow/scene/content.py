@@ -117,10 +117,17 @@ def named_files(content: SceneContent, folder: Path) -> list[Path]:
     for text in _texts({**to_mapping(content), "output": {}}):
         for name in (text, text.rpartition(":")[0]):
             path = folder / name
-            if name and "\0" not in name and path.is_file():
+            if name and _is_file(path):
                 siblings = path.parent.glob(f"{path.stem}.*") if path.suffix.lower() == ".shp" else (path,)
                 files |= dict.fromkeys(sorted(siblings))
     return list(files)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a word too long for a name, or with a null character
+        return False
 
 
 def _texts(value):

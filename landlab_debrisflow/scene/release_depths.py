@@ -219,13 +219,19 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
     Raises
     ------
     InputError
-        If the raster does not reach the terrain, has negative values, or nothing in it is > 0.
+        If the raster does not reach the terrain, has values of both signs, or nothing in it lies on core nodes.
     """
     notes: list[str] = []
     path = folder / str(keys.raster)
     depth = np.nan_to_num(read_onto(path, ground.lattice, notes=notes))
+    if depth.min() < 0.0 and depth.max() <= 0.0:
+        depth = -depth
+        notes.append(f"{path.name}: no value is > 0, they are taken as losses of elevation, up to {depth.max():.4g} m")
     if depth.min() < 0.0:
-        raise InputError(f"{path.name}: depths must be 0 m or more, got {depth.min():g}; deposits are no release")
+        raise InputError(
+            f"{path.name}: depths must all be 0 m or more, or all be losses of elevation of 0 m or less, got "
+            f"{depth.min():g} to {depth.max():g} m; cut out the deposit"
+        )
     if depth.max() > MOST_DEPTH:
         raise InputError(f"{path.name}: depths must be at most {MOST_DEPTH:g} m, got {depth.max():g}; give metres")
     usable = np.where(ground.core, depth, 0.0)

@@ -11,6 +11,7 @@ from ..core.errors import InputError
 from .keys import ReleaseKeys
 from .location import located
 from .read_yaml import YamlFile
+from .release import lay_on_top
 from .release_depths import Ground, polygon_depths, raster_depth
 
 FEWEST_NODES = 12
@@ -144,14 +145,12 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
             velocity = _field(grid, f"debris_flow__release_velocity_{axis}")
             momentum = asked * velocity + depth * values.reshape(-1)
             np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
-    asked += depth
-    soil = at["soil__depth"] if "soil__depth" in at else None  # noqa: SIM401  get() of Landlab's finds none
     if release.source == "above":
-        at["topographic__elevation"] += depth
-        if soil is not None:
-            soil += depth
-    if soil is not None:
-        np.maximum(soil, asked, out=soil)
+        lay_on_top(grid, depth)
+    else:
+        asked += depth
+    if "soil__depth" in at:
+        np.maximum(at["soil__depth"], asked, out=at["soil__depth"])
 
 
 def _field(grid: Any, name: str) -> np.ndarray:

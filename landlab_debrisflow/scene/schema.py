@@ -181,7 +181,7 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
             return [words, _numbers(meta)]
         return [words, {"type": "array", "items": words}] if kind is tuple else [words]
     if kind is str:
-        return forms
+        return forms or [{"type": "string", "pattern": r"\S"}]
     if kind is tuple:
         return [_numbers(meta)] if meta["length"] is not None else [_number(meta), _numbers(meta)]
     forms.insert(0, _number(meta))

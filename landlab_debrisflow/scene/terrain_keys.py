@@ -103,7 +103,7 @@ class TerrainKeys:
 
     elevation: str | None = parameter("m", "raster of the elevation (DEM)", None, kind=str, file=True)
     example: str | None = parameter("-", "ground without a file, instead of elevation", None, choices=("gully",))
-    crs: str | None = parameter("-", "coordinate reference system of files that name none", None, kind=str, file=True)
+    crs: str | None = parameter("-", "coordinate reference system of files that name none", None, kind=str)
     nodata: float | None = parameter("m", "further value that marks missing data in the DEM, such as 0", None)
     window: Any = parameter(
         "m", "part of the DEM: reach, what releases can reach, by default of DEMs of over 250 000 nodes; all; or a "

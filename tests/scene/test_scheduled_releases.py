@@ -131,7 +131,11 @@ def test_rasters(tmp_path):
     release = only({"raster": raster(tmp_path, np.where(depth > 0, depth, -9999.0))}, folder=tmp_path)
     depth[40, 0] = 0.0
     assert np.array_equal(release.depth, depth) and any("75 m3 on the edge" in note for note in release.notes)
-    for values, words in ((-depth, "0 m or more, got -1.25"), (0.0 * depth, "no depth > 0"), (1e3 * depth, "at most")):
+    losses = only({"raster": raster(tmp_path, -depth)}, folder=tmp_path)
+    assert np.array_equal(losses.depth, depth) and any("losses of elevation, up to 1.25 m" in x for x in losses.notes)
+    both = depth - 0.5 * (depth[:, ::-1] > 0.0)
+    refused = (both, "got -0.5 to 1.25 m; cut out"), (0.0 * depth, "no depth > 0"), (1e3 * depth, "at most")
+    for values, words in refused:
         with pytest.raises(InputError, match=words):
             only({"raster": raster(tmp_path, values)}, folder=tmp_path)
 
