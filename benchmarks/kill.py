@@ -120,7 +120,7 @@ def main() -> int:
             folder, passed = Path(name), 0
             while True:
                 again = rng.uniform() < 0.7 or passed == 0  # most are killed more than once
-                moment = draw(rng, number - passed, gap, counts["killed"] % 2 == 0) if again else None
+                moment = draw(rng, max(number - passed, 0), gap, counts["killed"] % 2 == 0) if again else None
                 killed, writing, written = run(program, folder, moment)
                 passed += len(written)
                 if not killed:

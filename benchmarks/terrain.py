@@ -6,11 +6,11 @@ The DEM (0.8 GB) is written to a temporary directory first. Each row is measured
 how much its memory grows.
 """
 
-import argparse
 import multiprocessing
 import resource
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -20,23 +20,23 @@ LARGE = 4000
 POLYGONS = 5000
 
 
-def write_dem(path, side=SIDE):
+def write_dem(path):
     """Write valleys between ridges that fall to the east, in decimetres, tiled and not compressed."""
     import rasterio
     from rasterio.transform import Affine
     from rasterio.windows import Window
 
     profile = {
-        "driver": "GTiff", "height": side, "width": side, "count": 1, "dtype": "int16", "crs": "EPSG:32633",
+        "driver": "GTiff", "height": SIDE, "width": SIDE, "count": 1, "dtype": "int16", "crs": "EPSG:32633",
         "tiled": True, "transform": Affine(SPACING, 0.0, WEST, 0.0, -SPACING, NORTH), "nodata": -32768,
     }  # fmt: skip
     with rasterio.open(path, "w", **profile) as target:
         target.scales = (0.1,)
-        x = SPACING * np.arange(side)
-        for row in range(0, side, 256):
-            y = SPACING * np.arange(row, min(row + 256, side))[:, None]
+        x = SPACING * np.arange(SIDE)
+        for row in range(0, SIDE, 256):
+            y = SPACING * np.arange(row, min(row + 256, SIDE))[:, None]
             z = 1500.0 - 0.01 * x + 400.0 * np.cos(y / 1000.0) + 100.0 * np.sin(x / 700.0)
-            target.write((10.0 * z).astype(np.int16), 1, window=Window(0, row, side, y.size))
+            target.write((10.0 * z).astype(np.int16), 1, window=Window(0, row, SIDE, y.size))
     return path
 
 
@@ -73,33 +73,28 @@ def cover(side=LARGE, count=POLYGONS):
     return f"{len(shapes)} polygons, area off by {abs(area / exact - 1.0):.0e}"
 
 
-def _measured(function, arguments, options, results):
+def _measured(function, arguments, options):
     import landlab_debrisflow.run.scene  # noqa: F401  so that imports do not count
 
     before, began = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, time.perf_counter()
     words = function(*arguments, **options)
     elapsed = time.perf_counter() - began
-    results.put((words, elapsed, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0))
+    return words, elapsed, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0
 
 
 def measure(function, *arguments, **options):
     """Return sentence, wall time [s] and growth of memory [MB] of a call in a process of its own."""
-    context = multiprocessing.get_context("spawn")
-    results = context.Queue()
-    process = context.Process(target=_measured, args=(function, arguments, options, results))
-    process.start()
-    found = results.get()
-    process.join()
-    return found
+    with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(_measured, function, arguments, options).result()
 
 
-def main(side=SIDE):
+def main():
     """Print the table."""
     print(f"{'':42}{'result':>48}{'wall time':>12}{'memory':>10}")
     with tempfile.TemporaryDirectory() as folder:
         began = time.perf_counter()
-        write_dem(Path(folder) / "dem.tif", side)
-        print(f"{f'DEM of {side} x {side} nodes written':90}{time.perf_counter() - began:10.1f} s")
+        write_dem(Path(folder) / "dem.tif")
+        print(f"{f'DEM of {SIDE} x {SIDE} nodes written':90}{time.perf_counter() - began:10.1f} s")
         for title, terrain in {
             "window: reach (default)": {},
             "window: reach, travel_angle: 11": {"travel_angle": 11.0},
@@ -113,6 +108,4 @@ def main(side=SIDE):
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--side", type=int, default=SIDE, help="rows and columns of the DEM (default: %(default)s)")
-    main(parser.parse_args().side)
+    main()

@@ -19,6 +19,11 @@ from .record.memories import read_memories, write_memories
 from .scene.agreement import agreed_setup, law_digests
 from .scene.setup import Setup
 
+ATTRIBUTES = (
+    "setup", "law_digests", "observers", "observers_with_state", "spacing", "lower_left", "warned",
+)  # fmt: skip
+"""Attributes of every checkpoint."""
+
 
 class Restart:
     """Saving and loading of a component."""
@@ -101,6 +106,10 @@ class Restart:
 
     @classmethod
     def _from_dataset(cls, dataset: xr.Dataset, grid: Any, observers: Sequence[Any], given: dict[str, Any]) -> Self:
+        if missing := [name for name in ATTRIBUTES if name not in dataset.attrs]:
+            raise InputError(
+                f"load: the checkpoint lacks the attribute {missing[0]!r}; give a file that flow.save() wrote"
+            )
         setup = agreed_setup(dataset, given)
         if grid is None:
             shape = dataset.sizes["y"], dataset.sizes["x"]
@@ -111,8 +120,9 @@ class Restart:
             raise InputError(f"load: a RasterModelGrid is needed, got {type(grid).__name__}")
         checkpoint_grid.check_same(grid, dataset)
         memories = read_memories(dataset, observers)
+        make: Any = cls
         with checkpoint_grid.fields_of(grid, dataset) as put_fields:
-            flow = cls(grid, **vars(setup), observers=observers)
+            flow = make(grid, **vars(setup), observers=observers)
             put_fields()
             flow._call.load(dataset)
             for observer, memory in zip(observers, memories, strict=True):

@@ -50,8 +50,8 @@ def release_probable_sites(
         Its field ``debris_flow__release_depth`` [m] is filled, and added if there is none.
     probability : str or array_like, shape (nodes,) or (rows, columns)
         Name of a field at nodes or the values, from 0 to 1 at core nodes [-]; a mask will do, too. By default the
-        field that Landlab's LandslideProbability writes: the probability of failure in a year. In `n` years it is
-        ``1 - (1 - probability)**n``.
+        field that Landlab's LandslideProbability writes: the probability of failure in a year, if its recharge is that
+        of yearly maxima. In `n` years it is ``1 - (1 - probability)**n``.
     threshold : float
         Least probability of a node of a site, above 0 and up to 1 [-].
     depth : float, str or array_like, optional

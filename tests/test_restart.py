@@ -183,6 +183,18 @@ def test_another_process_goes_on(name, twin, tmp_path):
     assert not different(outcome(again), outcome(flow))
 
 
+def test_the_page_about_checkpoints_runs(twin, tmp_path, monkeypatch):
+    page = (Path(__file__).parents[1] / "docs" / "checkpoints.md").read_text(encoding="utf-8")
+    first, second = re.findall(r"```python\n(.*?)```", page, re.S)
+    monkeypatch.chdir(tmp_path)
+    names = {"grid": build("eroding").grid}
+    exec(first, names)
+    names["flow"].save("event.checkpoint.nc")
+    ended = outcome(names["flow"])
+    exec(second, names)
+    assert not different(outcome(names["flow"]), ended) and names["flow"].at_rest
+
+
 # ---- grids ----
 
 
@@ -206,12 +218,13 @@ def test_loaded_into_its_own_grid_it_goes_back(tmp_path):
     flow.run_one_step(3.0)
     flow.save(tmp_path / "flow.nc")
     flow.run_until_rest()
-    expected = outcome(flow)
+    expected, maps = outcome(flow), flow.maps
     again = DebrisFlow.load(tmp_path / "flow.nc", flow.grid)
     assert again.elapsed_time == 3.0
+    for name in ("debris_flow__max_depth", "debris_flow__deposit_depth"):  # its outputs were put aside
+        assert flow.maps[name].identical(maps[name])
     again.run_until_rest()
     assert not different(outcome(again), expected)
-    assert not different(outcome(flow), expected)  # its outputs were put aside
 
 
 # ---- observers ----
@@ -375,6 +388,17 @@ def test_the_one_before_is_kept(tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["flow.nc", "flow.previous.nc"]
     times = [DebrisFlow.load(each).elapsed_time for each in (path, tmp_path / "flow.previous.nc")]
     assert times == [3.0, 2.0]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="asks the system for processes")
+def test_what_a_killed_process_left_is_removed(tmp_path):
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    kept = [f".flow.{os.getppid()}.nc", ".flow.x.nc", ".flow.99999999999999999999999.nc", ".other.1.nc"]
+    for name in (f".flow.{process.pid}.nc", *kept):
+        (tmp_path / name).write_text("half")
+    build("eroding").save(tmp_path / "flow.nc")
+    assert sorted(os.listdir(tmp_path)) == sorted([*kept, "flow.nc"])
 
 
 def test_a_full_disk_ends_the_call_and_loses_nothing(twin, tmp_path, monkeypatch):

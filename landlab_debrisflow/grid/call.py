@@ -1,6 +1,7 @@
 """A call of the component: read the grid, run the model, write the results; or leave everything as it was."""
 
 from functools import partial
+from threading import get_ident
 
 import numpy as np
 
@@ -112,7 +113,7 @@ class GridCall:
         if not self.interruption.running:
             with self.rollback.between_calls() as end:
                 write(self._capture(end))
-        elif self._listener.between_steps:
+        elif self._listener.paused == get_ident():
             write(self._capture(self.interruption.end))
         else:
             self._listener.requests.append(partial(self.save, write))

@@ -16,10 +16,13 @@ OF_A_CALL = (
 )  # fmt: skip
 """Variables that are there if a call has begun, beside ``call_end``."""
 
-FINITE = "x", "y", "z", "velocity", "volume", "depth", "thickness", "share", "smoothing_length", "density"
+FINITE = (
+    "x", "y", "z", "velocity", "volume", "depth", "thickness", "least_thickness", "own_thickness", "share",
+    "smoothing_length", "usual_length", "density",
+)  # fmt: skip
 """Variables of the particles that are finite."""
 
-POSITIVE = "volume", "depth", "thickness", "share", "smoothing_length", "density"
+POSITIVE = "volume", "depth", "thickness", "least_thickness", "share", "smoothing_length", "density"
 """Variables of the particles that are above 0."""
 
 

@@ -50,15 +50,17 @@ def check_same(grid, dataset) -> None:
 
 @contextmanager
 def fields_of(grid, dataset):
-    """Give a grid the fields of a checkpoint; yield a function that does it again. A block that fails leaves none.
+    """Give a grid the input fields of a checkpoint; yield a function that gives all. A block that fails leaves none.
 
     `dataset` is as `checkpoint.capture` returned it.
     """
     fields = {data.attrs["field"]: data for data in dataset.values() if "field" in data.attrs}
+    outputs = {field.name for field in NODE_FIELDS if field.intent == "out"}
     before = {name: grid.at_node[name].copy() for name in fields if name in grid.at_node}
 
-    def put():
-        for name, data in fields.items():
+    def put(left_out=()):
+        for name in sorted(fields.keys() - left_out):
+            data = fields[name]
             values = data.values.reshape(-1)
             if name in grid.at_node:
                 grid.at_node[name][:] = values
@@ -67,7 +69,7 @@ def fields_of(grid, dataset):
 
     with no_new_fields(grid):
         try:
-            put()
+            put(outputs)  # another component may yet have to put its own outputs aside
             yield put
         except BaseException:
             for name, values in before.items():

@@ -1,5 +1,7 @@
 """The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
 
+from threading import get_ident
+
 from ..model.schedule import due_after_step, due_at_start
 from .interruption import Interruption
 from .reports import Reports
@@ -29,13 +31,13 @@ class CallListener:
         Messages at the end of a call.
     requests : list of callable
         To be called without arguments as soon as the run is between two steps, once each.
-    between_steps : bool
-        Whether a call runs and is between two steps, all observers having seen the last one.
+    paused : int or None
+        Thread of a call that is between two steps, all observers having seen the last one; None: there is none.
     """
 
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
         self._flow, self._writer, self._interruption = flow, writer, interruption
-        self.reports, self.requests, self.between_steps = Reports(flow), [], False
+        self.reports, self.requests, self.paused = Reports(flow), [], None
         for observer in flow._observers:
             if callable(getattr(observer, "prepare", None)):
                 observer.prepare(flow.grid, flow.setup)
@@ -97,13 +99,13 @@ class CallListener:
         keepers = [observer for observer in self._flow._observers if callable(getattr(observer, "keep", None))]
         if not (keepers or self.requests):
             return
-        self.between_steps = True
+        self.paused = get_ident()
         requests, self.requests = self.requests, []
         for request in requests:
             self._call(request)
         for observer in keepers:
             self._call(observer.keep, self._flow, broken_off)
-        self.between_steps = False
+        self.paused = None
 
     def _call(self, observe, *arguments) -> None:
         """Call an observer and note its failure."""

@@ -6,11 +6,11 @@ never reaches the HDF5 library, which may crash on one.
 """
 
 import os
+import re
 import struct
 from hashlib import blake2b
 from pathlib import Path
 
-import netCDF4
 import xarray as xr
 
 from ..core.errors import InputError, OutputError
@@ -70,6 +70,7 @@ def write_checkpoint(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     digest = blake2b(content, digest_size=32)
     digest.update(TRAILER.pack(*head, b"")[:-32])
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    _remove_leftovers(path)
     try:
         with open(temporary, "wb") as file:
             file.write(content)
@@ -146,6 +147,21 @@ def _alternative(path: Path) -> str:
     return f"; the one before is {previous}" if previous.exists() else ""
 
 
+def _remove_leftovers(path: Path) -> None:
+    """Remove files that processes which are no more were writing for a checkpoint."""
+    if os.name != "posix":
+        return
+    for other in path.parent.iterdir():
+        found = re.fullmatch(rf"\.{re.escape(path.stem)}\.(\d+){re.escape(path.suffix)}", other.name)
+        try:
+            if found:
+                os.kill(int(found[1]), 0)  # asks only
+        except ProcessLookupError:
+            other.unlink(missing_ok=True)
+        except (OSError, OverflowError):  # somebody else's
+            continue
+
+
 def _keep(path: Path, previous: Path) -> None:
     """Keep a file under another name, too; without hard links under the other name only."""
     beside = previous.with_name(f".{previous.stem}.{os.getpid()}{previous.suffix}")
@@ -159,7 +175,9 @@ def _keep(path: Path, previous: Path) -> None:
 
 def _to_bytes(dataset: xr.Dataset) -> bytes:
     """Return a Dataset as a NetCDF file in memory."""
-    file = netCDF4.Dataset("checkpoint.nc", mode="w", memory=1 << 20)
+    from netCDF4 import Dataset  # takes a tenth of a second, which an import of the package need not
+
+    file = Dataset("checkpoint.nc", mode="w", memory=1 << 20)
     encoding = {
         name: {"_FillValue": None} | ({"zlib": True, "complevel": 1} if data.nbytes > WORTH_COMPRESSING else {})
         for name, data in dataset.variables.items()
@@ -170,6 +188,8 @@ def _to_bytes(dataset: xr.Dataset) -> bytes:
 
 def _from_bytes(content: bytes) -> xr.Dataset:
     """Return the Dataset of a NetCDF file in memory."""
-    with netCDF4.Dataset("checkpoint.nc", memory=content) as file:
+    from netCDF4 import Dataset
+
+    with Dataset("checkpoint.nc", memory=content) as file:
         store = xr.backends.NetCDF4DataStore(file)
         return xr.open_dataset(store, mask_and_scale=False, decode_times=False).load()

@@ -72,7 +72,10 @@ class MapSeries:
     ) -> None:  # fmt: skip
         self.interval = check_interval(interval, type(self).__name__)
         self.directory = check_directory(directory)
-        self.variables = tuple(_field_name(name) for name in variables)
+        variables = (variables,) if isinstance(variables, str) else variables
+        self.variables = tuple(dict.fromkeys(_field_name(name) for name in variables))
+        if not self.variables:
+            raise InputError("MapSeries: variables must name at least one output field, got none")
         self._mapping = {} if crs is None else grid_mapping_attributes(crs)
         if (old := numbered_files(self.directory)) and not replace:
             raise InputError(

@@ -1,6 +1,7 @@
 """Single particles against time: their tracks, and the columns of pore pressure that they carry."""
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -43,10 +44,10 @@ class Tracks(Follower):
     def __init__(self, interval: float, particles: int | Sequence[int] = 100) -> None:
         super().__init__(interval)
         self._count, self._chosen = None, None
-        if isinstance(particles, int) and not isinstance(particles, bool):
+        if isinstance(particles, Integral) and not isinstance(particles, bool):
             if particles < 1:
                 raise InputError(f"Tracks: the number of particles must be at least 1, got {particles}")
-            self._count = particles
+            self._count = int(particles)
         else:
             self._chosen = chosen_particles("Tracks", particles)
         self._chosen: np.ndarray | None

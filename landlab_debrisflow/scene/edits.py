@@ -21,6 +21,8 @@ CREST_WIDTH = 3.0
 """Of a dam, if it is not given [m]."""
 SLOPES = {"dam": math.degrees(math.atan(2.0 / 3.0)), "excavation": 45.0}
 """Of the sides, if it is not given [deg]."""
+FAR = 4.0
+"""Width of a side over that on level ground, from which on the user is told."""
 SQUARE = np.ones((FEWEST_ACROSS, FEWEST_ACROSS), bool)
 
 
@@ -71,10 +73,10 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
         source = folder / value if isinstance(value, str) else value
         try:
             shapes = read_shapes(source, extent.crs, kind=kind, bounds=extent.bounds, notes=notes)
-            change = {"dam": _raise_crest, "wall": _raise_crest, "excavation": _dig, "buildings": _build}[edit.kind]
             if edit.kind == "buildings":
-                told = change(edit, shapes, ground)
+                told = _build(edit, shapes, ground)
             else:
+                change = _dig if edit.kind == "excavation" else _raise_crest
                 told = "; ".join(filter(None, (change(edit, shape, ground) for shape in shapes)))
         except InputError as error:
             raise InputError(f"edits[{k}]: {edit.kind}: {error}") from error
@@ -123,8 +125,10 @@ def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
     ground.elevation.reshape(-1)[nodes] = body[raised]
     _cover_soil(ground, nodes)
     wider = f", crest widened from {width:g} to {2.0 * half:.3g} m to have no gap" if half > 0.5 * width + 1e-9 else ""
+    if not upright and beside[raised].max() > FAR * gain[beside[raised] == 0.0].max(initial=0.0) / steepness:
+        wider += "; its sides are hardly steeper than the ground, so that it reaches far down: give a steeper slope"
     return (
-        f"{shape.label}: {gain.sum() * lattice.area:.4g} m3 on {nodes.size} nodes, crest at {crest.min():.6g} to "
+        f"{shape.label}: {_volume(gain, lattice)} on {nodes.size} nodes, crest at {crest.min():.6g} to "
         f"{crest.max():.6g} m, up to {gain.max():.3g} m above the ground{wider}"
     )
 
@@ -187,7 +191,7 @@ def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
     if ground.soil is not None:
         soil = ground.soil.reshape(-1)
         soil[nodes] = np.maximum(soil[nodes] - cut, 0.0)
-    return f"{shape.label}: {cut.sum() * lattice.area:.4g} m3 dug out, up to {cut.max():.3g} m deep"
+    return f"{shape.label}: {_volume(cut, lattice)} dug out, up to {cut.max():.3g} m deep"
 
 
 def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
@@ -221,6 +225,11 @@ def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
     told = [f"{closed} are closed nodes"] * bool(closed) + [f"{raised} are raised ground"] * bool(raised)
     told += [f"{len(thin)} thinner than {FEWEST_ACROSS} nodes are left out"] * bool(thin)
     return ", ".join(told)
+
+
+def _volume(depths: np.ndarray, lattice: Lattice) -> str:
+    volume = float(depths.sum()) * lattice.area
+    return f"{volume:.0f} m3" if volume >= 1000.0 else f"{volume:.4g} m3"
 
 
 def _cover_soil(ground: Ground, nodes: np.ndarray) -> None:

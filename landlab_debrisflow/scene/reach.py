@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
+from ..core.errors import InputError
 from ..geo.cover import cover_cells
 from ..geo.lattice import Bounds, Lattice, Window
 from ..geo.rasters import open_raster, read_window
@@ -50,15 +51,20 @@ def starting_shapes(
     import shapely
 
     shapes = [shapely.LineString([each.line_start, each.line_end]) for each in inflow]
-    for keys in releases:
-        if keys.kind == "raster":
-            shapes.append(_raster_shape(folder / str(keys.raster), lattice))
-            continue
-        value = getattr(keys, keys.kind)
-        source = folder / value if isinstance(value, str) else value
-        kind = keys.kind.removesuffix("s")
-        shapes += [shape.geometry for shape in read_shapes(source, lattice.crs, kind=kind, bounds=lattice.bounds)]
+    for k, keys in enumerate(releases):
+        try:
+            shapes += _release_shapes(keys, lattice, folder)
+        except InputError as error:
+            raise InputError(f"release[{k}]: {error}") from error
     return shapes
+
+
+def _release_shapes(keys: ReleaseKeys, lattice: Lattice, folder: Path) -> list[Any]:
+    if keys.kind == "raster":
+        return [_raster_shape(folder / str(keys.raster), lattice)]
+    value, kind = getattr(keys, keys.kind), keys.kind.removesuffix("s")
+    source = folder / value if isinstance(value, str) else value
+    return [shape.geometry for shape in read_shapes(source, lattice.crs, kind=kind, bounds=lattice.bounds)]
 
 
 def _raster_shape(path: Path, lattice: Lattice):

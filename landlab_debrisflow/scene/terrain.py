@@ -131,8 +131,10 @@ def _window(keys: TerrainKeys, source: RasterSource, folder: Path, releases, inf
                 f"which covers {extent(lattice.bounds)}; got {extent(asked)}"
             )
         return window
-    starts = starting_shapes(releases, inflow, lattice, folder) if asked != "all" else []
-    if asked == "all" or not starts or (asked is None and lattice.size <= FEW_NODES):
+    if asked == "all" or (asked is None and lattice.size <= FEW_NODES):
+        return lattice.window
+    starts = starting_shapes(releases, inflow, lattice, folder)
+    if not starts:
         return lattice.window
     window = reachable_window(source, starts, keys.travel_angle)
     if window.shape != lattice.shape:
@@ -237,5 +239,6 @@ def _number_or_raster(name: str, value, lattice: Lattice, folder: Path, crs, not
     if missing.any():
         said(notes, f"{name}: 0 at {np.count_nonzero(missing)} nodes without data in {value}")
     values[missing] = 0.0
-    in_range(f"{name}: values of {folder / value}", values, *bounds, unit, form="g", error=InputError)
+    low, high = bounds
+    in_range(f"{name}: values of {folder / value}", values, low, high, unit, form="g", error=InputError)
     return values

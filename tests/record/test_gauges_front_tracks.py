@@ -90,7 +90,7 @@ def test_the_front_is_the_quantile_of_the_volume():
 
 @pytest.mark.slow
 def test_tracks_are_the_particles():
-    tracks, chosen, particles = Tracks(1.0, 7), Tracks(1.0, [3, 11]), Every(1.0, lambda flow: flow.particles)
+    tracks, chosen, particles = Tracks(1.0, np.int64(7)), Tracks(1.0, [3, 11]), Every(1.0, lambda flow: flow.particles)
     flow = slope(tracks, chosen, particles)
     flow.run_until_rest()
     data = tracks.dataset

@@ -152,6 +152,7 @@ def test_maps_of_an_undone_call_are_written_anew(tmp_path):
     [
         ({"interval": 0.0}, "interval must be a finite number of seconds > 0"),
         ({"variables": ["dpth"]}, r"no output field 'dpth' \(did you mean 'depth'\?\)"),
+        ({"variables": []}, "variables must name at least one output field"),
         ({"crs": "EPSG:999999"}, "no such coordinate reference system"),
         ({"directory": "nowhere"}, "cannot write to 'nowhere': it does not exist"),
     ],

@@ -67,6 +67,14 @@ def test_a_crest_follows_the_ground_along_its_line(tmp_path):
     assert_allclose(z[crest], 1000.0 - 0.4 * (shapely.get_x(nearest[crest]) - WEST) + 6.0, atol=1e-9)
 
 
+def test_sides_that_never_meet_the_ground_are_said(tmp_path):
+    """Sides of 24 degrees on ground of 22."""
+    *_, notes = edited(tmp_path, {"dam": ACROSS, "crest_height": 4.0, "slope": 24.0})
+    assert "give a steeper slope" in notes[-1]
+    *_, notes = edited(tmp_path, {"dam": ACROSS, "crest_height": 4.0, "slope": 60.0})
+    assert "steeper" not in notes[-1]
+
+
 def test_a_dam_below_the_ground_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"edits\[0\]: dam.*no node is raised, the crest \(100 to 100 m\) lies below"):
         edited(tmp_path, {"dam": ACROSS, "crest_elevation": 100.0})
@@ -128,7 +136,7 @@ def test_an_excavation_with_sloping_sides(tmp_path):
     cut = np.where(inside, np.minimum(3.0, inward * np.tan(np.radians(30.0))), 0.0)
     assert_allclose(z, GROUND - cut, rtol=1e-9)
     assert_allclose(soil, np.maximum(2.0 - cut, 0.0), atol=1e-9)
-    assert f"{cut.sum() * 25.0:.4g} m3 dug out, up to 3 m deep" in notes[-1]
+    assert f"{cut.sum() * 25.0:.0f} m3 dug out, up to 3 m deep" in notes[-1]
 
 
 def test_an_excavation_to_a_level_floor(tmp_path):

@@ -118,6 +118,11 @@ def test_the_window_holds_all_releases(tmp_path):
     assert terrain[Z].shape[1] < 200
 
 
+def test_a_release_outside_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"release\[0\]: .* lies wholly outside the DEM"):
+        _ = scene(tmp_path, {"polygons": square(900.0, 80.0, 30.0), "depth": 1.0}, window="reach").terrain
+
+
 def test_a_large_dem_is_cut_unasked_and_thinned_out(tmp_path, monkeypatch):
     from landlab_debrisflow.scene import reach
 
