@@ -232,6 +232,7 @@ def test_zones_change_soil_pressure_and_parameters(tmp_path):
     assert Scene.from_mapping(made.to_mapping(), tmp_path).digest() == made.digest()
 
 
+@pytest.mark.slow
 def test_a_flow_reads_the_parameters_of_zones(tmp_path):
     """Friction of 80 degrees in a zone across the way stops a flow on a slope of 22."""
     zones = [{"polygons": place((100.0, 0.0), (300.0, 0.0), (300.0, 200.0), (100.0, 200.0)),
