@@ -109,11 +109,10 @@ def resample(values: np.ndarray, source: Lattice, target: Lattice, finer: str = 
         return result[::-1]
 
     result = onto(np.where(data, values, np.nan), method)
-    if coarser:
-        fraction = onto(data.astype(float), Resampling.average)
-        return np.where(fraction >= LEAST_DATA, result, np.nan)
-    nearest = onto(data.astype(float), Resampling.nearest)
-    return np.where(nearest == 1.0, result, np.nan)
+    if not coarser:
+        return result
+    fraction = onto(data.astype(float), Resampling.average)
+    return np.where(fraction >= LEAST_DATA, result, np.nan)
 
 
 def _transform(lattice: Lattice):
