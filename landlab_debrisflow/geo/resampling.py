@@ -108,7 +108,7 @@ def resample(values: np.ndarray, source: Lattice, target: Lattice, finer: str = 
             ) from error
         return result[::-1]
 
-    result = onto(np.where(data, values, np.nan), method)
+    result = onto(values, method)
     if not coarser:
         return result
     fraction = onto(data.astype(float), Resampling.average)
