@@ -126,9 +126,10 @@ def below_lip(elevation: np.ndarray, depth: np.ndarray) -> tuple[float, float]:
     window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     ground = np.where(np.isnan(elevation[window]), np.inf, elevation[window])
     bed = ground - depth[window]
-    filling = np.where(depth[window] > 0.0, np.minimum(_filled(bed) - bed, depth[window]), 0.0)
-    pits = _filled(ground) - ground
-    filling = np.maximum(0.0, filling - np.where(np.isfinite(pits), pits, 0.0))
+    known = np.isfinite(ground)
+    pits = np.where(known, _filled(ground) - np.where(known, ground, 0.0), 0.0)
+    filling = np.where(known, _filled(bed) - np.where(known, bed, 0.0), 0.0) - pits
+    filling = np.clip(filling, 0.0, depth[window])
     return float(filling.sum()), float(filling.max())
 
 
