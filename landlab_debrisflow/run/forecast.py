@@ -12,8 +12,8 @@ from .pilot import run_pilot, run_start
 from .scene import Scene
 
 FACTOR = 2.0
-"""Factor within which the wall time is right in most cases. A flow whose tail creeps took five times as long, because with
-few particles it came to rest sooner (`python -m benchmarks.forecast`, benchmarks/forecast.txt)."""
+"""Factor within which the wall time is right in most cases. A flow whose tail creeps took five times as long, because
+with few particles it came to rest sooner (`python -m benchmarks.forecast`, benchmarks/forecast.txt)."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -111,7 +111,7 @@ class Forecast:
             ("duration", f"{at_least}{self.duration:.0f} s{end}"),
             ("steps", f"{at_least}{grouped(self.steps)}"),
             ("memory", f"{self.memory / 2**20:.0f} MB"),
-            ("wall time", f"{at_least}{duration_text(self.seconds)}, within a factor of {FACTOR:g}; longer if it creeps"),
+            ("wall time", f"{at_least}{duration_text(self.seconds)} to a factor of {FACTOR:g}; longer if it creeps"),
         ]
 
 
