@@ -62,7 +62,7 @@ class Restart:
         Raises
         ------
         InputError
-            If it cannot be written; the checkpoint before stays.
+            If it cannot be written (an `OutputError`); the checkpoint before stays.
 
         Notes
         -----

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..core.errors import InputError
+from ..physics.contracts import WATER
 
 FREE = {
     "particle", "released", "released_part", "body_number", "exit_node", "grain", "partner", "generation",
@@ -103,12 +104,26 @@ def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
         values = read.get(name, np.zeros(0, int))
         if values.dtype.kind not in "iub" or np.any((values < least) | (values >= end)):
             _refuse(f"{name} has numbers outside [{least}, {end})")
+    if "partners_of" in read:
+        _check_partners(read, prefix)
+    elif np.any(read[f"{prefix}phase"] == WATER):
+        _refuse("there is water, but no partners_of")
     for name in ("call_rows", "budget_stretches"):
         ends = read.get(name, np.zeros((0, 2), int))
         if np.any(ends % raster_shape[1]) or np.any(np.diff(ends) < 0):
             _refuse(f"{name} are no stretches of whole rows")
     if running and "budget_stretches" in read and np.diff(read["budget_stretches"]).sum() != read["budget_copies"].size:
         _refuse("budget_copies does not fit budget_stretches")
+
+
+def _check_partners(read, prefix) -> None:
+    """Refuse grains without their partners among the water, and two phases of which anything sleeps."""
+    of, index, phase = read["partners_of"], read["partners_index"], read[f"{prefix}phase"]
+    filled = np.arange(index.shape[1]) < read["partners_count"][:, None]
+    if read["awake"] != phase.size:
+        _refuse("of two phases nothing sleeps, but awake is not the number of particles")
+    if np.unique(of).size != of.size or np.any(phase[of] == WATER) or np.any(phase[index[filled]] != WATER):
+        _refuse("partners_of and partners_index are not grains and the water around them")
 
 
 def _words(variable) -> str:
