@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from ..core.words import duration_text, grouped
+from .advance import check_mass
 from .doubts import scene_doubts
 from .memory import peak_memory
 from .pilot import run_pilot, run_start
@@ -140,7 +141,8 @@ def forecast(scene: Scene) -> Forecast:
     ----------
     Pastor et al. (2022) for T_c, T_e and Pe_b; Monaghan (1992) for the Courant condition, see docs/theory.md.
     """
-    terrain, releases = scene.terrain, scene.releases
+    check_mass(scene)
+    releases = scene.releases
     grid = scene.grid()
     area = grid.dx * grid.dy
     start, pilot = run_start(scene), run_pilot(scene)
@@ -154,7 +156,7 @@ def forecast(scene: Scene) -> Forecast:
         duration=pilot.duration, complete=pilot.complete, at_rest=pilot.at_rest, eroded=pilot.eroded,
         peak_depth=pilot.peak_depth, peak_speed=pilot.peak_speed, steps=steps,
         seconds=start.seconds + steps * start.seconds_per_step * pilot.cost_ratio, memory=peak_memory(),
-        notes=tuple(terrain.attrs.get("notes", ())), doubts=(*scene_doubts(scene), *start.doubts),
+        notes=tuple(scene.notes), doubts=(*scene_doubts(scene), *start.doubts),
     )  # fmt: skip
 
 
