@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from landlab_debrisflow import Scene
+from landlab_debrisflow import InputError, Scene
 from landlab_debrisflow.run import pilot as pilots
 from landlab_debrisflow.run.doubts import below_lip, scene_doubts
 from landlab_debrisflow.run.forecast import Forecast, forecast
@@ -46,6 +46,31 @@ def test_costs_of_steps_are_those_of_the_whole_run_over_those_of_the_start(monke
         steps.follow(still, 0.1 * k, 0.1 * (k + 1))
     assert steps.cost_ratio == pytest.approx((20 + 3.0 * 75) / 95)
     assert steps.erosion_time == math.inf
+
+
+def test_gauges_off_the_map_are_refused_before_anything_is_computed():
+    with pytest.raises(InputError, match=r"gauges: .*outside the DEM"):
+        forecast(scene(output={"gauges": {"bridge": [0.0, 0.0]}}))
+
+
+def test_times_of_pilot_runs_that_compiled_do_not_count(monkeypatch):
+    """Kernels that compile in the first steps of a pilot run make its later steps look cheap."""
+    starts, runs = [], []
+    first_start, first_pilot = run_start(scene()), run_pilot(scene(output={"max_duration": 1.0}))
+
+    def start(_):
+        starts.append(first_start._replace(seconds=0.1 if starts else 15.0, seconds_per_step=1e-3))
+        return starts[-1]
+
+    def pilot(_):
+        runs.append(first_pilot._replace(cost_ratio=1.0 if runs else 0.1))
+        return runs[-1]
+
+    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_start", start)
+    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_pilot", pilot)
+    found = forecast(scene())
+    assert (len(starts), len(runs)) == (2, 2)
+    assert found.seconds == pytest.approx(0.1 + found.steps * 1e-3, rel=1e-12)  # a cost ratio of 1
 
 
 @pytest.mark.slow
