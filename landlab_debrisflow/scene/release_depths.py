@@ -179,8 +179,8 @@ def _amount(keys: ReleaseKeys, shape: Shape) -> tuple[float | None, float | None
         near = "".join(did_you_mean(name, ("depth", "volume")) for name in names)
         told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attributes"
         raise InputError(
-            f"{shape.label} has neither an attribute depth [m] nor volume [m3]; {told}; add one, or the key depth or "
-            "volume to the release"
+            f"{shape.label} has neither an attribute depth [m] nor volume [m3] with a value; {told}; add one, or the "
+            "key depth or volume to the release"
         )
     if found.get("depth", 0.0) > MOST_DEPTH:
         raise InputError(f"{shape.label}: depth must be at most {MOST_DEPTH:g} m, got {found['depth']:g}; give metres")

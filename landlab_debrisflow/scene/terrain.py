@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.ndimage import label
+from scipy.ndimage import binary_dilation, label
 
 from ..core.checks import in_range
 from ..core.errors import InputError
@@ -18,6 +18,7 @@ from ..geo.rasters import MOST_NODES, checksum_of, open_raster, read_window
 from ..geo.references import label_of, same_place, wkt_of
 from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
+from ..grid.elevation_checks import HOLE, SUSPECT
 from ..model.inflow.hydrograph import Hydrograph
 from .edits import Ground, edit_ground
 from .gully import gully
@@ -174,6 +175,8 @@ def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: l
 
 
 def _note_missing(elevation: np.ndarray, notes: list[str]) -> None:
+    for value in SUSPECT:
+        _note_filled(elevation, value, notes)
     missing = np.isnan(elevation)
     if missing.all():
         raise InputError("elevation: there are no data in the window; choose another one")
@@ -192,6 +195,21 @@ def _note_missing(elevation: np.ndarray, notes: list[str]) -> None:
     if missing.sum() > sum(np.isin(areas, holes).reshape(-1)):
         outside = int(missing.sum() - np.isin(areas, holes).sum())
         said(notes, f"elevation: {outside} nodes at the edge are without data and closed")
+
+
+def _note_filled(elevation: np.ndarray, value: float, notes: list[str]) -> None:
+    """Note nodes of an elevation [m] by which voids are filled, at the edge too, if all ground beside is far higher."""
+    filled = elevation == value
+    if not filled.any():
+        return
+    beside = elevation[binary_dilation(filled) & ~filled & ~np.isnan(elevation)]
+    if beside.size and beside.min() - value >= HOLE:
+        said(
+            notes,
+            f"elevation: exactly {value:g} m at {np.count_nonzero(filled)} nodes, and the ground beside them is "
+            f"{beside.min() - value:.4g} m higher and more: if {value:g} marks missing data, give terrain: nodata: "
+            f"{value:g}; as it is, a flow that comes there falls",
+        )
 
 
 def _soil(keys: TerrainKeys, lattice: Lattice, source: RasterSource, folder: Path, zones, notes: list[str]):

@@ -35,6 +35,18 @@ def test_a_small_dem_is_taken_whole(tmp_path):
     assert terrain.attrs["dem"] == "dem.tif" and len(terrain.attrs["dem_sha256"]) == 64 and terrain.attrs["notes"] == []
 
 
+def test_voids_at_the_edge_that_are_filled_with_a_number_are_told(tmp_path):
+    """A DEM that was turned and saved as integers has zeros round it; a plain at the sea has them, too."""
+    corner = [(row, column, 0.0) for row in range(6) for column in range(6 - row)]
+    write_slope(tmp_path / "dem.tif", holes=corner)
+    (told,) = scene(tmp_path).terrain.attrs["notes"]
+    assert "exactly 0 m at 21 nodes" in told and "terrain: nodata: 0" in told
+    assert np.isnan(scene(tmp_path, nodata=0).terrain[Z].values).sum() == 21
+    beach = [(row, column, 40.0) for row in range(7) for column in range(7)]
+    write_slope(tmp_path / "dem.tif", holes=[*beach, *corner])
+    assert scene(tmp_path).terrain.attrs["notes"] == []
+
+
 def test_nodes_without_data_are_closed_and_holes_said(tmp_path):
     write_slope(tmp_path / "dem.tif", holes=[(0, 0, -9999.0), (10, 10, -9999.0), (10, 11, -9999.0)], nodata=-9999.0)
     made = scene(tmp_path)
