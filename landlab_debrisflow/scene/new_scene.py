@@ -8,7 +8,7 @@ from ..core.errors import InputError
 from ..geo.lattice import Lattice, extent
 from ..geo.names import find_file
 from ..geo.rasters import open_raster
-from ..geo.references import label_of
+from ..geo.references import check_reference, label_of
 from ..geo.shapes import read_shapes
 from ..record.files import write_atomically
 from .gully import LATTICE
@@ -85,6 +85,7 @@ def _own(path: Path, dem: str, release: str, crs: str | None, full: bool) -> str
     notes: list[str] = []
     source = open_raster(dem, crs, notes)
     lattice = source.lattice
+    check_reference(lattice, crs, source.path)
     remarks = [
         "", f"{source.path.name}: {lattice.shape[0]} x {lattice.shape[1]} nodes (rows x columns), spacing "
         f"{lattice.spacing[0]:g} x {lattice.spacing[1]:g} m, {extent(lattice.bounds)}, {_reference(lattice)}.",

@@ -15,7 +15,7 @@ from ..geo.cover import nodes_inside
 from ..geo.lattice import Lattice, Window, extent
 from ..geo.names import said
 from ..geo.rasters import MOST_NODES, checksum_of, open_raster, read_window
-from ..geo.references import label_of, same_place, wkt_of
+from ..geo.references import check_reference
 from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
 from ..grid.elevation_checks import HOLE, SUSPECT
@@ -100,12 +100,7 @@ def lattice_of(terrain: xr.Dataset) -> Lattice:
 
 def _dem(keys: TerrainKeys, folder: Path, notes: list[str]) -> tuple[RasterSource, str]:
     source = open_raster(folder / str(keys.elevation), keys.crs, notes)
-    lattice = source.lattice
-    if keys.crs is not None and not same_place(lattice.crs, wkt_of(keys.crs), lattice.bounds, max(lattice.spacing)):
-        raise InputError(
-            f"crs: {source.path.name} is in {label_of(lattice.crs)}, crs says {keys.crs}; crs is for files that name "
-            "none, leave it out"
-        )
+    check_reference(source.lattice, keys.crs, source.path)
     return source, checksum_of(source.path)
 
 

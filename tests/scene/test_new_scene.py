@@ -95,6 +95,8 @@ def test_a_reference_system_for_a_dem_without(tmp_path):
     path = new_scene(tmp_path / "a.yaml", tmp_path / "dem.asc", drawn, crs="EPSG:32632")
     assert "EPSG:32632" in path.read_text() and "names none" not in path.read_text()
     assert "EPSG" in "".join(Scene.from_file(path).terrain.crs_wkt.replace('"', " "))
+    with pytest.raises(InputError, match=r"dem.tif is in EPSG:32632 .*crs says EPSG:32633"):
+        new_scene(tmp_path / "b.yaml", dem(tmp_path), drawn, crs="EPSG:32633")
     with pytest.raises(InputError, match="crs: EPSG:32632 is for a DEM"):
         new_scene(tmp_path / "b.yaml", crs="EPSG:32632")
 
