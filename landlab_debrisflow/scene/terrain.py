@@ -32,6 +32,10 @@ FEW_NODES = 250_000
 """DEMs of at most so many nodes are taken whole unless a window is asked for: a part would save nothing."""
 SMALLEST = 5
 """Least number of rows and of columns of a terrain."""
+NO_RATIO = (
+    "bed_pressure_ratio: 0 outside the zones that give it, whatever that of the material is: give terrain: "
+    "bed_pressure_ratio as well"
+)
 
 
 def build_terrain(
@@ -238,7 +242,9 @@ def _pressure_ratio(keys: TerrainKeys, lattice: Lattice, folder: Path, zones, no
         ratio = _number_or_raster("bed_pressure_ratio", value, lattice, folder, keys.crs, notes, (0.0, 1.0), "-")
     for zone, nodes in zip(keys.zones, zones, strict=True):
         if zone.bed_pressure_ratio is not None:
-            ratio = np.zeros(lattice.shape) if ratio is None else ratio
+            if ratio is None:
+                said(notes, NO_RATIO)
+                ratio = np.zeros(lattice.shape)
             ratio.reshape(-1)[nodes] = zone.bed_pressure_ratio
     return ratio
 
