@@ -13,6 +13,7 @@ from landlab_debrisflow.run import pilot as pilots
 from landlab_debrisflow.run.doubts import below_lip, scene_doubts
 from landlab_debrisflow.run.forecast import Forecast, forecast
 from landlab_debrisflow.run.pilot import Pilot, run_pilot, run_start
+from tests.scene.dems import square, write_slope
 
 from .running import FIRST, MAPPING
 
@@ -115,6 +116,20 @@ def test_a_usual_scene_has_no_doubts():
 )
 def test_doubts(changes, words):
     assert [doubt for doubt in doubts(**changes) if words in doubt]
+
+
+def test_erosion_without_soil_is_doubted(tmp_path):
+    write_slope(tmp_path / "dem.tif")
+    mapping = {
+        "terrain": {"elevation": str(tmp_path / "dem.tif")},
+        "release": {"polygons": square(100.0, 50.0, 40.0), "depth": 1.0},
+        "numerics": {"particle_count": 60},
+    }
+    (doubt,) = scene_doubts(Scene.from_mapping(mapping))
+    assert "nothing erodes, though the law of erosion is Growth" in doubt
+    assert list(scene_doubts(Scene.from_mapping(mapping | {"erosion": "none"}))) == []
+    mapping["terrain"]["soil_depth"] = 2.0
+    assert list(scene_doubts(Scene.from_mapping(mapping))) == []
 
 
 def test_pits_of_the_ground_are_not_those_of_a_release():
