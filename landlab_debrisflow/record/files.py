@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from ..core.errors import OutputError
+from ..core.errors import InputError, OutputError
 
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
@@ -31,10 +31,10 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     path = Path(path)
     folder = path.parent
     if path.is_dir():
-        raise OutputError(f"cannot write {path}: it is a directory; give the name of a file in it")
+        raise InputError(f"cannot write {path}: it is a directory; give the name of a file in it")
     if not folder.is_dir():
         word = "is not a directory" if folder.exists() else "does not exist"
-        raise OutputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
+        raise InputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
     try:  # the only honest test: permission bits say nothing on read-only or full file systems
         with tempfile.TemporaryFile(dir=folder):
             pass
@@ -67,7 +67,7 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
     path = Path(path)
     if not path.is_dir():
         word = "is a file" if path.exists() else "does not exist"
-        raise OutputError(
+        raise InputError(
             f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
         )
     check_writable(path / "any")
