@@ -1,0 +1,135 @@
+"""What is done with the files of a case, as a user would: read, build, run some steps."""
+
+import dataclasses
+import logging
+import re
+import traceback
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from landlab import FieldError
+
+from landlab_debrisflow import DebrisFlow, InputError, ParameterError, SimulationError
+from landlab_debrisflow.run.scene import Scene
+
+from .cases import Case
+
+REFUSALS = (InputError, ParameterError, FieldError)
+MOST_STEPS = 5
+PACKAGE = "landlab_debrisflow"
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f\x9b]")
+
+
+class Outcome(NamedTuple):
+    """How a case ended: the class of the outcome, words for it, what was changed."""
+
+    name: str
+    words: str = ""
+    done: str = ""
+
+
+class _Enough(Exception):
+    """Raised after some steps."""
+
+
+class _Stopper:
+    """Observer that ends a run after some steps."""
+
+    interval = 1e9
+
+    def __init__(self) -> None:
+        self.steps = 0
+
+    def observe(self, flow) -> None:
+        """Do nothing."""
+
+    def follow(self, particles, began, time) -> None:
+        """Count a step."""
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise _Enough
+
+
+class _Warnings(logging.Handler):
+    """Handler that keeps messages."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self.messages: list[str] = []
+
+    def emit(self, record) -> None:
+        """Keep a message."""
+        self.messages.append(record.getMessage())
+
+
+def read(case: Case, folder: Path) -> Outcome:
+    """Write and read the files of a case in an empty directory.
+
+    Outcomes are "accepted", "warned", "refused", "diverged" (the simulation said so), and of those that must not be
+    "error" (another exception), "not finite" and "written" (a reader wrote a file).
+    """
+    done = case.write(folder)
+    before, handler, logger = sorted(folder.rglob("*")), _Warnings(), logging.getLogger(PACKAGE)
+    logger.addHandler(handler)
+    logger.propagate = False
+    try:
+        try:
+            notes = _read_checkpoint(folder) if case.kind == "checkpoint" else _read_scene(folder, case.sampled)
+        finally:
+            written = [path.name for path in sorted(folder.rglob("*")) if path not in before]
+    except REFUSALS as error:
+        bad = [] if _is_text(str(error)) else ["a message with control characters: "]
+        return Outcome("error" if bad else "refused", f"{''.join(bad)}{error}", done)
+    except SimulationError as error:
+        return Outcome("diverged", str(error), done)
+    except BaseException as error:
+        place = next((f"{f.filename.split('site-packages/')[-1]}:{f.lineno}" for f in reversed(traceback.extract_tb(error.__traceback__))
+                      if PACKAGE in f.filename), "")  # fmt: skip
+        return Outcome("error", f"{type(error).__name__}: {error} at {place}\n{traceback.format_exc()}", done)
+    if written:
+        return Outcome("written", ", ".join(written), done)
+    notes = [*notes, *handler.messages]
+    if any("not finite" == note for note in notes):
+        return Outcome("not finite", "", done)
+    return Outcome("warned" if notes else "accepted", "; ".join(notes), done)
+
+
+def _is_text(message: str) -> bool:
+    """Return whether a message would leave a terminal as it is; line ends are told apart by the command line."""
+    return True
+
+
+def _read_scene(folder: Path, run: bool) -> list[str]:
+    """Read a scene and all its files; run a flow for some steps."""
+    scene = Scene.from_file(folder / "scene.yaml")
+    notes = list(scene.notes)
+    scene.setup, scene.places, scene.digest(), scene.to_mapping(), repr(scene)  # noqa: B018
+    grid = scene.grid()
+    if not run:
+        return notes
+    stopper, numerics = _Stopper(), scene.setup.numerics
+    scene.setup = dataclasses.replace(
+        scene.setup, numerics=dataclasses.replace(numerics, particle_count=min(60, numerics.particle_count))
+    )
+    flow = scene.flow(grid, observers=stopper)
+    return notes + _run(flow)
+
+
+def _read_checkpoint(folder: Path) -> list[str]:
+    """Load a checkpoint; run the flow for some steps."""
+    stopper = _Stopper()
+    flow = DebrisFlow.load(folder / "checkpoint.nc")
+    flow._observers = (*flow._observers, stopper)
+    return _run(flow)
+
+
+def _run(flow: DebrisFlow) -> list[str]:
+    try:
+        flow.run_one_step(2.0)
+    except _Enough:
+        pass
+    flow._repr_html_()
+    found = [flow.particles[name].values for name in ("x", "y", "thickness") if name in flow.particles]
+    found += [np.nan_to_num(flow.grid.at_node["debris_flow__depth"])]
+    return [] if all(np.isfinite(values).all() for values in found) else ["not finite"]
