@@ -1,4 +1,4 @@
-"""Files that no reader of the package may stumble over: drawn from a seed, one change or some bytes away from good ones."""
+"""Files over which no reader may stumble: drawn from a seed, one change or some bytes away from good ones."""
 
 import os
 

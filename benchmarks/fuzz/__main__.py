@@ -1,9 +1,9 @@
 """Read files that no user meant to write: ``python -m benchmarks.fuzz --count 20000 --seed 1``.
 
-Scenes, rasters, vector files, tables and checkpoints are drawn at random: good ones, good ones with one change, and good
-ones with damaged bytes; contents of checkpoints are changed under a digest that is right. Each is read in a copy of this
-process with limits of time and memory; of some that are accepted a flow is made and run for a few steps. A file must be
-refused by an InputError, ParameterError or FieldError, or be read; where a library crashes is counted apart.
+Scenes, rasters, vector files, tables and checkpoints are drawn at random: good ones, good ones with one change, and
+good ones with damaged bytes; contents of checkpoints are changed under a digest that is right. Each is read in a copy
+of this process with limits of time and memory; of some that are accepted a flow is made and run for a few steps. A file
+must be refused by an InputError, ParameterError or FieldError, or be read; where a library crashes is counted apart.
 
 ``--only N`` runs one case again and shows what it says, ``--coverage`` counts the lines of the readers that a sample
 reaches, ``--refusals N`` shows some refusals.
@@ -64,12 +64,9 @@ def _run(console: Console, cases, arguments) -> None:
         counts[one.kind, one.form, outcome.name] += 1
         if outcome.name not in (*GOOD[:4],):
             failures.append((one, outcome))
-            console.print(
-                escape(
-                    f"{one.number} {one.kind}, {one.form}, {outcome.done}: {outcome.name} {' '.join(outcome.words.split())[:240]}"
-                ),
-                highlight=False,
-            )
+            words = " ".join(outcome.words.split())[:240]
+            told = f"{one.number} {one.kind}, {one.form}, {outcome.done}: {outcome.name} {words}"
+            console.print(escape(told), highlight=False)
         elif outcome.name == "refused":
             refusals.append((one, outcome))
     table = Table(title=f"{len(cases)} files, seed {arguments.seed}")

@@ -89,9 +89,12 @@ def _change_tables(rng: np.random.Generator, path: Path) -> str:
             done = f"{column} = {value!r:.40}"
         elif way == 5:
             table, column = one(rng, (
-                ("gpkg_geometry_columns", "srs_id"), ("gpkg_geometry_columns", "geometry_type_name"), ("gpkg_geometry_columns", "column_name"),
-                ("gpkg_geometry_columns", "z"), ("gpkg_contents", "data_type"), ("gpkg_contents", "identifier"), ("gpkg_contents", "min_x"),
-                ("gpkg_contents", "srs_id"), ("gpkg_spatial_ref_sys", "definition"), ("gpkg_spatial_ref_sys", "organization"),
+                ("gpkg_geometry_columns", "srs_id"), ("gpkg_geometry_columns", "geometry_type_name"),
+                ("gpkg_geometry_columns", "column_name"),
+                ("gpkg_geometry_columns", "z"), ("gpkg_contents", "data_type"), ("gpkg_contents", "identifier"),
+                ("gpkg_contents", "min_x"),
+                ("gpkg_contents", "srs_id"), ("gpkg_spatial_ref_sys", "definition"),
+                ("gpkg_spatial_ref_sys", "organization"),
             ))  # fmt: skip
             value = one(rng, (number, text, None))
             base.execute(f"UPDATE OR REPLACE {table} SET {column}=?", (value,))
@@ -143,8 +146,10 @@ def _geometry(rng: np.random.Generator, blob: bytes) -> tuple[Any, str]:
     """Return a geometry of a GeoPackage with one change, and what was done; the head has 40 bytes, or 8 for a point."""
     head = 8 + {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}[(blob[3] >> 1) & 7]
     where, width = one(rng, (
-        ("magic", (0, 2)), ("version", (2, 3)), ("flags", (3, 4)), ("srs_id", (4, 8)), ("envelope", (8, 16)), ("byte order", (head, head + 1)),
-        ("type", (head + 1, head + 5)), ("rings", (head + 5, head + 9)), ("points", (head + 9, head + 13)), ("coordinate", (head + 13, head + 21)),
+        ("magic", (0, 2)), ("version", (2, 3)), ("flags", (3, 4)), ("srs_id", (4, 8)), ("envelope", (8, 16)),
+        ("byte order", (head, head + 1)),
+        ("type", (head + 1, head + 5)), ("rings", (head + 5, head + 9)), ("points", (head + 9, head + 13)),
+        ("coordinate", (head + 13, head + 21)),
         ("end", (len(blob) - 8, len(blob))),
     ))  # fmt: skip
     begin, end = width
@@ -181,8 +186,10 @@ def _change_shapefile(rng: np.random.Generator, files: dict[str, bytes]) -> str:
         return f".dbf byte {at} = {data[at]}"
     suffix = one(rng, (".shp", ".shx"))
     data = bytearray(files[suffix])
-    form, at = one(rng, (("<i", 32), (">i", 24), ("<d", 36), ("<d", 60), (">i", 100), (">i", 104), ("<i", 108), ("<d", 112), ("<i", 144), ("<i", 148),
-                         ("<i", 152), ("<d", 156)))  # fmt: skip
+    form, at = one(rng, (
+        ("<i", 32), (">i", 24), ("<d", 36), ("<d", 60), (">i", 100), (">i", 104), ("<i", 108), ("<d", 112), ("<i", 144),
+        ("<i", 148), ("<i", 152), ("<d", 156),
+    ))  # fmt: skip
     if at + struct.calcsize(form) > len(data):
         at = 36
         form = "<d"

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from landlab import RasterModelGrid
+from landlab_debrisflow.record.checkpoint_file import MAGIC, TRAILER, VERSION, read_checkpoint, write_checkpoint
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.record import checkpoint_file
-from landlab_debrisflow.record.checkpoint_file import MAGIC, TRAILER, VERSION, read_checkpoint, write_checkpoint
 
 from . import ground
 from .odd import HOSTILE, NUMBERS, damaged, odd_value, one
@@ -122,8 +122,10 @@ def _changed_trailer(rng: np.random.Generator, data: bytes) -> tuple[bytes, str]
     content = data[: -TRAILER.size]
     changes = {
         "newer": lambda: _signed(content, version=VERSION + 1), "version 0": lambda: _signed(content, version=0),
-        "other magic": lambda: _signed(content, magic=b"x" * len(MAGIC)), "length 0": lambda: _signed(content, length=0),
-        "length huge": lambda: _signed(content, length=2**63), "nothing signed": lambda: _signed(b""), "text signed": lambda: _signed(b"hello"),
+        "other magic": lambda: _signed(content, magic=b"x" * len(MAGIC)),
+        "length 0": lambda: _signed(content, length=0),
+        "length huge": lambda: _signed(content, length=2**63), "nothing signed": lambda: _signed(b""),
+        "text signed": lambda: _signed(b"hello"),
         "signed twice": lambda: _signed(data), "as text": lambda: data.replace(b"\n", b"\r\n"),
     }  # fmt: skip
     name = one(rng, list(changes))

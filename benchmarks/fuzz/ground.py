@@ -29,7 +29,8 @@ def block(column: int, row: int, width: int = 4, height: int = 4) -> list[list[f
 def polygons(**attributes: Any) -> dict[str, Any]:
     """Return a GeoJSON of two polygons with a depth [m]."""
     features = [
-        {"type": "Feature", "id": k, "properties": {"depth": 1.0 + k, "name": f"scar {k}", "soil_depth": 0.5} | attributes,
+        {"type": "Feature", "id": k,
+         "properties": {"depth": 1.0 + k, "name": f"scar {k}", "soil_depth": 0.5} | attributes,
          "geometry": {"type": "Polygon", "coordinates": [block(2 + 5 * k, 4)]}}
         for k in range(2)
     ]  # fmt: skip
@@ -122,15 +123,18 @@ def _terrain(rng: np.random.Generator) -> dict[str, Any]:
     }
     across = [[WEST + 70.0, SOUTH + 12.0], [WEST + 70.0, SOUTH + 58.0]]
     edits: list[dict[str, Any]] = [
-        {"dam": [across], "crest_height": 3.0, "crest_width": 4.0}, {"wall": "bridge.geojson", "crest_elevation": 715.0},
-        {"excavation": [block(11, 5)], "depth": 1.0}, {"buildings": [block(12, 6)], "height": 6.0}, {"buildings": [block(12, 3)]},
+        {"dam": [across], "crest_height": 3.0, "crest_width": 4.0},
+        {"wall": "bridge.geojson", "crest_elevation": 715.0},
+        {"excavation": [block(11, 5)], "depth": 1.0}, {"buildings": [block(12, 6)], "height": 6.0},
+        {"buildings": [block(12, 3)]},
     ]  # fmt: skip
     zones: list[dict[str, Any]] = [
         {"polygons": "scars.geojson", "soil_depth": 0.5}, {"polygons": [block(9, 3)], "bed_pressure_ratio": 0.3},
         {"polygons": [block(9, 3)], "friction": {"cohesion": 100.0}},
     ]  # fmt: skip
     extras = {
-        "window": _one(rng, ["reach", "all", [WEST + 5.0, SOUTH + 5.0, WEST + 85.0, SOUTH + 65.0]]), "travel_angle": 8.0,
+        "window": _one(rng, ["reach", "all", [WEST + 5.0, SOUTH + 5.0, WEST + 85.0, SOUTH + 65.0]]),
+        "travel_angle": 8.0,
         "spacing": _one(rng, [4.0, 5.0, 7.0]), "nodata": -1.0, "bed_pressure_ratio": 0.2, "zones": [_one(rng, zones)],
         "edits": [_one(rng, edits)],
     }  # fmt: skip

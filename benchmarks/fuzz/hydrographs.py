@@ -67,8 +67,11 @@ def write(rng: np.random.Generator, folder: Path, form: str) -> str:
             header = one(rng, HEADERS)
             done = f"header {header!r}"
         else:
-            rows, done = {0: (rows[::-1], "backwards"), 1: (rows[:1], "one row"), 2: ([], "no rows"), 3: (rows * 2, "twice"),
-                          4: ([["0", "0"]] * 3, "zeros")}[int(rng.integers(5))]  # fmt: skip
+            choices = (
+                (rows[::-1], "backwards"), (rows[:1], "one row"), ([], "no rows"), (rows * 2, "twice"),
+                ([["0", "0"]] * 3, "zeros"),
+            )  # fmt: skip
+            rows, done = one(rng, choices)
     lines = [mark.join(row) for row in rows]
     if header is not None:
         lines.insert(0, header.replace(" [", "_[").replace(",", mark) if mark == " " else header.replace(",", mark))

@@ -15,9 +15,12 @@ def write(rng: np.random.Generator, path: Path, values: np.ndarray, change: bool
     """Write a NetCDF file of varied layout, with one change if asked for; return what was changed."""
     rows, columns = values.shape
     layout: dict[str, Any] = {
-        "x": ground.WEST + (np.arange(columns) + 0.5) * ground.SPACING, "y": ground.SOUTH + (np.arange(rows) + 0.5) * ground.SPACING,
-        "names": ("y", "x"), "dtype": one(rng, ("f4", "f8")), "format": one(rng, ("NETCDF4", "NETCDF4", "NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET")),
-        "fill": one(rng, (None, -9999.0)), "units": {"x": "m", "y": "m", "z": one(rng, ("m", None, "metre"))}, "attributes": {},
+        "x": ground.WEST + (np.arange(columns) + 0.5) * ground.SPACING,
+        "y": ground.SOUTH + (np.arange(rows) + 0.5) * ground.SPACING,
+        "names": ("y", "x"), "dtype": one(rng, ("f4", "f8")),
+        "format": one(rng, ("NETCDF4", "NETCDF4", "NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET")),
+        "fill": one(rng, (None, -9999.0)), "units": {"x": "m", "y": "m", "z": one(rng, ("m", None, "metre"))},
+        "attributes": {},
         "wkt": CRS.from_epsg(ground.CODE).to_wkt(), "name": one(rng, ("elevation", "Band1", "z")), "extra": None,
         "dimensions": 2, "axis_names": True,
     }  # fmt: skip
@@ -37,7 +40,8 @@ def _change(rng: np.random.Generator, layout: dict[str, Any], values: np.ndarray
         axis, k = one(rng, "xy"), int(rng.integers(6))
         edge = layout[axis].copy()
         layout[axis] = (
-            edge[::-1], edge**1.01, np.zeros_like(edge), np.where(np.arange(edge.size) == 3, np.nan, edge), edge * 1e300,
+            edge[::-1], edge**1.01, np.zeros_like(edge), np.where(np.arange(edge.size) == 3, np.nan, edge),
+            edge * 1e300,
             np.roll(edge, 1),
         )[k]  # fmt: skip
         return f"{axis} odd, {k}"

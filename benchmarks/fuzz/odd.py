@@ -5,15 +5,19 @@ from typing import Any
 import numpy as np
 
 HOSTILE = (
-    "[red]x[/red]", "[/]", "<script>alert(1)</script>", "\x1b[31mred", "a\nb", "a\x00b", "\u202eabc", "../../x", "/dev/zero",
-    "/dev/stdin", "/etc/passwd", "/proc/self/mem", "..", ".", "~", "", " ", "a" * 5000, "%s%n", "{0}", "$HOME", "file:dem.asc",
-    "/vsicurl/http://localhost:1/a.tif", "http://localhost:1/a.tif", "dem.asc:2", "dem.asc:", ":", "CON", "\ud7ff", "Ж", "🌋",
+    "[red]x[/red]", "[/]", "<script>alert(1)</script>", "\x1b[31mred", "a\nb", "a\x00b", "\u202eabc", "../../x",
+    "/dev/zero",
+    "/dev/stdin", "/etc/passwd", "/proc/self/mem", "..", ".", "~", "", " ", "a" * 5000, "%s%n", "{0}", "$HOME",
+    "file:dem.asc",
+    "/vsicurl/http://localhost:1/a.tif", "http://localhost:1/a.tif", "dem.asc:2", "dem.asc:", ":", "CON", "\ud7ff",
+    "Ж", "🌋",
     "pipe", "folder", "loop", "missing.tif", "scene.yaml", "!!python/object/apply:os.system ['true']",
 )  # fmt: skip
 """Texts that terminals, pages, shells, format strings and file systems might take for more than text."""
 
 NUMBERS = (
-    0, -1, 1, 2, -0.0, 1e-320, 1e-9, 0.5, 1e3, 1e6, 1e9, 1e15, 1e300, 1e308, -1e308, float("nan"), float("inf"), -float("inf"),
+    0, -1, 1, 2, -0.0, 1e-320, 1e-9, 0.5, 1e3, 1e6, 1e9, 1e15, 1e300, 1e308, -1e308, float("nan"), float("inf"),
+    -float("inf"),
     2**31, 2**63, -(2**63), 2**64, 10**30, 10**400, 3, 7, 45.0, 89.9, 90.0, 180.0, 360.0, -9999, 1000, 273.15, 9.81,
 )  # fmt: skip
 

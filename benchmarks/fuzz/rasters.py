@@ -78,7 +78,10 @@ def write_tiff(rng: np.random.Generator, path: Path, values: np.ndarray, change:
 def _changed_tiff(rng: np.random.Generator, profile: dict[str, Any], band: np.ndarray):
     place, after, way = profile["transform"], {}, int(rng.integers(12))
     if way == 0:
-        kinds = "uint8 int8 int16 uint16 int32 uint32 int64 uint64 complex64 complex128 complex_int16 float16".split()
+        kinds = (
+            "uint8", "int8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "complex64", "complex128",
+            "complex_int16", "float16",
+        )  # fmt: skip
         profile["dtype"] = one(rng, kinds)
         profile["nodata"] = one(rng, (None, 0, 99))
         profile.pop("predictor", None)
@@ -95,19 +98,23 @@ def _changed_tiff(rng: np.random.Generator, profile: dict[str, Any], band: np.nd
     elif way in (4, 5):
         a, _, c, _, e, f = place[:6]
         choices = {
-            "rotated": (a, 1.0, c, -1.0, e, f), "slightly rotated": (a, 1e-7, c, 1e-7, e, f), "south-up": (a, 0, c, 0, -e, f),
+            "rotated": (a, 1.0, c, -1.0, e, f), "slightly rotated": (a, 1e-7, c, 1e-7, e, f),
+            "south-up": (a, 0, c, 0, -e, f),
             "mirrored": (-a, 0, c, 0, e, f), "oblong": (a, 0, c, 0, 0.5 * e, f), "no width": (0, 0, c, 0, e, f),
             "huge": (1e9, 0, c, 0, -1e9, f), "tiny": (1e-9, 0, c, 0, -1e-9, f), "far": (a, 0, 1e15, 0, e, -1e15),
             "nan": (float("nan"), 0, c, 0, e, f), "inf": (a, 0, float("inf"), 0, e, f), "identity": (1, 0, 0, 0, 1, 0),
-            "degrees": (5e-5, 0, 9.0, 0, -5e-5, 47.0), "moved": (a, 0, c + 0.3 * a, 0, e, f), "elsewhere": (a, 0, c + 1e5, 0, e, f),
+            "degrees": (5e-5, 0, 9.0, 0, -5e-5, 47.0), "moved": (a, 0, c + 0.3 * a, 0, e, f),
+            "elsewhere": (a, 0, c + 1e5, 0, e, f),
             "coarser": (4 * a, 0, c, 0, 4 * e, f), "vertical": (0, a, c, e, 0, f), "vast": (1e300, 0, c, 0, -1e300, f),
         }  # fmt: skip
         done = one(rng, list(choices))
         profile["transform"] = Affine(*choices[done])
     elif way == 6:
         profile["crs"] = one(rng, (
-            None, "EPSG:4326", "EPSG:2056", "EPSG:2263", "EPSG:6539", "EPSG:4978", "EPSG:3857", "EPSG:32632+5773", "EPSG:5773",
-            'LOCAL_CS["here",UNIT["metre",1]]', 'LOCAL_CS["<b>[red]",UNIT["foot",0.3048]]', "EPSG:32760", "+proj=geos +h=35785831",
+            None, "EPSG:4326", "EPSG:2056", "EPSG:2263", "EPSG:6539", "EPSG:4978", "EPSG:3857", "EPSG:32632+5773",
+            "EPSG:5773",
+            'LOCAL_CS["here",UNIT["metre",1]]', 'LOCAL_CS["<b>[red]",UNIT["foot",0.3048]]', "EPSG:32760",
+            "+proj=geos +h=35785831",
             "EPSG:32661", "EPSG:27700", "EPSG:2193", "OGC:CRS84", "ESRI:54009", "EPSG:4979",
         ))  # fmt: skip
         done = f"crs {profile['crs']}"
@@ -250,7 +257,7 @@ def write_ascii(rng: np.random.Generator, path: Path, values: np.ndarray, change
             elif done == "row more":
                 cells.append(cells[0])
             elif done == "one line":
-                cells = [sum(cells, [])]
+                cells = [[cell for row in cells for cell in row]]
             elif done == "decimal comma":
                 cells = [[cell.replace(".", ",") for cell in row] for row in cells]
             else:

@@ -101,13 +101,20 @@ def change_line(rng: np.random.Generator, text: str) -> tuple[bytes, str]:
     k = int(rng.integers(len(lines)))
     line = lines[k]
     ways = {
-        "indented more": f" {line}", "indented less": line[1:] if line.startswith(" ") else f"- {line}", "tab": f"\t{line}",
-        "removed": None, "twice": f"{line}\n{line}", "no colon": line.replace(":", "", 1), "quote": line.replace(": ", ': "', 1),
-        "comment": line.replace(": ", ": # ", 1), "anchor": line.replace(": ", ": &a ", 1), "alias": line.replace(": ", ": *a ", 1),
-        "tag": line.replace(": ", ": !!python/name:os.system ", 1), "merge": f"<<: {{a: 1}}\n{line}", "document": f"---\n{line}",
-        "end": f"...\n{line}", "deep": line + "[" * 300, "braces": line + "{" * 30, "control": f"{line}\x07", "text block": f"{line} |",
-        "question": f"? {line}", "unit": f"{line} m", "comma": line.replace(".", ","), "semicolon": f"{line};", "null": f"{line}\x00",
-        "percent": f"%YAML 9.9\n{line}", "long": f"{line}{'x' * 100_000}", "carriage": line.replace(" ", "\r"), "backtick": f"`{line}",
+        "indented more": f" {line}", "indented less": line[1:] if line.startswith(" ") else f"- {line}",
+        "tab": f"\t{line}",
+        "removed": None, "twice": f"{line}\n{line}", "no colon": line.replace(":", "", 1),
+        "quote": line.replace(": ", ': "', 1),
+        "comment": line.replace(": ", ": # ", 1), "anchor": line.replace(": ", ": &a ", 1),
+        "alias": line.replace(": ", ": *a ", 1),
+        "tag": line.replace(": ", ": !!python/name:os.system ", 1), "merge": f"<<: {{a: 1}}\n{line}",
+        "document": f"---\n{line}",
+        "end": f"...\n{line}", "deep": line + "[" * 300, "braces": line + "{" * 30, "control": f"{line}\x07",
+        "text block": f"{line} |",
+        "question": f"? {line}", "unit": f"{line} m", "comma": line.replace(".", ","), "semicolon": f"{line};",
+        "null": f"{line}\x00",
+        "percent": f"%YAML 9.9\n{line}", "long": f"{line}{'x' * 100_000}", "carriage": line.replace(" ", "\r"),
+        "backtick": f"`{line}",
     }  # fmt: skip
     name = one(rng, [*ways, "byte order mark", "utf-16", "latin-1", "utf-32", "empty", "list", "spaces"])
     if name in ways:
@@ -116,7 +123,8 @@ def change_line(rng: np.random.Generator, text: str) -> tuple[bytes, str]:
     if name == "latin-1":
         return (text + "# Grüß\n").encode("latin-1"), name
     data = {
-        "byte order mark": text.encode("utf-8-sig"), "utf-16": text.encode("utf-16"), "utf-32": text.encode("utf-32"), "empty": b"",
+        "byte order mark": text.encode("utf-8-sig"), "utf-16": text.encode("utf-16"), "utf-32": text.encode("utf-32"),
+        "empty": b"",
         "list": b"- a\n- b\n", "spaces": b" \n\t\n",
     }  # fmt: skip
     return data[name], name

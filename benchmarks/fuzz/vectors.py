@@ -12,8 +12,10 @@ from .odd import HOSTILE, NUMBERS, damaged, odd_value, one
 from .scenes import change_value, write_mapping
 
 ROLES = {
-    "scars": ground.polygons, "gauges": ground.points, "bridge": ground.lines, "thalweg": ground.lines, "exposure": ground.polygons,
-    "zone": ground.polygons, "dam": ground.lines, "excavation": ground.polygons, "buildings": ground.polygons, "points": ground.points,
+    "scars": ground.polygons, "gauges": ground.points, "bridge": ground.lines, "thalweg": ground.lines,
+    "exposure": ground.polygons,
+    "zone": ground.polygons, "dam": ground.lines, "excavation": ground.polygons, "buildings": ground.polygons,
+    "points": ground.points,
     "soil": ground.polygons,
 }  # fmt: skip
 TYPES = (
@@ -104,8 +106,10 @@ def change_shapes(rng: np.random.Generator, content: dict[str, Any]) -> str:
         shape["type"] = one(rng, TYPES)
         return f"type {shape['type']!r}"
     if way == 2:
-        feature["geometry"] = one(rng, (None, {}, [], {"type": "Polygon", "coordinates": []}, {"type": "GeometryCollection", "geometries": []},
-                                        {"type": "GeometryCollection", "geometries": [copy.deepcopy(shape)] * 2}))  # fmt: skip
+        feature["geometry"] = one(rng, (
+            None, {}, [], {"type": "Polygon", "coordinates": []}, {"type": "GeometryCollection", "geometries": []},
+            {"type": "GeometryCollection", "geometries": [copy.deepcopy(shape)] * 2},
+        ))  # fmt: skip
         return f"geometry {feature['geometry']!r:.60}"
     if way in (3, 4):
         owner = shape["coordinates"]
@@ -120,10 +124,14 @@ def change_shapes(rng: np.random.Generator, content: dict[str, Any]) -> str:
     if way == 6 and shape["type"] == "Polygon":
         ring = shape["coordinates"][0]
         outlines = {
-            "bow-tie": [ring[0], ring[2], ring[1], ring[3], ring[0]], "not closed": ring[:-1], "two corners": ring[:2], "a line": [ring[0], ring[1], ring[0]],
-            "one corner": ring[:1], "clockwise": ring[::-1], "corner twice": [ring[0], *ring], "spike": [*ring[:3], [ring[2][0] + 50.0, ring[2][1]], *ring[2:]],
-            "sliver": [ring[0], ring[1], [ring[1][0], ring[1][1] + 1e-9], ring[0]], "large": [[x + 1e4 * (x > ring[0][0]), y] for x, y in ring],
-            "small": [[ring[0][0] + 1e-3 * (x > ring[0][0]), ring[0][1] + 1e-3 * (y > ring[0][1])] for x, y in ring], "long": ring[:-1] * 3000 + ring[:1],
+            "bow-tie": [ring[0], ring[2], ring[1], ring[3], ring[0]], "not closed": ring[:-1],
+            "two corners": ring[:2], "a line": [ring[0], ring[1], ring[0]],
+            "one corner": ring[:1], "clockwise": ring[::-1], "corner twice": [ring[0], *ring],
+            "spike": [*ring[:3], [ring[2][0] + 50.0, ring[2][1]], *ring[2:]],
+            "sliver": [ring[0], ring[1], [ring[1][0], ring[1][1] + 1e-9], ring[0]],
+            "large": [[x + 1e4 * (x > ring[0][0]), y] for x, y in ring],
+            "small": [[ring[0][0] + 1e-3 * (x > ring[0][0]), ring[0][1] + 1e-3 * (y > ring[0][1])] for x, y in ring],
+            "long": ring[:-1] * 3000 + ring[:1],
         }  # fmt: skip
         done = one(rng, list(outlines))
         shape["coordinates"] = [outlines[done]]
@@ -170,7 +178,8 @@ def _moved(rng: np.random.Generator, coordinates: Any) -> tuple[Any, str]:
             return [change(inner) for inner in value]
         x, y = value[:2]
         return {
-            "far": [x + 1e5, y], "a little": [x + 40.0, y], "degrees": [9.0 + 1e-5 * (x % 1000), 47.0], "swapped": [y, x], "z": [x, y, 1.0],
+            "far": [x + 1e5, y], "a little": [x + 40.0, y], "degrees": [9.0 + 1e-5 * (x % 1000), 47.0],
+            "swapped": [y, x], "z": [x, y, 1.0],
             "zm": [x, y, 1.0, 2.0], "flat": [x, 5200030.0], "huge": [x * 1e300, y],
         }[name]  # fmt: skip
 
