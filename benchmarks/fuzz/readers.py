@@ -13,6 +13,7 @@ from landlab import FieldError
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, SimulationError
 from landlab_debrisflow.run.scene import Scene
 
+from . import records
 from .cases import Case
 
 REFUSALS = (InputError, ParameterError, FieldError)
@@ -74,7 +75,12 @@ def read(case: Case, folder: Path) -> Outcome:
     logger.propagate = False
     try:
         try:
-            notes = _read_checkpoint(folder) if case.kind == "checkpoint" else _read_scene(folder, case.sampled)
+            if case.kind == "checkpoint":
+                notes = _read_checkpoint(folder)
+            elif case.kind == "record":
+                notes = records.read(folder)
+            else:
+                notes = _read_scene(folder, case.sampled)
         finally:
             written = [path.name for path in sorted(folder.rglob("*")) if path not in before]
     except REFUSALS as error:
@@ -85,7 +91,7 @@ def read(case: Case, folder: Path) -> Outcome:
         frames = [one for one in traceback.extract_tb(error.__traceback__) if f"/{PACKAGE}/" in one.filename]
         place = f"{frames[-1].filename.rpartition(PACKAGE)[2]}:{frames[-1].lineno}" if frames else "?"
         return Outcome("error", f"{type(error).__name__}: {error} at {place}\n{traceback.format_exc()}", done)
-    if written:
+    if written and case.kind != "record":  # there a run begins
         return Outcome("written", ", ".join(written), done)
     notes = [*notes, *handler.messages]
     if "not finite" in notes:
