@@ -36,6 +36,7 @@ def try_case(case: Case, keep: Path | None = None, tracer=None) -> tuple[Outcome
         Called in the copy with the function to call; returns its result and something else for JSON.
     """
     folder = Path(tempfile.mkdtemp(prefix="fuzz_", dir="/dev/shm" if os.path.isdir("/dev/shm") else None))
+    began = _time_of_copies()
     try:
         inner = folder / "case"
         inner.mkdir()
@@ -45,14 +46,18 @@ def try_case(case: Case, keep: Path | None = None, tracer=None) -> tuple[Outcome
             shutil.rmtree(target, ignore_errors=True)
             shutil.copytree(inner, target, symlinks=True, ignore=shutil.ignore_patterns("pipe"))
             (target / "outcome.txt").write_text("\n".join(outcome), errors="surrogateescape")
-        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return outcome, usage.ru_utime + usage.ru_stime, found
+        return outcome, _time_of_copies() - began, found
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
 
 GOOD = ("accepted", "warned", "refused", "diverged", "library")
 """Outcomes that are not faults of the package."""
+
+
+def _time_of_copies() -> float:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def _in_a_copy(case: Case, folder: Path, inner: Path, tracer) -> tuple[Outcome, object]:
