@@ -107,7 +107,12 @@ def check(session):
 def docs(session):
     """Check that the pages are true: the code they show, links, the page of laws, doctests, notebooks."""
     session.install("-e", ".[test]")
-    pages = ["tests/test_readme.py", "tests/test_contributing.py", "tests/cli/test_laws.py"]
+    pages = [
+        "tests/test_readme.py",
+        "tests/test_contributing.py",
+        "tests/test_which_component.py",
+        "tests/cli/test_laws.py",
+    ]
     session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", "notebooks")
 
 

@@ -1,7 +1,8 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component.
 
 Public are the names below and those of `exact` (closed forms), `laws` (classes of laws, names for the author of one),
-`plots` (figures), `record` (observers and files) and `scene` (setup, terrains). Deeper modules may change at any time.
+`plots` (figures), `record` (observers and files), `scene` (setup, terrains) and `triggers` (landslides of other
+components as a release). Deeper modules may change at any time.
 """
 
 from . import exact
@@ -13,6 +14,8 @@ from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
 from .record.measures import measures
+from .run.scene import Scene
+from .run.simulate import simulate
 from .scene.setup import Setup
 
 __all__ = [
@@ -22,10 +25,12 @@ __all__ = [
     "Material",
     "Numerics",
     "ParameterError",
+    "Scene",
     "Setup",
     "SimulationError",
     "__version__",
     "exact",
     "measures",
+    "simulate",
     "solve_column",
 ]

@@ -21,12 +21,13 @@ from .record import summary
 from .record.attributes import moment_attributes
 from .record.citation import PAPER
 from .record.datasets import columns_dataset, maps_dataset, particles_dataset
+from .restart import Restart
 from .scene.setup import Setup
 
 log = logging.getLogger("landlab_debrisflow")
 
 
-class DebrisFlow(Component):
+class DebrisFlow(Restart, Component):
     """Landslides and debris flows that pick up wet ground on their way.
 
     Depth-integrated SPH on the terrain with a column of pore pressure under every particle, which moves

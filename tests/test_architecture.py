@@ -21,7 +21,10 @@ LEVEL = {
     "record": 5, "columns": 6, "plots": 6, "geo": 6, "scene": 7, "run": 9, "cli": 10,
 }  # fmt: skip
 TOP = 8  # component and what stands beside it
-KNOWS_LANDLAB = {"component", "grid/checks", "scene/tsing_shan", "plots/maps", "run/scene"}
+KNOWS_LANDLAB = {
+    "component", "restart", "grid/checks", "scene/tsing_shan", "plots/maps", "run/grids", "run/scene", "run/simulate",
+    "triggers",
+}  # fmt: skip
 
 
 def layer(module):

@@ -41,6 +41,13 @@ def test_obstacles():
 
 
 @pytest.mark.slow
+def test_landscape(monkeypatch):
+    example = load("landscape")
+    monkeypatch.setitem(example.SLOPE_STRENGTH, "soil__internal_friction_angle", 34.0)
+    built(example.main, years=5, rows=60, columns=60)
+
+
+@pytest.mark.slow
 def test_tsing_shan():
     example = load("tsing_shan")
     for c_v, model in itertools.product(example.CONSOLIDATION, example.COLUMNS):

@@ -8,8 +8,9 @@ import pytest
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 
 
-def test_there_are_three():
-    assert [path.stem for path in NOTEBOOKS] == ["1_first_flow", "2_column_and_peclet", "3_tsing_shan"]
+def test_there_are_four():
+    names = "1_first_flow", "2_column_and_peclet", "3_tsing_shan", "4_landscape_loop"
+    assert [path.stem for path in NOTEBOOKS] == list(names)
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

@@ -11,11 +11,12 @@ import landlab_debrisflow
 
 PACKAGE = Path(landlab_debrisflow.__file__).parent
 ROOT = Path(__file__).parents[1]
+PAGES = "README.md", "CONTRIBUTING.md", "docs/which_component.md"
 SHOWN = [
-    *(ROOT / name for name in ("README.md", "CONTRIBUTING.md")), *(ROOT / "notebooks").glob("*.ipynb"),
+    *(ROOT / name for name in PAGES), *(ROOT / "notebooks").glob("*.ipynb"),
     *(ROOT / "examples").glob("*.py"),
 ]  # fmt: skip
-PUBLIC = {"exact", "laws", "plots", "record", "scene"}
+PUBLIC = {"exact", "laws", "plots", "record", "scene", "triggers"}
 """Modules of the package that are public, beside the package itself."""
 ANYWHERE = r"\b(?:what|who|whom|those|such(?! as)|likewise|others|nobody|somebody|everybody|the latter|the former)\b"
 """Words that lean on a sentence the reader does not see, wherever they stand."""

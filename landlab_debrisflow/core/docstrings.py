@@ -53,7 +53,7 @@ def _interval(low, high, open_below) -> str:
 
 def default(value) -> str:
     """Return a default in words."""
-    if value is None:
+    if value is None or value == ():
         return "not set"
     if isinstance(value, bool):
         return str(value).lower()

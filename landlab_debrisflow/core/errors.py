@@ -15,6 +15,13 @@ class InputError(ValueError):
     """
 
 
+class OutputError(InputError):
+    """A file cannot be written where it is wanted; a file that was there before is whole.
+
+    The message names the file, the reason, and a remedy.
+    """
+
+
 class SimulationError(RuntimeError):
     """The state stopped being finite, or steps became too short to get on.
 

@@ -16,7 +16,10 @@ what each costs. A kernel calls no kernel: see `inner`.
 from typing import Any
 
 import numba
+from numba.core import event as events
 from numba.extending import register_jitable
+
+__all__ = ["approximate_kernel", "events", "inner", "kernel"]
 
 _REORDER = {"reassoc", "contract", "arcp", "nsz"}
 

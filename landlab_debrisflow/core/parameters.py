@@ -27,7 +27,7 @@ from typing import Any, TypeVar, dataclass_transform
 import numpy as np
 
 from .docstrings import with_parameters
-from .values import NodeValues, checked
+from .values import NodeValues, checked, name_of
 
 T = TypeVar("T")
 
@@ -36,6 +36,7 @@ def parameter(
     unit: str, meaning: str, default: Any, bounds: tuple[float | None, float | None] = (None, None),
     choices: Collection[str] | None = None, kind: type = float, varies: bool = False, *,
     open_below: bool = False, timed: bool = False, remedy: str = "", file: bool = False, items: type | None = None,
+    coordinates: str | None = None, named: bool = False, length: int | None = None,
 ) -> Any:  # fmt: skip
     """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
@@ -52,7 +53,8 @@ def parameter(
     choices : tuple of str, or mapping of str to float, optional
         Allowed words, for a parameter that is a choice and not a number; of a mapping, a law reads the number.
     kind : type
-        float, int, bool or str; tuple for one number or a list of them.
+        float, int, bool or str, which without `choices` is any text; tuple for one number or a list of them; dict for
+        a mapping that is checked elsewhere.
     varies : bool
         Whether it may vary in space: then the name of a field at nodes, or an array over them, will do for a number.
     open_below : bool
@@ -65,20 +67,28 @@ def parameter(
         Whether the name of a file will do for a number, or is what is wanted, of the kind str.
     items : type, optional
         Declared class, of which the parameter is a list of instances, or of mappings that describe them.
+    coordinates : {"points", "lines", "polygons", "table"}, optional
+        Features that may be written as nested lists of x and y; "table" is a list of pairs.
+    named : bool
+        Whether these features have names: then a mapping of names to them will do.
+    length : int, optional
+        Number of values of a list, of the kind tuple; with `choices` one of these words will do for the list. Without
+        `length`, a list with `choices` holds words, any number of them.
 
     Returns
     -------
     dataclasses.Field
         With these in its ``metadata``, by name.
     """
-    if choices is not None:
+    if choices is not None and kind is not tuple:
         kind = str
     low, high = bounds
     metadata = {
         "unit": unit, "meaning": meaning, "choices": None if choices is None else tuple(choices), "kind": kind,
         "numbers": choices if isinstance(choices, Mapping) else None, "varies": varies, "timed": timed,
         "bounds": (-math.inf if low is None else low, math.inf if high is None else high),
-        "open_below": open_below, "remedy": remedy, "file": file, "items": items,
+        "open_below": open_below, "remedy": remedy, "file": file, "items": items, "coordinates": coordinates,
+        "named": named, "length": length,
     }  # fmt: skip
     return dataclasses.field(default=default, metadata=metadata)
 
@@ -88,7 +98,7 @@ def declared(cls: type[T]) -> type[T]:
     """Make a frozen, keyword-only dataclass that checks its parameters when an instance is built.
 
     A method ``_agree`` of the class is called last, to check parameters against each other. The docstring gets a
-    section ``Parameters`` from the declarations.
+    section ``Parameters`` from the declarations. Messages name the class, or its attribute ``keyword`` if it has one.
 
     Parameters
     ----------
@@ -101,7 +111,7 @@ def declared(cls: type[T]) -> type[T]:
 
     def check(self):
         for field in dataclasses.fields(self):
-            value = checked(type(self).__name__, field.name, field, getattr(self, field.name))
+            value = checked(name_of(type(self)), field.name, field, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
         if hasattr(self, "_agree"):
             self._agree()

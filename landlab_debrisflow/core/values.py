@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .checks import in_range
+from .coordinates import checked_coordinates
 from .errors import ParameterError
 from .hints import did_you_mean, give_number, number_in, python_value, same_word
 
@@ -64,22 +65,26 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
     ParameterError
         If the value is not of that type or not allowed.
     """
-    meta, name = field.metadata, f"{owner}: {name}"
+    meta, name = field.metadata, f"{owner}: {name.removesuffix('_')}"
     kind, value = meta["kind"], python_value(value)
     if value is None and field.default is None:
         return None
     if meta["items"] is not None:
         return _checked_items(name, value, meta["items"])
-    if meta["file"] and (isinstance(value, str) or kind is str):
+    if meta["file"] and (isinstance(value, str) or (kind is str and not meta["coordinates"])):
         return _checked_file(name, value)
+    if meta["coordinates"]:
+        return checked_coordinates(name, value, meta["coordinates"], meta["named"])
+    if kind is dict:
+        return _checked_mapping(name, value)
+    if kind is tuple and meta["choices"] and meta["length"] is not None and isinstance(value, str):
+        return _checked_word(name, value, meta["choices"])
+    if kind is tuple and meta["choices"] and meta["length"] is None:
+        return _checked_words(name, value, meta["choices"])
     if kind is tuple:
         return _checked_list(name, value, meta)
     if kind is str:
-        choices = meta["choices"]
-        if (word := same_word(value, choices)) is None:
-            hint = did_you_mean(value, choices)
-            raise ParameterError(f"{name} must be one of {', '.join(choices)}; got {value!r}{hint}")
-        return word
+        return _checked_text(name, value) if meta["choices"] is None else _checked_word(name, value, meta["choices"])
     if kind is bool:
         if not isinstance(value, bool):
             raise ParameterError(f"{name} must be true or false, got {value!r}; give True or False without quotes")
@@ -117,7 +122,20 @@ def _checked_items(name: str, value: Any, cls: type):
     for k, one in enumerate(several):
         if not isinstance(one, Mapping | cls):
             raise ParameterError(f"{name}[{k}] must be a mapping, got {one!r}")
-    return tuple(one if isinstance(one, cls) else from_mapping(cls, one) for one in several)
+    return tuple(one if isinstance(one, cls) else _item(f"{name}[{k}]", cls, one) for k, one in enumerate(several))
+
+
+def _item(name: str, cls: type, mapping):
+    try:
+        return from_mapping(cls, mapping)
+    except ParameterError as error:
+        raise ParameterError(f"{name}: {error}") from error
+
+
+def _checked_mapping(name: str, value: Any) -> dict[str, Any]:
+    if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
+        raise ParameterError(f"{name} must be a mapping of words to values, got {value!r:.60}")
+    return dict(value)
 
 
 def _checked_file(name: str, value: Any) -> str:
@@ -126,8 +144,32 @@ def _checked_file(name: str, value: Any) -> str:
     return value
 
 
+def _checked_word(name: str, value: Any, choices) -> str:
+    if (word := same_word(value, choices)) is None:
+        hint = did_you_mean(value, choices)
+        raise ParameterError(f"{name} must be one of {', '.join(choices)}; got {value!r}{hint}")
+    return word
+
+
+def _checked_words(name: str, value: Any, choices) -> tuple[str, ...]:
+    """Return one word, or some, as a tuple in which each stands once."""
+    several = [value] if isinstance(value, str) else value
+    if isinstance(several, Mapping) or not hasattr(several, "__iter__"):
+        raise ParameterError(f"{name} must be a list of words out of {', '.join(choices)}; got {value!r}")
+    return tuple(dict.fromkeys(_checked_word(f"{name}[{k}]", one, choices) for k, one in enumerate(several)))
+
+
+def _checked_text(name: str, value: Any) -> str:
+    if not isinstance(value, str) or not value.strip():
+        raise ParameterError(f"{name} must be a text, got {value!r:.60}")
+    return value
+
+
 def _checked_list(name: str, value: Any, meta):
     """Return one number, or some, as a tuple of floats."""
+    length = meta["length"]
+    if length is not None and (isinstance(value, Real | str) or not hasattr(value, "__len__") or len(value) != length):
+        raise ParameterError(f"{name} must be a list of {length} numbers [{meta['unit']}], got {value!r}")
     if isinstance(value, Real):
         return (_checked_number(name, value, meta),)
     if isinstance(value, str | Mapping) or not hasattr(value, "__iter__"):
@@ -170,11 +212,22 @@ def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[st
         If a key is unknown (the message lists the legal ones with units) or a value is refused.
     """
     declaration: Any = cls
-    legal = {f.name: f.metadata["unit"] for f in dataclasses.fields(declaration)}
+    names = keys_of(declaration)
+    legal = {key: field.metadata["unit"] for key, field in names.items()}
     for key in mapping:
         if key not in legal:
             allowed = ", ".join(f"{name} [{unit}]" for name, unit in legal.items()) or "none"
-            owners = [n for n, other in (relatives or {}).items() if key in {f.name for f in dataclasses.fields(other)}]
+            owners = [n for n, other in (relatives or {}).items() if key in keys_of(other)]
             hint = f" (it is one of {', '.join(owners)})" if owners else did_you_mean(key, legal)
-            raise ParameterError(f"{cls.__name__}: unknown key {key!r}{hint}; allowed: {allowed}")
-    return cls(**mapping)
+            raise ParameterError(f"{name_of(cls)}: unknown key {key!r}{hint}; allowed: {allowed}")
+    return cls(**{names[key].name: value for key, value in mapping.items()})
+
+
+def keys_of(cls: Any) -> dict[str, dataclasses.Field]:
+    """Return the declarations of a class by their keys in a mapping: the names, of `from_` without the underscore."""
+    return {field.name.removesuffix("_"): field for field in dataclasses.fields(cls)}
+
+
+def name_of(cls: type) -> str:
+    """Return the name of a declared class in messages: its `keyword`, or the name of the class."""
+    return getattr(cls, "keyword", cls.__name__)

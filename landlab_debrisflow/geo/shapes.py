@@ -1,12 +1,22 @@
-"""Polygons, lines and points from files."""
+"""Polygons, lines and points from files or coordinates."""
 
+import math
+from collections.abc import Sequence
+from numbers import Real
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from ..core.checks import in_range
 from ..core.errors import InputError
-from .lattice import Lattice
+from ..core.hints import did_you_mean, give_number, number_in, python_value, same_word
+from .cover import covered_fraction
+from .lattice import Bounds, extent
+from .names import find_file, said
+from .references import label_of, wkt_of
+from .shape_checks import TYPES, check_features, note_outside, note_overlaps
+from .shape_files import read_features
+
+__all__ = ["Shape", "covered_fraction", "read_shapes"]
 
 
 class Shape(NamedTuple):
@@ -15,9 +25,9 @@ class Shape(NamedTuple):
     Attributes
     ----------
     geometry : shapely geometry
-        In the coordinate reference system that was asked for [m].
+        Valid, of two dimensions, in the coordinate reference system that was asked for [m].
     attributes : dict
-        Values of the feature by name.
+        Values of the feature by name, without those that are not set.
     label : str
         File and number of the feature, for messages.
     """
@@ -26,55 +36,149 @@ class Shape(NamedTuple):
     attributes: dict[str, Any]
     label: str
 
+    def number(
+        self, name: str, default: float | None = None, low: float = -math.inf, high: float = math.inf, unit: str = "m",
+    ) -> float | None:  # fmt: skip
+        """Return a numeric attribute, whose name may be written in any case.
 
-def read_shapes(path: str | Path, crs: str | None = None) -> list[Shape]:
-    """Read the shapes of a vector file.
+        Parameters
+        ----------
+        name : str
+        default : float or None
+            Result if the attribute is missing or not set.
+        low, high : float
+            Closed interval of allowed values.
+        unit : str
+            For messages.
+
+        Raises
+        ------
+        InputError
+            If the attribute is no number or not allowed.
+        """
+        known = same_word(name, self.attributes)
+        if known is None:
+            return default
+        value = self.attributes[known]
+        if isinstance(value, str) and number_in(value) is not None and "," not in value:
+            value = number_in(value)  # Shapefiles and CSV often hold numbers as text
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise InputError(f"{self.label}: {name} must be a number [{unit}], got {value!r}{give_number(value)}")
+        in_range(f"{self.label}: {name}", float(value), low, high, unit, error=InputError)
+        return float(value)
+
+    def lacks(self, name: str) -> InputError:
+        """Return the refusal for an attribute that is needed and not there."""
+        there = ", ".join(map(str, self.attributes)) or "none"
+        return InputError(
+            f"{self.label}: the attribute {name} is missing{did_you_mean(name, self.attributes)}; there are: {there}"
+        )
+
+
+def read_shapes(
+    source: str | Path | Sequence[Any], crs: str | None = None, *, kind: str = "polygon", bounds: Bounds | None = None,
+    notes: list[str] | None = None,
+) -> list[Shape]:  # fmt: skip
+    """Read the shapes of a vector file, or make them of coordinates.
+
+    Outlines that cross themselves are mended, unless the area they mean is ambiguous. Heights (z) are dropped.
 
     Parameters
     ----------
-    path : str or Path
-        GeoPackage, GeoJSON, Shapefile or another format that GDAL reads.
+    source : str, Path or sequence
+        GeoPackage, GeoJSON, Shapefile, CSV (with x and y, or with WKT) or another format that GDAL reads, the layer
+        after a colon; or a sequence of features, each a sequence of pairs x, y (a point is one pair).
     crs : str, optional
-        Coordinate reference system of the result.
+        Coordinate reference system of the result. A file that names none is taken to be in it, and if `crs` is not
+        given, coordinates stay as they are.
+    kind : {"polygon", "line", "point", "any"}
+        Kind of geometry that is wanted.
+    bounds : tuple of float, optional
+        West, south, east, north of the DEM [m]; a shape wholly outside is refused.
+    notes : list of str, optional
+        Remarks for the user on what was found and done are appended to it.
 
     Returns
     -------
     list of Shape
+        At least one; a feature of several polygons is one shape.
 
     Raises
     ------
     InputError
-        If the file is missing or holds no shapes.
+        If the file cannot be read or holds no shapes, or if a shape is of another kind, empty, not finite, ambiguous
+        or outside.
     """
-    import geopandas
+    if isinstance(source, str | Path):
+        path, choice = find_file(source)
+        geometries, records, own = _features(path, choice, notes)
+        name = path.name
+        geometries = _changed(geometries, own, crs, name, bounds, notes)
+    else:
+        geometries, name = _made(source, kind), "coordinates"
+        records = [{} for _ in geometries]
+    labels = [f"{name} feature {k + 1}" if len(geometries) > 1 else f"{name}" for k in range(len(geometries))]
+    if not len(geometries):
+        raise InputError(f"{name} holds no shapes; draw some, or choose another layer or file")
+    geometries = check_features(geometries, labels, kind, notes)
+    if bounds is not None:
+        note_outside(geometries, labels, bounds, notes)
+    if kind == "polygon":
+        note_overlaps(geometries, name, notes)
+    return [Shape(*each) for each in zip(geometries, records, labels, strict=True)]
 
-    path = Path(path)
-    if not path.exists():
-        raise InputError(f"cannot read {path}: there is no such file")
+
+def _features(path: Path, choice: str | None, notes: list[str] | None):
+    """Return geometries, attributes and coordinate reference system of a file."""
+    frame = read_features(path, choice, notes)
+    table = frame.drop(columns=frame.geometry.name).to_dict("records")
+    records = [{str(key): python_value(value) for key, value in row.items() if _is_set(value)} for row in table]
+    own = frame.crs.to_wkt() if frame.crs is not None else None
+    return frame.geometry.to_list(), records, own
+
+
+def _is_set(value) -> bool:
+    """Return whether an attribute has a value, which None, NaN and NaT are not."""
     try:
-        frame = geopandas.read_file(path)
-    except Exception as error:
-        raise InputError(f"cannot read {path} as shapes: {error}; give a GeoPackage, GeoJSON or Shapefile") from error
-    if crs is not None and frame.crs is not None:
-        frame = frame.to_crs(crs)
-    records = frame.drop(columns=frame.geometry.name).to_dict("records")
-    return [
-        Shape(geometry, attributes, f"{path.name} feature {k + 1}")
-        for k, (geometry, attributes) in enumerate(zip(frame.geometry, records, strict=True))
-    ]
+        return value is not None and bool(value == value)
+    except (TypeError, ValueError):  # pandas.NA, lists
+        return hasattr(value, "__len__")
 
 
-def covered_fraction(polygon: Any, lattice: Lattice) -> np.ndarray:
-    """Return the part of the cell around every node that a polygon covers, shape (rows, columns) [-]."""
+def _changed(geometries, own: str | None, crs: str | None, name: str, bounds: Bounds | None, notes):
+    """Return geometries in another coordinate reference system."""
+    if own is None and crs is not None:
+        said(notes, f"{name}: no coordinate reference system is named; that of the DEM is taken")
+    if own is not None and crs is None:
+        import shapely
+
+        if bounds is not None and not shapely.box(*bounds).intersects(shapely.box(*shapely.total_bounds(geometries))):
+            found = tuple(float(value) for value in shapely.total_bounds(geometries))
+            raise InputError(
+                f"{name} is in {label_of(own)}, {extent(found)}; the DEM names no coordinate reference system and "
+                f"covers {extent(bounds)}; give terrain: crs"
+            )
+        said(notes, f"{name}: in {label_of(own)}, the DEM names none; coordinates are taken as they are")
+    if own is None or crs is None or own == wkt_of(crs):
+        return geometries
+    import geopandas
+    import pyproj
+
+    try:
+        moved = geopandas.GeoSeries(geometries, crs=own).to_crs(crs)
+    except (pyproj.exceptions.ProjError, ValueError, RuntimeError) as error:
+        raise InputError(f"{name}: no way from {label_of(own)} to {label_of(crs)} is known: {error}") from error
+    return moved.to_list()
+
+
+def _made(source: Sequence[Any], kind: str):
+    """Return geometries of coordinates."""
     import shapely
 
-    fraction = np.zeros(lattice.shape)
-    west, south, east, north = polygon.bounds
-    (dx, dy), (x0, y0) = lattice.spacing, lattice.lower_left
-    columns = np.arange(max(0, int((west - x0) / dx - 0.5)), min(lattice.shape[1], int((east - x0) / dx + 0.5) + 2))
-    rows = np.arange(max(0, int((south - y0) / dy - 0.5)), min(lattice.shape[0], int((north - y0) / dy + 0.5) + 2))
-    if rows.size and columns.size:
-        x, y = np.meshgrid(x0 + dx * columns, y0 + dy * rows)
-        cells = shapely.box(x - 0.5 * dx, y - 0.5 * dy, x + 0.5 * dx, y + 0.5 * dy)
-        fraction[np.ix_(rows, columns)] = shapely.area(shapely.intersection(cells, polygon)) / lattice.area
-    return fraction
+    if kind not in TYPES or kind == "any":
+        raise ValueError(f"coordinates need a kind of geometry, got {kind!r}")
+    maker = {"polygon": shapely.Polygon, "line": shapely.LineString, "point": shapely.Point}[kind]
+    try:
+        return [maker(feature) for feature in source]
+    except (shapely.errors.ShapelyError, ValueError, TypeError) as error:
+        raise InputError(f"the coordinates make no {kind}: {error}; give a list of features of pairs [x, y]") from error

@@ -36,7 +36,10 @@ class Style(NamedTuple):
 
 
 DEPTHS = 0.05, 0.5, 1.0, 2.0, 5.0, 10.0
-"""Depths between two classes [m]: what shows, knees, waist, a storey less a bit, more than a storey."""
+"""Depths between two classes [m]: a film, the knee, the waist, above a door, a storey and a half, three storeys."""
+
+SPEEDS = 1.0, 3.0, 5.0, 10.0, 20.0, 30.0
+"""Speeds between two classes [m s-1]: walking, running, and faster than anybody flees."""
 
 STYLES = {
     "depth": Style(DEPTHS, "YlGnBu", unit="m"),
@@ -45,12 +48,12 @@ STYLES = {
     "max_run_up": Style(DEPTHS, "YlGnBu", unit="m"),
     "eroded_depth": Style((0.05, 0.25, 0.5, 1.0, 2.0, 5.0), "YlOrBr", unit="m"),
     "deposit_depth": Style(DEPTHS, "PuBu", unit="m"),
-    "speed": Style((0.5, 1.5, 5.0, 10.0, 15.0, 20.0), "YlOrRd", unit="m/s"),
-    "max_speed": Style((0.5, 1.5, 5.0, 10.0, 15.0, 20.0), "YlOrRd", unit="m/s"),
-    "max_impact_pressure": Style((1e3, 3e3, 1e4, 3e4, 1e5, 3e5), "YlOrRd", 1e3, "kPa"),
+    "speed": Style(SPEEDS, "YlOrRd", unit="m/s"),
+    "max_speed": Style(SPEEDS, "YlOrRd", unit="m/s"),
+    "max_impact_pressure": Style((3e3, 1e4, 3e4, 1e5, 3e5, 1e6), "YlOrRd", 1e3, "kPa"),
     "basal_excess_pore_pressure": Style((1e3, 2e3, 5e3, 1e4, 2e4, 5e4), "GnBu", 1e3, "kPa"),
     "max_basal_pressure_ratio": Style((0.2, 0.4, 0.6, 0.8, 0.95), "GnBu"),
-    "arrival_time": Style((10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0), "cividis", unit="s"),
+    "arrival_time": Style((5.0, 10.0, 20.0, 30.0, 60.0, 120.0, 300.0, 600.0), "cividis", unit="s"),
 }
 """Style of every map by its name without ``debris_flow__``; the others are divided evenly."""
 

@@ -3,6 +3,8 @@
 from copy import copy
 from typing import NamedTuple
 
+import numpy as np
+
 from .row_backup import RowBackup
 
 CARRIED_OVER = ("released", "inflow", "eroded")
@@ -84,6 +86,25 @@ class VolumeBudget:
         """
         self._eroded = self.eroded
         self._core, self._soil = core, soil
+
+    def variables(self) -> dict:
+        """Return the terms so far by name, as dimensions and values, and the soil since which erosion is measured."""
+        earlier = np.array([self._earlier[name] for name in CARRIED_OVER])
+        found = {
+            "released": ((), self.released), "deposited": ((), self.deposited), "eroded_before": ((), self._eroded),
+            "earlier": (("carried_over", "whole_and_solid"), earlier),
+        }  # fmt: skip
+        return found if self._soil is None else found | self._soil.variables()
+
+    def set_variables(self, variables, core, soil: RowBackup | None) -> None:
+        """Restore the terms that `variables` returned, values by name; `core` and `soil` as of `measure_erosion`."""
+        self.released, self.deposited, self._eroded = (
+            float(variables[name]) for name in ("released", "deposited", "eroded_before")
+        )
+        self._earlier = dict(zip(CARRIED_OVER, map(tuple, variables["earlier"].tolist()), strict=True))
+        self._core, self._soil = core, soil
+        if soil is not None:
+            soil.set_variables(variables)
 
     def keep_rows(self, first: int, last: int) -> None:
         """Copy soil depths of some rows of the raster before erosion changes them, if erosion is measured.

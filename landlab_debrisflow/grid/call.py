@@ -1,7 +1,12 @@
 """A call of the component: read the grid, run the model, write the results; or leave everything as it was."""
 
+from functools import partial
+from threading import get_ident
+
 import numpy as np
 
+from . import checkpoint
+from .checkpoint_checks import check_contents
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
@@ -48,17 +53,20 @@ class GridCall:
         """
         sim = self._simulation
         with self.rollback.around_call() as interrupted:
-            end = sim.state.time + duration
+            end = self.interruption.end = sim.state.time + duration
             if interrupted is None:
                 done = sim.run(*self._prepare(), end, stop_at_rest, self._listener)
             else:
                 if np.isclose(end, interrupted.end, rtol=1e-12, atol=0.0):
-                    end = interrupted.end  # the rest of the duration was computed with rounding
+                    end = self.interruption.end = interrupted.end  # the rest of the duration was computed with rounding
                 done = sim.advance(end, stop_at_rest, self._listener)
             if done:
                 self._listener.ended(stop_at_rest)
             else:
+                self._listener.broken_off()
                 self.rollback.break_off(end)
+        while self._listener.requests:  # of another thread, after the last step
+            self._listener.requests.pop(0)()
 
     def settle(self) -> None:
         """Lay down the mass at rest."""
@@ -86,6 +94,48 @@ class GridCall:
         bed = state.grid_bed.lay(given, self._writer.rows, model.inflow, model.time)
         state.budget.released += given.release.volume
         return bed, given
+
+    # ---- checkpoints ----
+
+    def save(self, write) -> None:
+        """Hand the flow as a Dataset to a function, at once or as soon as the step that is being made is over.
+
+        Parameters
+        ----------
+        write : callable
+            Called with the Dataset of `checkpoint.capture`.
+
+        Raises
+        ------
+        As the function
+            If it is called at once; else it ends the call, as an observer that fails does.
+        """
+        if not self.interruption.running:
+            with self.rollback.between_calls() as end:
+                write(self._capture(end))
+        elif self._listener.paused == get_ident():
+            write(self._capture(self.interruption.end))
+        else:
+            self._listener.requests.append(partial(self.save, write))
+
+    def load(self, dataset) -> None:
+        """Put the flow into the state of a Dataset from `save`, whose fields the grid has already."""
+        terrain = self.flow.grid.shape, (self.flow.grid.dx, self.flow.grid.dy)
+        rows = self._simulation.inflow.rows
+        check_contents(dataset, self._capture(None), checkpoint.PARTICLE, *terrain, rows)
+        end = checkpoint.restore(self._writer, self._reader, self._listener.reports, dataset)
+        if end is not None:
+            self.rollback.break_off(end)
+            self._writer.rows = None
+
+    @property
+    def unfinished_until(self) -> float | None:
+        """Time until which a call that was interrupted should have gone [s], or None."""
+        return None if self.rollback.interrupted is None else self.rollback.interrupted.end
+
+    def _capture(self, end):
+        grid, reports = self.flow.grid, self._listener.reports
+        return checkpoint.capture(grid, self._writer, self._reader.laws, reports, end)
 
     # ---- results over all calls ----
 

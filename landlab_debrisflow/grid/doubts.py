@@ -20,6 +20,7 @@ DEGREES_BELOW = 0.01  # node spacing that may be one of degrees [m]
 LEAST_ANGLE = 2.0  # [deg]
 DENSITIES = 500.0, 8000.0  # [kg m-3]
 LARGEST_GROWTH = 1.0  # [m-1]
+FASTEST_RELEASE = 100.0  # of rock avalanches [m s-1]
 FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 
 
@@ -173,6 +174,16 @@ def missing_release_reason(grid, soil) -> str:
     if marked:
         return f"; {ids} > 0 at {marked} nodes lets the soil fail there, but soil__depth is 0 at all of them"
     return ""
+
+
+def velocity_doubts(velocity) -> Iterator[str]:
+    """Yield a doubt about a release whose velocity over the map, shape (2, n) or None [m s-1], is hardly possible."""
+    fastest = 0.0 if velocity is None else float(np.hypot(*velocity).max())
+    if fastest > FASTEST_RELEASE:
+        yield (
+            f"a release moves at {fastest:.4g} m/s when it fails, faster than any landslide: was the velocity meant in "
+            "km/h or cm/s? It is in m/s"
+        )
 
 
 def release_doubts(grid, nodes, depth) -> Iterator[str]:

@@ -50,6 +50,14 @@ NODE_FIELDS = (
     NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
     NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
     NodeField(
+        "debris_flow__release_velocity_x", "inout", "m/s",
+        "Velocity over the map along x at which ground fails, 0 once taken", True,
+    ),
+    NodeField(
+        "debris_flow__release_velocity_y", "inout", "m/s",
+        "Velocity over the map along y at which ground fails, 0 once taken", True,
+    ),
+    NodeField(
         "mass__wasting_id", "inout", "-",
         "integer or float id of each mass wasting area is assigned                 "  # a continued line there
         "to all nodes representing the mass wasting area.",
@@ -103,6 +111,17 @@ NODE_FIELDS = (
     ),
     NodeField("debris_flow__max_basal_peclet_number", "out", "-", "Largest basal Peclet number so far"),
 )  # fmt: skip
+
+
+def fields_in_use(grid, laws) -> dict:
+    """Return the fields of a grid at nodes by name: all that a component reads or writes, or its laws name.
+
+    `laws` are those that may read fields, by kind.
+    """
+    at, names = grid.at_node, {field.name for field in NODE_FIELDS}
+    for law in laws.values():
+        names.update(value for value in getattr(law, "__dict__", {}).values() if isinstance(value, str))
+    return {name: at[name] for name in sorted(names & set(at))}
 
 
 @contextmanager

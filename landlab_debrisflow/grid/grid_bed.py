@@ -56,6 +56,26 @@ class GridBed:
         known = self.elevation is not None
         return known and np.array_equal(self.elevation, elevation) and np.array_equal(self.status, status)
 
+    def is_below(self, release, elevation, status) -> bool:
+        """Return whether the ground was raised only where a release takes it off again, since the last call left it.
+
+        The bed of the call is then as after a release from the ground, of the depth less the rise: nothing but what
+        fails has changed, and what lies elsewhere need not know of it.
+
+        Parameters
+        ----------
+        release : Release
+        elevation, status : ndarray, shape (nodes,)
+            Elevation [m], release included, and node statuses now.
+        """
+        if self.elevation is None or not np.array_equal(self.status, status):
+            return False
+        nodes = release.nodes
+        raised = elevation != self.elevation
+        raised[nodes] = False
+        rise, rounding = elevation[nodes] - self.elevation[nodes], np.spacing(np.abs(elevation[nodes]))
+        return not raised.any() and bool(np.all((rise >= 0.0) & (rise <= release.depth + rounding)))
+
     def lay(self, given, rows, inflow, time: float) -> Bed:
         """Take the release off the ground and return the bed below.
 
@@ -95,6 +115,30 @@ class GridBed:
         if given.new_event:
             self.event_eroded = None
         return self._bed(terrain, soil, time)
+
+    def lay_again(self, terrain, soil, time: float, accounts, pressure) -> Bed:
+        """Return the bed of a call that has begun, with its accounts; the surface is made of the elevation it had then.
+
+        Parameters
+        ----------
+        terrain : Terrain
+        soil : Soil
+        time : float
+            Time of the component [s].
+        accounts, pressure : mapping
+            As `Bed.variables` and `BedPressure.variables` returned them, values by name; empty: of no call.
+        """
+        bed = self._bed(terrain, soil, time)
+        if accounts:
+            bed.set_variables(accounts)
+        if pressure:
+            bed.pore_pressure.set_variables(pressure)
+        shape, closed = terrain.shape, terrain.status == CLOSED
+        surface = Surface(bed.elevation_before.reshape(shape), terrain.spacing, closed.reshape(shape))
+        lowered = np.flatnonzero(bed.taken)
+        surface.move_to(lowered, bed.elevation[lowered])
+        self.surface = bed.surface = surface
+        return bed
 
     def _bed(self, terrain, soil, time) -> Bed:
         material, pore_pressure = self.material, None

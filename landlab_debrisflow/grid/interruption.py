@@ -21,6 +21,8 @@ class Interruption:
     ----------
     failure : BaseException or None
         The first thing that an observer raised in this call.
+    end : float or None
+        Time until which the call is to go [s]; None before the first.
 
     Raises
     ------
@@ -29,7 +31,7 @@ class Interruption:
     """
 
     def __init__(self):
-        self.failure = None
+        self.failure = self.end = None
         self._running = self._handles = self._asked = self._raised = False
         self._deferred = 0
 
@@ -51,6 +53,11 @@ class Interruption:
         self._deferred, self._running = 1, False
         if self._handles:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    @property
+    def running(self) -> bool:
+        """Whether a call runs."""
+        return self._running
 
     @contextmanager
     def deferred(self):

@@ -1,5 +1,7 @@
 """The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
 
+from threading import get_ident
+
 from ..model.schedule import due_after_step, due_at_start
 from .interruption import Interruption
 from .reports import Reports
@@ -12,7 +14,8 @@ class CallListener:
     Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
     methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
     ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
-    call with ``began`` equal to ``time``.
+    call with ``began`` equal to ``time``;
+    ``keep(flow, broken_off)`` between two steps, when all have seen the last one.
 
     Parameters
     ----------
@@ -21,13 +24,22 @@ class CallListener:
     writer : FieldWriter
         Writes the fields of the component.
     interruption : Interruption
+
+    Attributes
+    ----------
+    reports : Reports
+        Messages at the end of a call.
+    requests : list of callable
+        To be called without arguments as soon as the run is between two steps, once each.
+    paused : int or None
+        Thread of a call that is between two steps, all observers having seen the last one; None: there is none.
     """
 
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
         self._flow, self._writer, self._interruption = flow, writer, interruption
-        self._reports = Reports(flow)
+        self.reports, self.requests, self.paused = Reports(flow), [], None
         for observer in flow._observers:
-            if hasattr(observer, "prepare"):
+            if callable(getattr(observer, "prepare", None)):
                 observer.prepare(flow.grid, flow.setup)
 
     def begun(self) -> None:
@@ -41,6 +53,7 @@ class CallListener:
         self._follow(time, time)
         if not idle:
             self._show(due_at_start(self._flow._observers))
+        self._pause()
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
@@ -48,23 +61,30 @@ class CallListener:
         self._follow(began, time)
         observers = self._flow._observers
         self._show(observers if idle else due_after_step(observers, began, time))
+        self._pause()
 
     def interrupted(self) -> bool:
         """Return whether the run is to end before the next step."""
         return self._interruption.requested
+
+    def broken_off(self) -> None:
+        """Let observers keep the state of a run that ends before its time."""
+        self._pause(broken_off=True)
 
     def ended(self, stop_at_rest: bool) -> None:
         """Write results, settle mass at rest, log messages at the end of a run."""
         sim = self._writer.simulation
         with self._interruption.deferred():
             self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
-            self._reports.log_messages(stop_at_rest)
+            self.reports.log_messages(stop_at_rest)
 
     def _follow(self, began: float, time: float) -> None:
         """Tell observers of a step from `began` to `time` [s], even if one of them fails."""
+        particles = self._writer.simulation.particles
         for observer in self._flow._observers:
-            if hasattr(observer, "follow"):
-                self._call(observer.follow, self._writer.simulation.particles, began, time)
+            if callable(getattr(observer, "follow", None)):
+                self._call(observer.follow, particles, began, time)
+        particles.departed = None  # no more is to be known of them
 
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
@@ -73,6 +93,19 @@ class CallListener:
         with self._writer.present():
             for observer in observers:
                 self._call(observer.observe, self._flow)
+
+    def _pause(self, broken_off: bool = False) -> None:
+        """Carry out requests of the step, then let observers keep the state; `broken_off`: the run ends here."""
+        keepers = [observer for observer in self._flow._observers if callable(getattr(observer, "keep", None))]
+        if not (keepers or self.requests):
+            return
+        self.paused = get_ident()
+        requests, self.requests = self.requests, []
+        for request in requests:
+            self._call(request)
+        for observer in keepers:
+            self._call(observer.keep, self._flow, broken_off)
+        self.paused = None
 
     def _call(self, observe, *arguments) -> None:
         """Call an observer and note its failure."""

@@ -85,6 +85,17 @@ class Outputs:
                 before.show()
             raise
 
+    @contextmanager
+    def shown_meanwhile(self):
+        """Put the outputs into the fields of the grid for the time of the block."""
+        before = _holders.get(self._grid, lambda: None)()
+        self.show()
+        try:
+            yield
+        finally:
+            if before is not None:
+                before.show()
+
     def maps(self, accounts) -> dict:
         """Return the values of maps by name over nodes: elevation, soil and release of now, and the outputs.
 

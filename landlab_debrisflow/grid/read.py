@@ -36,7 +36,7 @@ class Terrain(NamedTuple):
     lower_left : tuple of float
         Map coordinates of the first node [m].
     changed : bool
-        Whether elevation or status differ from what the last call left.
+        Whether elevation or status differ from what the last call left, other than by what is released now.
     """
 
     elevation: np.ndarray
@@ -148,8 +148,28 @@ class GridReader:
         parameters = {kind: on_nodes(law, grid.at_node) for kind, law in self.laws.items()}
         check_lines(terrain, inflow)
         release = read_release(grid, soil.depth) if with_release else NO_RELEASE
+        if terrain.changed and grid_bed.is_below(release, terrain.elevation, terrain.status):
+            terrain = terrain._replace(changed=False)
         warned += self._warn(release, soil, new_event, warned)
         return GridInput(terrain, soil, release, parameters, new_event, warned)
+
+    def read_again(self, status, drained):
+        """Return terrain, soil and parameters of laws for a call that has begun, or was the last one, unchecked.
+
+        Parameters
+        ----------
+        status : ndarray of uint8, shape (nodes,)
+            Node statuses of the call.
+        drained : ndarray of bool, shape (nodes,), or None
+            Drains of the call.
+
+        Returns
+        -------
+        Terrain, Soil, dict
+        """
+        terrain = self._terrain(self._field("topographic__elevation"), status)
+        parameters = {kind: on_nodes(law, self._grid.at_node) for kind, law in self.laws.items()}
+        return terrain, self._soil()._replace(drained=drained), parameters
 
     def _read_terrain(self, grid_bed) -> Terrain:
         grid, elevation = self._grid, self._field("topographic__elevation")
@@ -158,16 +178,25 @@ class GridReader:
         if changed:
             checks.check_boundaries(grid)
             elevation_checks.check_elevation(grid, elevation)
+        return self._terrain(elevation, status, changed)
+
+    def _terrain(self, elevation, status, changed: bool = False) -> Terrain:
+        grid = self._grid
         shape, spacing = tuple(map(int, grid.shape)), (float(grid.dx), float(grid.dy))
         return Terrain(elevation, status, shape, spacing, tuple(map(float, grid.xy_of_lower_left)), changed)
 
     def _read_soil(self) -> Soil:
-        ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
-        soil = Soil(self._field("soil__depth"), ratio, self._field(BED_PRESSURE) if self._loaded else None, drained)
-        checks.check_bed(self._grid, soil.depth, ratio, drained)
+        soil = self._soil()
+        checks.check_bed(self._grid, soil.depth, soil.pressure_ratio, soil.drained)
         if self._loaded:
-            checks.check_loaded_bed(self._grid, ratio, soil.pressure)
-        return soil._replace(drained=None if drained is None else drained > 0.0)
+            checks.check_loaded_bed(self._grid, soil.pressure_ratio, soil.pressure)
+        return soil._replace(drained=None if soil.drained is None else soil.drained > 0.0)
+
+    def _soil(self) -> Soil:
+        """Return the fields of the ground, unchecked; `drained` as numbers."""
+        pressure = self._field(BED_PRESSURE) if self._loaded else None
+        ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
+        return Soil(self._field("soil__depth"), ratio, pressure, drained)
 
     def _field(self, name):
         """Return the values of a field, sharing its memory, or None if the grid has no such field."""
@@ -177,14 +206,19 @@ class GridReader:
         """Log doubts about the release that were not logged before; return the kinds of doubt logged.
 
         `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
-        logged before, "depth" and "nothing".
+        logged before, "depth", "velocity" and "nothing".
         """
         logged = ()
-        for doubt in () if "depth" in warned else doubts.release_doubts(self._grid, release.nodes, release.depth):
-            log.warning("%s", doubt)
-            logged = ("depth",)
+        found = {
+            "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
+            "velocity": doubts.velocity_doubts(release.velocity),
+        }
+        for kind, sentences in found.items():
+            for doubt in () if kind in warned else sentences:
+                log.warning("%s", doubt)
+                logged += (kind,)
         if release.nodes.size == 0 and new_event and "nothing" not in warned:
-            found = doubts.missing_release_reason(self._grid, soil.depth)
-            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", found)
-            logged = ("nothing",)
+            reason = doubts.missing_release_reason(self._grid, soil.depth)
+            log.warning("nothing to do: no value > 0 in debris_flow__release_depth and nothing moving%s", reason)
+            logged += ("nothing",)
         return logged

@@ -10,6 +10,7 @@ from .checks import where
 from .fill_values import is_fill, replacement_remedy
 
 RELEASE_DEPTH, MASS_WASTING_ID = "debris_flow__release_depth", "mass__wasting_id"
+RELEASE_VELOCITY = ("debris_flow__release_velocity_x", "debris_flow__release_velocity_y")
 
 
 class Release(NamedTuple):
@@ -25,12 +26,15 @@ class Release(NamedTuple):
         Volume of all of them [m3].
     requests : tuple of ndarray, shape (nodes,)
         Fields that ask for the release; 0 once it has been taken.
+    velocity : ndarray, shape (2, n), or None
+        Velocity over the map along x and y with which it fails [m s-1]; None: all of it at rest.
     """
 
     nodes: np.ndarray
     depth: np.ndarray
     volume: float
     requests: tuple
+    velocity: np.ndarray | None = None
 
 
 NO_RELEASE = Release(np.zeros(0, int), np.zeros(0), 0.0, ())
@@ -49,7 +53,8 @@ def read_release(grid, soil) -> Release:
     Raises
     ------
     InputError
-        If a thickness is negative, not on core nodes, or deeper than the soil.
+        If a thickness is negative, not on core nodes, or deeper than the soil, or if a velocity is not finite or where
+        nothing fails.
     """
     at = grid.at_node
     nodes, depth = _nonzero(grid, np.asarray(at[RELEASE_DEPTH]))
@@ -64,8 +69,44 @@ def read_release(grid, soil) -> Release:
             )
         depth = soil[nodes]
         check_release(grid, f"soil__depth where {MASS_WASTING_ID} > 0", nodes, depth, soil)
-    requests = tuple(np.asarray(at[name]) for name in (RELEASE_DEPTH, MASS_WASTING_ID) if name in at)
-    return Release(nodes, depth, float(depth.sum() * grid.dx * grid.dy), requests)
+    requests = tuple(np.asarray(at[name]) for name in (RELEASE_DEPTH, MASS_WASTING_ID, *RELEASE_VELOCITY) if name in at)
+    return Release(nodes, depth, float(depth.sum() * grid.dx * grid.dy), requests, read_velocity(grid, nodes))
+
+
+def read_velocity(grid, nodes):
+    """Return the velocity over the map with which some nodes fail, shape (2, n) [m s-1]; None if all fail at rest.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        Grid of the component; of both fields one may be missing, which is then 0.
+    nodes : ndarray of int, shape (n,)
+        Nodes that fail, sorted.
+
+    Raises
+    ------
+    InputError
+        If a velocity is not finite, or given where nothing fails.
+    """
+    velocity = np.zeros((2, nodes.size))
+    for component, name in zip(velocity, RELEASE_VELOCITY, strict=True):
+        if name not in grid.at_node:
+            continue
+        values = np.asarray(grid.at_node[name])
+        moving = np.flatnonzero(values)
+        moving = moving[grid.status_at_node[moving] != CLOSED]
+        if (bad := moving[~np.isfinite(values[moving]) | is_fill(values[moving])]).size:
+            raise InputError(
+                f"{name} must be finite, in m/s, got {values[bad[0]]:g} at {where(grid, bad[0])}; set 0 where "
+                f"nothing fails, or fails at rest{replacement_remedy(name, values, values[bad[0]])}"
+            )
+        if (alone := np.setdiff1d(moving, nodes, assume_unique=True)).size:
+            raise InputError(
+                f"{name} is {values[alone[0]]:g} m/s at {where(grid, alone[0])}, the first of {alone.size} nodes where "
+                f"nothing fails; set it to 0 where {RELEASE_DEPTH} is 0"
+            )
+        component[:] = values[nodes]
+    return velocity if velocity.any() else None
 
 
 def take_off(release: Release, elevation, soil) -> None:

@@ -30,6 +30,18 @@ class Reports:
         if until_rest and not self._simulation.at_rest:
             self._unrest()
 
+    def variables(self) -> dict:
+        """Return by name, as dimensions and values, the volumes that have been told of [m3]."""
+        return {
+            "supply": ((), self._supply), "reported": ((), self._reported),
+            "outflow_before": ("edge", np.array(list(self._outflow_before.values()))),
+        }  # fmt: skip
+
+    def set_variables(self, variables) -> None:
+        """Restore the volumes that `variables` returned, values by name."""
+        self._supply, self._reported = float(variables["supply"]), float(variables["reported"])
+        self._outflow_before = dict(zip(self._outflow_before, variables["outflow_before"].tolist(), strict=True))
+
     def _walls(self):
         stopped = self._simulation.state.stopped
         if stopped.volume > 0.0:

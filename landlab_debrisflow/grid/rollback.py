@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .fields import NODE_FIELDS
+from .fields import fields_in_use
 from .interruption import Interruption
 from .outputs import Outputs
 from .row_backup import NodeBackup, RowBackup
@@ -135,6 +135,36 @@ class Rollback:
         finally:
             writer.rows = None
 
+    @contextmanager
+    def between_calls(self):
+        """Run a block between two calls that changes nothing; yield the end [s] of an interrupted call, or None.
+
+        In an interrupted call grid, model and border are as they were between its last two steps, for the time of the
+        block; the outputs are in the fields in any case.
+
+        Raises
+        ------
+        InputError
+            If a call runs.
+        KeyboardInterrupt
+            After the block.
+        """
+        writer = self._writer
+        with self._interruption, self._interruption.deferred(), self._outputs.shown_meanwhile():
+            earlier = self.interrupted
+            if earlier is None or earlier.fingerprint != self._fingerprint():
+                yield None
+            else:
+                earlier.moment.restore()
+                writer.rows = earlier.moment.rows
+                try:
+                    yield earlier.end
+                finally:
+                    earlier.moment.restore()
+                    writer.close()
+                    writer.rows = None
+        self._interruption.raise_cause(writer.simulation.time, done=self.interrupted is None)
+
     def break_off(self, end: float) -> None:
         """Close a call that should run until `end` [s], and keep the moment from which a later call can continue it."""
         writer = self._writer
@@ -145,10 +175,7 @@ class Rollback:
 
     def _fingerprint(self) -> tuple:
         """Return a value that differs once statuses, fields of the component or fields that its laws read differ."""
-        at, names = self._grid.at_node, {field.name for field in NODE_FIELDS}
-        for law in self._laws.values():
-            names.update(value for value in getattr(law, "__dict__", {}).values() if isinstance(value, str))
-        arrays = {name: at[name] for name in names & set(at)}
+        arrays = fields_in_use(self._grid, self._laws)
         places = {name: array.ctypes.data for name, array in arrays.items()}
         arrays["status"] = self._grid.status_at_node
         return places, {name: blake2b(np.ascontiguousarray(array)).digest() for name, array in arrays.items()}

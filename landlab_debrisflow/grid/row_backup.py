@@ -73,12 +73,35 @@ class RowBackup:
             total += float(np.sum(copies[which][here] - array[nodes][here]))
         return total
 
+    def variables(self) -> dict:
+        """Return stretches of nodes, in the order in which they were kept, and the copies: dimensions and values."""
+        stretches = [(nodes.start, nodes.stop) for nodes, _ in self._kept]
+        copies = [np.concatenate(parts) for parts in zip(*(copies for _, copies in self._kept), strict=True)]
+        return {
+            "stretches": (("stretch", "begin_and_end"), np.array(stretches, np.int64).reshape(-1, 2)),
+            "copies": (("backed_up", "kept"), np.reshape(copies, (len(self._arrays), -1))),
+        }  # fmt: skip
+
+    def set_variables(self, variables) -> None:
+        """Replace all copies by values that `variables` returned, by name."""
+        stretches, copies, self._kept, first = variables["stretches"], variables["copies"], [], 0
+        for begin, end in stretches.tolist():
+            last = first + end - begin
+            self._kept.append((slice(begin, end), [np.array(copy[first:last]) for copy in copies]))
+            first = last
+        self._first, self._last = 0, 0
+        if len(stretches):
+            self._first, self._last = int(stretches.min()) // self._columns, int(stretches.max()) // self._columns
+
+    def keep_nodes(self, nodes: slice) -> None:
+        """Replace all copies by the present values at some nodes, a slice of whole rows."""
+        self._first, self._last = nodes.start // self._columns, nodes.stop // self._columns
+        self._kept = [(nodes, [array[nodes].copy() for array in self._arrays])] if nodes.start < nodes.stop else []
+
     def renewed(self, arrays) -> "RowBackup":
         """Return a backup of some arrays as they are now, of the same rows."""
         other = RowBackup(arrays, self._columns)
-        other._first, other._last = self._first, self._last
-        if self._first < self._last:
-            other._kept.append((self.nodes, [array[self.nodes].copy() for array in other._arrays]))
+        other.keep_nodes(self.nodes)
         return other
 
     def copy(self) -> "RowBackup":

@@ -66,15 +66,20 @@ class FieldWriter:
 
     def begin(self) -> None:
         """Prepare maps and accounts of a call, after the simulation was put on its bed."""
-        sim, state, at = self.simulation, self.state, self._grid.at_node
-        bed = state.bed = sim.bed
-        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
-        fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
-        state.peak_maps = PeakMaps(bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
+        state = self.state
+        bed = state.bed = self.simulation.bed
+        state.peak_maps = self.new_peak_maps()
         soil = None if bed.soil is None else RowBackup([bed.soil], bed.raster.columns)
         state.budget.measure_erosion(bed.raster.core, soil)
         self.keep_rows()
         self.record()
+
+    def new_peak_maps(self) -> PeakMaps:
+        """Return peak maps that write into the fields of the grid, from now on."""
+        sim, at = self.simulation, self._grid.at_node
+        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
+        fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
+        return PeakMaps(sim.bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
 
     def keep_rows(self, *others: RowBackup) -> None:
         """Keep the rows that the next step may change, in further backups too."""

@@ -126,6 +126,15 @@ class PeakMaps:
         """Nodes that showed the flow at the last update, ndarray of int."""
         return self._under
 
+    def variables(self) -> dict:
+        """Return by name, as dimensions and values, where the flow was at the last update and how far it may be now."""
+        return {"under": ("shown", self._under), "passed": ((), self._passed), "then": ((), self._then)}
+
+    def set_variables(self, variables) -> None:
+        """Restore the last update that `variables` returned, values by name."""
+        self._under = variables["under"]
+        self._passed, self._then = float(variables["passed"]), float(variables["then"])
+
     def is_due(self, time: float, fastest: float) -> bool:
         """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last update."""
         self._passed += fastest * (time - self._then)

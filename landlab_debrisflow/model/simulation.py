@@ -103,7 +103,7 @@ class Simulation:
         """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
         self.set_bed(bed, given.parameters, given.terrain.changed)
         if given.release.nodes.size:
-            self.release(given.release.nodes, given.release.depth)
+            self.release(given.release.nodes, given.release.depth, given.release.velocity)
         listener.begun()
 
     def run(self, bed: Bed, given, end: float, stop_at_rest: bool, listener: RunListener) -> bool:
@@ -114,8 +114,8 @@ class Simulation:
             listener.started(self.idle)
         return self.advance(end, stop_at_rest, listener)
 
-    def release(self, nodes, depth) -> None:
-        """Turn failing ground into particles at rest on the bed below.
+    def release(self, nodes, depth, velocity=None) -> None:
+        """Turn failing ground into particles on the bed below.
 
         Parameters
         ----------
@@ -123,9 +123,11 @@ class Simulation:
             Where it fails.
         depth : ndarray
             Vertical thickness that fails there [m].
+        velocity : ndarray, shape (2, n), optional
+            Velocity over the map along x and y with which it fails [m s-1]; by default it is at rest.
         """
         state, p, material, bed = self.state, self.particles, self.setup.material, self.bed
-        new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.setup.numerics)
+        new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.setup.numerics, velocity)
         self._refresh(FIRST_SWEEPS)
         load_bed(p, bed.pore_pressure, material, self.time)
         p.excess_pore_pressure[new] = initial_profile(

@@ -25,12 +25,12 @@ ORIGINS = {
 """Dimension of the arrays of `Origins`."""
 
 
-def to_dataset(state) -> xr.Dataset:
-    """Return all of a `State` but the CPU time it took; see `from_dataset`."""
+def to_dataset(state, prefix: str = "") -> xr.Dataset:
+    """Return all of a `State` but the CPU time it took; `prefix` begins the names of variables of the particles."""
     p, data = state.particles, {}
     for variable in p.variables:
         words = {"units": variable.unit, "long_name": variable.long_name}
-        data[variable.name] = (_dimensions(variable), getattr(p, variable.name).copy(), words)
+        data[prefix + variable.name] = (_dimensions(variable), getattr(p, variable.name).copy(), words)
     data |= {"awake": p.awake, "ever": p.ever, "time": state.time, "outdated": state.outdated}
     data["settled_solid"] = state.settled_solid
     data |= {f"{part}_{name}": getattr(getattr(state, part), name) for part, names in BESIDE.items() for name in names}
@@ -53,7 +53,7 @@ def to_dataset(state) -> xr.Dataset:
     return xr.Dataset(data)
 
 
-def from_dataset(dataset: xr.Dataset, state):
+def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     """Return the state that was written by `to_dataset`.
 
     Parameters
@@ -61,6 +61,8 @@ def from_dataset(dataset: xr.Dataset, state):
     dataset : xarray.Dataset
     state : State
         Of a simulation with the same setup; it is not changed. What does not differ in a run is taken from it.
+    prefix : str
+        Beginning of the names of variables of the particles.
 
     Returns
     -------
@@ -73,13 +75,14 @@ def from_dataset(dataset: xr.Dataset, state):
     """
     new, read = state.copy(), {name: data.values for name, data in dataset.variables.items()}
     p = new.particles
-    if missing := [name for name in (*(v.name for v in p.variables), "awake", "ever", "time") if name not in read]:
+    needed = (*(prefix + variable.name for variable in p.variables), "awake", "ever", "time")
+    if missing := [name for name in needed if name not in read]:
         raise InputError(
             f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give what "
             "to_dataset() of a run with the same setup wrote"
         )
     for variable in p.variables:
-        setattr(p, variable.name, np.array(read[variable.name], variable.dtype, order="C"))
+        setattr(p, variable.name, np.array(read[prefix + variable.name], variable.dtype, order="C"))
     p.awake, p.ever = int(read["awake"]), int(read["ever"])
     new.time, new.outdated = float(read["time"]), bool(read["outdated"])
     new.settled_solid = float(read["settled_solid"])

@@ -5,7 +5,6 @@ A quantity stands under its name, in letters, digits and underscores, and its un
 """
 
 import dataclasses
-import re
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from numbers import Integral, Real
@@ -13,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..core.version import __version__
 from ..physics.registry import LAWS, law_name
@@ -77,11 +77,6 @@ def quantity_attributes(name: str, value: Any, unit: str = "-") -> dict[str, Any
         return {}
     has_unit = unit != "-" and not isinstance(value, str)
     return {name: value} | ({f"{name}_units": CF_UNITS.get(unit, unit)} if has_unit else {})
-
-
-def legal_name(name: str) -> str:
-    """Return a name in letters, digits and underscores; other characters become ``u`` and their number in Unicode."""
-    return re.sub("[^A-Za-z0-9_]", lambda other: f"u{ord(other[0]):x}", name)
 
 
 def file_value(value: Any) -> str | int | float | tuple[float, ...] | None:

@@ -3,7 +3,7 @@
 import os
 import shutil
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ import xarray as xr
 
 from ..core.errors import InputError
 from .attributes import date_created, file_attributes, variable_attributes
-from .files import check_directory, write_atomically
+from .files import check_directory, raise_if_full, write_atomically
 from .georeference import GRID_MAPPING
 from .map_series import numbered_files
 
@@ -136,15 +136,20 @@ def _layers(frame: Frame) -> Iterator[tuple[int, str, np.ndarray]]:
 
 
 def _attributes(frame: Frame) -> dict[str, Any]:
-    """Return the attributes of the whole: those of the maps that hold at every time."""
+    """Return the attributes of the maps that hold at every time."""
     setup = {name: value for name, value in frame.first.attrs.items() if name.startswith("setup")}
-    return file_attributes() | date_created() | setup
+    return file_attributes() | date_created() | _plain(setup)
+
+
+def _plain(attributes: Mapping[Any, Any]) -> dict[str, Any]:
+    """Return attributes as texts, numbers and lists of Python, which JSON can hold."""
+    return {name: np.asarray(value).tolist() for name, value in attributes.items()}
 
 
 def _words(data: xr.DataArray, frame: Frame) -> dict[str, Any]:
     """Return the attributes of a variable."""
     mapped = {"grid_mapping": GRID_MAPPING} if GRID_MAPPING in frame.first.coords else {}
-    return dict(data.attrs) | mapped
+    return _plain(data.attrs) | mapped
 
 
 def _coordinates(frame: Frame) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
@@ -152,8 +157,8 @@ def _coordinates(frame: Frame) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
     first = frame.first
     return {
         "time": (frame.times, variable_attributes("s", "elapsed time")),
-        "y": (frame.y, dict(first.y.attrs)),
-        "x": (frame.x, dict(first.x.attrs)),
+        "y": (frame.y, _plain(first.y.attrs)),
+        "x": (frame.x, _plain(first.x.attrs)),
     }
 
 
@@ -174,7 +179,9 @@ def _write_netcdf(path: Path, frame: Frame) -> None:
             )
             variable.setncatts(_words(data, frame))
         if GRID_MAPPING in frame.first.coords:
-            file.createVariable(GRID_MAPPING, "i4", ()).setncatts(frame.first[GRID_MAPPING].attrs)
+            mapping = file.createVariable(GRID_MAPPING, "i4", ())
+            mapping.setncatts(_plain(frame.first[GRID_MAPPING].attrs))
+            mapping[...] = 0
         for k, name, layer in _layers(frame):
             file.variables[name][k] = layer
 
@@ -192,6 +199,9 @@ def _replace_store(path: Path, frame: Frame) -> Path:
         if path.exists():
             os.replace(path, old)
         os.replace(temporary, path)
+    except Exception as failure:
+        raise_if_full(path, failure)
+        raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
         shutil.rmtree(old, ignore_errors=True)
@@ -214,7 +224,7 @@ def _write_zarr(path: Path, frame: Frame) -> None:
             dimension_names=("time", "y", "x"), attributes=_words(data, frame),
         )  # fmt: skip
     if GRID_MAPPING in frame.first.coords:
-        words = frame.first[GRID_MAPPING].attrs
+        words = _plain(frame.first[GRID_MAPPING].attrs)
         store.create_array(GRID_MAPPING, shape=(), dtype="i4", dimension_names=(), attributes=words)
     for k, name, layer in _layers(frame):
         store[name][k] = layer

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from ..core.errors import InputError
+from ..core.errors import OutputError
 
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
@@ -24,24 +24,24 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
 
     Raises
     ------
-    InputError
+    OutputError (an InputError)
         If the directory is missing or may not be written to, or if `path` is a directory or a file that
         may not be replaced.
     """
     path = Path(path)
     folder = path.parent
     if path.is_dir():
-        raise InputError(f"cannot write {path}: it is a directory; give the name of a file in it")
+        raise OutputError(f"cannot write {path}: it is a directory; give the name of a file in it")
     if not folder.is_dir():
         word = "is not a directory" if folder.exists() else "does not exist"
-        raise InputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
+        raise OutputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
     try:  # the only honest test: permission bits say nothing on read-only or full file systems
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        raise InputError(f"cannot write {path}: {error.strerror} in {folder}; choose another directory") from error
+        raise OutputError(f"cannot write {path}: {error.strerror} in {folder}; choose another directory") from error
     if path.exists() and not os.access(path, os.W_OK):
-        raise InputError(
+        raise OutputError(
             f"cannot write {path}: the file is there and write-protected; remove it or choose another name"
         )
     return path
@@ -67,7 +67,7 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
     path = Path(path)
     if not path.is_dir():
         word = "is a file" if path.exists() else "does not exist"
-        raise InputError(
+        raise OutputError(
             f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
         )
     check_writable(path / "any")
@@ -91,17 +91,49 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
 
     Raises
     ------
-    InputError
+    OutputError (an InputError)
         If it cannot be written; see `check_writable`.
+    OSError
+        If the disk is full.
     """
     path = check_writable(path)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         write(temporary)
         os.replace(temporary, path)
+    except Exception as failure:
+        raise_if_full(path, failure)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
     return path
+
+
+LEAST_ROOM = 2**22
+"""Room below which a disk is full [bytes]: less than a chunk of HDF5 may need."""
+
+
+def raise_if_full(path: Path, failure: Exception) -> None:
+    """Raise an OSError from a failure if the disk is full: HDF5, GDAL and SQLite report that as anything else.
+
+    Parameters
+    ----------
+    path : Path
+        The file that could not be written.
+    failure : Exception
+        Failure of a library.
+
+    Raises
+    ------
+    OSError
+        With the path; not if there is room.
+    """
+    try:
+        with tempfile.TemporaryFile(dir=path.parent) as room:
+            room.write(bytes(LEAST_ROOM))
+            room.flush()
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from failure
 
 
 def write_dataset(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
@@ -121,7 +153,7 @@ def write_dataset(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
 
     Raises
     ------
-    InputError
+    OutputError (an InputError)
         If it cannot be written; see `check_writable`.
     """
     encoding = {name: {"zlib": True, "complevel": 1} for name, data in dataset.items() if data.ndim >= 2}

@@ -14,6 +14,7 @@ from ..core.hints import did_you_mean
 from ..grid.fields import OUTPUT_PREFIX
 from ..spatial.transfer import WIDEST
 from .attributes import axis_attributes, date_created, file_attributes, quantity_attributes, variable_attributes
+from .classic import classic_file
 from .datasets import FIELDS
 from .files import check_directory, write_atomically
 from .georeference import GRID_MAPPING, grid_mapping_attributes
@@ -33,8 +34,8 @@ class MapSeries:
     """Writes maps at intervals, each to a small NetCDF file of its own, numbered from 0.
 
     A file holds numbers of single precision over a rectangle of nodes that has all flow so far in it, and is there as a
-    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one file of
-    all. Memory does not grow with the number of maps.
+    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one small file
+    of all: single maps are not compressed, which would take longer than all the rest.
 
     Parameters
     ----------
@@ -71,7 +72,10 @@ class MapSeries:
     ) -> None:  # fmt: skip
         self.interval = check_interval(interval, type(self).__name__)
         self.directory = check_directory(directory)
-        self.variables = tuple(_field_name(name) for name in variables)
+        variables = (variables,) if isinstance(variables, str) else variables
+        self.variables = tuple(dict.fromkeys(_field_name(name) for name in variables))
+        if not self.variables:
+            raise InputError("MapSeries: variables must name at least one output field, got none")
         self._mapping = {} if crs is None else grid_mapping_attributes(crs)
         if (old := numbered_files(self.directory)) and not replace:
             raise InputError(
@@ -143,11 +147,13 @@ class MapSeries:
             If the file cannot be written, because the disk is full perhaps; all maps before are there.
         """
         time = flow.elapsed_time
-        while self._times and self._times[-1] >= time:  # of a call that was undone
-            self._times.pop()
-        self._remove_from(len(self._times))
-        path = self._path(len(self._times))
-        write_atomically(path, lambda temporary: self._write(temporary, time))
+        if self._times and self._times[-1] >= time:  # the call was undone
+            self._times = [each for each in self._times if each < time]
+            self._remove_from(len(self._times))
+        if not self._times:  # of an earlier series
+            self._remove_from(0)
+        content = self._file(time)
+        write_atomically(self._path(len(self._times)), lambda temporary: temporary.write_bytes(content))
         self._times.append(time)
 
     def state(self) -> dict[str, Any]:
@@ -177,43 +183,36 @@ class MapSeries:
         self._times, self._window = times, ((window[0], window[1]), (window[2], window[3])) if window else None
         self._remove_from(len(times))
 
-    def _write(self, path: Path, time: float) -> None:
-        """Write the fields of now at a time [s]; by hand, because xarray takes three times as long."""
-        from netCDF4 import Dataset
-
-        grid = self._grid
-        (south, north), (west, east) = self._window or ((0, 0), (0, 0))
-        place = {"grid_rows": grid.shape[0], "grid_columns": grid.shape[1], "row": south, "column": west}
-        spans = {
-            "y": (grid.xy_of_lower_left[1], grid.dy, south, north),
-            "x": (grid.xy_of_lower_left[0], grid.dx, west, east),
-        }
-        with Dataset(path, "w") as file:
-            moment = date_created() | quantity_attributes("elapsed_time", time, "s")
-            file.setncatts(self._attributes | moment | {name: int(value) for name, value in place.items()})
-            for axis, (origin, spacing, first, last) in spans.items():
-                file.createDimension(axis, last - first + 1)
-                coordinate = file.createVariable(axis, "f8", (axis,))
-                coordinate.setncatts(axis_attributes(axis))
-                coordinate[:] = origin + spacing * np.arange(first, last + 1)
-            elapsed = file.createVariable("time", "f8", ())
-            elapsed.setncatts(variable_attributes("s", "elapsed time"))
-            elapsed[...] = time
-            if self._mapping:
-                file.createVariable(GRID_MAPPING, "i4", ()).setncatts(self._mapping)
-            for name in self.variables:
-                variable = file.createVariable(name, "f4", ("y", "x"), zlib=True, complevel=1, fill_value=False)
-                variable.setncatts(self._words[name])
-                variable.set_auto_maskandscale(False)
-                variable[:] = _over_grid(grid, name)[south : north + 1, west : east + 1].astype(np.float32)
+    def _file(self, time: float) -> bytes:
+        """Return the file of the fields of now at a time [s]."""
+        grid, (rows, columns) = self._grid, self._window or ((0, 0), (0, 0))
+        place = {"grid_rows": grid.shape[0], "grid_columns": grid.shape[1], "row": rows[0], "column": columns[0]}
+        attributes = self._attributes | date_created() | quantity_attributes("elapsed_time", time, "s") | place
+        x, y = grid.xy_of_lower_left
+        variables = {}
+        for axis, origin, spacing, (first, last) in (("y", y, grid.dy, rows), ("x", x, grid.dx, columns)):
+            variables[axis] = (axis,), origin + spacing * np.arange(first, last + 1), axis_attributes(axis)
+        variables["time"] = (), np.array(time), variable_attributes("s", "elapsed time")
+        if self._mapping:
+            variables[GRID_MAPPING] = (), np.array(0, np.int32), self._mapping
+        for name in self.variables:
+            values = _over_grid(grid, name)[rows[0] : rows[1] + 1, columns[0] : columns[1] + 1]
+            variables[name] = ("y", "x"), values.astype(np.float32), self._words[name]
+        return classic_file(variables, attributes)
 
     def _path(self, number: int) -> Path:
         return self.directory / f"{PREFIX}_{number:06d}.nc"
 
     def _remove_from(self, number: int) -> None:
-        """Remove the files with this number and later ones."""
-        for path in numbered_files(self.directory):
-            if _number(path) >= number:
+        """Remove the files from a number on, the last first, so that no gap is left.
+
+        Half a file that a killed process left beside them goes, too.
+        """
+        for path in self.directory.glob(f".{PREFIX}_*.nc"):
+            if re.fullmatch(rf"\.{PREFIX}_\d{{6,}}\.\d+\.nc", path.name):
+                path.unlink()
+        for path in reversed(numbered_files(self.directory)):
+            if (_number(path) or 0) >= number:
                 path.unlink()
 
 
@@ -229,7 +228,8 @@ def numbered_files(directory: str | os.PathLike[str]) -> list[Path]:
     -------
     list of pathlib.Path
     """
-    return sorted(path for path in Path(directory).iterdir() if _number(path) is not None)
+    numbers = {path: number for path in Path(directory).iterdir() if (number := _number(path)) is not None}
+    return sorted(numbers, key=numbers.__getitem__)
 
 
 def occupied(fields: Sequence[np.ndarray]) -> tuple[tuple[int, int], tuple[int, int]] | None:

@@ -1,4 +1,4 @@
-"""Maps for others to read: thin peaks masked, with their place on the earth and the checksum of the terrain."""
+"""Maps for files: thin peaks masked, with their place on the earth and the checksum of the terrain."""
 
 import os
 from collections.abc import Mapping

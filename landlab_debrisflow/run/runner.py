@@ -1,22 +1,165 @@
-"""Run a scene from its first release to rest, and write its results."""
+"""Run a scene from its first release to rest, or go on with a run, and write its results."""
 
+import contextlib
+import logging
+import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from ..record.files import write_dataset
-from .scene import Scene
+from ..component import DebrisFlow
+from ..core.compilations import compilations
+from ..core.errors import InputError
+from ..record.monitor import COMPILING, Monitor
+from .advance import advance
+from .directory import OutputDirectory
+from .files import RECORD, SCENE
+from .maps import write_results
+from .observers import Observers
+from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
+from .results import Results
+
+log = logging.getLogger("landlab_debrisflow")
 
 
-def run_scene(scene: Scene) -> Path:
-    """Run a scene to rest and write its results; return the directory they are in."""
-    directory = scene.output_directory
-    flow = scene.flow()
-    for release in scene.releases:
-        if release.time > flow.elapsed_time:
-            flow.run_until_rest(release.time - flow.elapsed_time)
-            if release.time > flow.elapsed_time:
-                flow.run_one_step(release.time - flow.elapsed_time)
-            flow.grid.at_node["debris_flow__release_depth"][:] += release.depth.reshape(-1)
-    flow.run_until_rest(scene.output_keys.max_duration - flow.elapsed_time)
-    directory.mkdir(exist_ok=True)
-    write_dataset(directory / "maps.nc", flow.maps)
-    return directory
+def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = None) -> Results:
+    """Run a scene to rest and write its results.
+
+    Parameters
+    ----------
+    scene : Scene
+    overwrite : bool
+        Whether the results of an earlier run in its output directory may be removed.
+    monitor : Monitor, optional
+        Shows how the run gets on; by default a line on the terminal or in the notebook.
+
+    Returns
+    -------
+    Results
+        They appear in `Scene.output_directory` when all are complete.
+
+    Raises
+    ------
+    InputError, ParameterError
+        If something of the scene cannot be used, or the directory holds something else.
+    OutputError, OSError
+        If a file cannot be written. What was computed until the last checkpoint is kept.
+    KeyboardInterrupt
+        After the step. What was computed is kept: `resume_scene` goes on.
+    """
+    _ = scene.places
+    if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
+        raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
+    with OutputDirectory.claimed(scene.output_directory) as directory:
+        directory.begin(_record(scene, directory), overwrite)
+        return _compute(scene, directory, scene.flow, monitor)
+
+
+def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
+    """Go on with the run of a scene from its last checkpoint, to the results of a run without interruption.
+
+    Without a checkpoint the run begins anew. A run that had come to its end stays as it is, unless it still moved and
+    the scene now has a longer `max_duration`.
+
+    Parameters
+    ----------
+    scene : Scene
+    monitor : Monitor, optional
+        As of `run_scene`.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    InputError
+        If there is no run of this scene, or the scene or a file of it has changed.
+    OutputError, OSError, KeyboardInterrupt
+        As of `run_scene`.
+    """
+    path = scene.output_directory
+    if not (path / RECORD).is_file():
+        raise InputError(f"{path} holds no run to go on with; landlab-debrisflow run begins one")
+    with OutputDirectory.claimed(path) as directory:
+        record = _record(scene, directory)
+        directory.check_scene(record)
+        longest = scene.output_keys.max_duration
+        if directory.record.state == FINISHED and (
+            directory.record.at_rest or longest <= directory.record.elapsed_time
+        ):
+            log.warning("the run in %s had come to its end; nothing is to be done", path)
+            if directory.record.at_rest:
+                directory.tidy()
+            return Results(path)
+        if not directory.checkpoints:
+            log.warning("the run in %s had no checkpoint yet; it begins anew", path)
+            directory.begin(record, overwrite=True)
+            return _compute(scene, directory, scene.flow, monitor)
+        directory.note(scene=record.scene, digest=record.digest)
+        return _compute(scene, directory, lambda observers: _load(directory, observers), monitor)
+
+
+def _record(scene: Any, directory: OutputDirectory) -> RunRecord:
+    file = scene.path and os.path.relpath(scene.path.resolve(), directory.path.resolve())
+    return RunRecord.of(scene, file)
+
+
+def _load(directory: OutputDirectory, observers: list) -> DebrisFlow:
+    """Return the flow of the latest checkpoint that is whole."""
+    *earlier, last = directory.checkpoints
+    for path in earlier:
+        try:
+            return DebrisFlow.load(path, observers=observers)
+        except InputError as error:
+            log.warning("%s; the checkpoint before it is taken", error)
+    return DebrisFlow.load(last, observers=observers)
+
+
+def _compute(
+    scene: Any, directory: OutputDirectory, build: Callable[..., DebrisFlow], monitor: Monitor | None
+) -> Results:
+    """Run the flow that `build` returns when it is given observers, and write the results of its scene."""
+    monitor = monitor or Monitor()
+    monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
+    flow = None
+    try:
+        directory.note(state=RUNNING)
+        if scene.text is not None:
+            directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
+        observers = Observers(scene, directory)
+        with compilations(lambda: monitor.say(COMPILING)):
+            flow = build(observers=[monitor, *observers.all])
+            advance(flow, scene)
+        monitor.finish()
+        directory.publish(lambda folder: _write(folder, flow, scene, observers))
+        if not flow.at_rest:
+            flow.save(directory.checkpoint)
+        state = {"elapsed_time": flow.elapsed_time, "at_rest": flow.at_rest, "budget": flow.budget}
+        directory.note(state=FINISHED, reason="", **state)
+    except BaseException as failure:
+        monitor.finish()
+        _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
+        raise
+    if flow.at_rest:
+        directory.tidy()
+    return Results(directory.path)
+
+
+def _note_failure(directory: OutputDirectory, failure: BaseException, time: float) -> None:
+    """Note why a run ended early at a time [s], and add to the failure how to go on."""
+    state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
+    failure.__notes__ = [f"at {time:.6g} s"] if time > 0.0 else []  # in place of what is said to callers of a flow
+    with contextlib.suppress(OSError, ValueError):  # the disk may be full
+        if not directory.checkpoints and time == 0.0:
+            directory.remove_results()
+            failure.add_note("nothing was kept")
+            return
+        directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
+    if directory.checkpoints:
+        failure.add_note(f"a checkpoint is kept: landlab-debrisflow resume {directory.path} goes on from there")
+
+
+def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
+    write_results(folder, flow.maps, scene)
+    observers.write(folder)

@@ -6,25 +6,29 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from landlab import RasterModelGrid
 
 from ..component import DebrisFlow
-from ..core.errors import ParameterError
-from ..core.hints import did_you_mean
-from ..core.values import from_mapping
-from ..scene.keys import OutputKeys, ReleaseKeys, TerrainKeys
-from ..scene.read_yaml import read_yaml
-from ..scene.releases import ScheduledRelease, schedule_releases
+from ..geo.lattice import Lattice
+from ..scene.content import named_files, read_content, to_mapping
+from ..scene.digest import digest, file_digest
+from ..scene.location import located
+from ..scene.outputs import OutputPlaces, output_places
+from ..scene.point_inflow import point_hydrographs
+from ..scene.read_yaml import YamlFile, read_yaml
+from ..scene.releases import ScheduledRelease, schedule_releases, set_release
 from ..scene.setup import Setup
 from ..scene.terrain import build_terrain, lattice_of
-
-SETUP_KEYS = tuple(field.name for field in dataclasses.fields(Setup))
+from ..scene.zones import VaryingParameter, varying_parameters, with_fields
+from .grids import build_grid
+from .results import Results
 
 
 class Scene:
-    """Terrain, releases, setup and outputs of a run.
+    """Terrain, releases, setup and output of a run.
+
+    Files are read when they are needed, each once. Pickling a scene takes its keys along, not what was read.
 
     Parameters
     ----------
@@ -34,59 +38,233 @@ class Scene:
         Directory to which names of files are relative.
     name : str
         Name of the scene, after which its output is named.
+
+    Raises
+    ------
+    ParameterError
+        If a key is unknown or a value is refused; of a scene from a file the message begins with file and line.
+
+    Examples
+    --------
+    >>> scene = Scene.from_mapping({
+    ...     "terrain": {"example": "gully"},
+    ...     "release": {"polygons": [[400020, 5200140], [400045, 5200140], [400045, 5200160], [400020, 5200160]],
+    ...                 "depth": 1.5},
+    ...     "friction": {"law": "voellmy", "basal_friction_angle": 28.0},
+    ... })
+    >>> scene.setup.friction.turbulent_coefficient, scene.grid().shape
+    (500.0, (61, 141))
     """
 
-    def __init__(self, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> None:
-        legal = ("terrain", "release", "output", *SETUP_KEYS)
-        for key in mapping:
-            if key not in legal:
-                raise ParameterError(
-                    f"scene: unknown key {key!r}{did_you_mean(key, legal)}; allowed: {', '.join(legal)}"
-                )
-        self.folder, self.name = Path(folder), name
-        self.terrain_keys = from_mapping(TerrainKeys, mapping.get("terrain") or {})
-        releases = mapping.get("release") or ()
-        releases = [releases] if isinstance(releases, Mapping) else releases
-        self.release_keys = [from_mapping(ReleaseKeys, one) for one in releases]
-        self.output_keys = from_mapping(OutputKeys, mapping.get("output") or {})
-        self.setup = Setup.from_mapping({key: mapping[key] for key in SETUP_KEYS if key in mapping})
+    def __init__(
+        self, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene", *, file: YamlFile | None = None
+    ) -> None:
+        self.folder, self.name, self._file = Path(folder), name, file
+        self._content = read_content(mapping, file)
 
     @classmethod
     def from_file(cls, path: str | Path) -> "Scene":
-        """Read a scene file."""
-        path = Path(path)
-        return cls(read_yaml(path), path.parent, path.stem)
+        """Read a scene file.
+
+        Parameters
+        ----------
+        path : str or Path
+            YAML; names of files in it are relative to its directory.
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        InputError, ParameterError
+            If the file cannot be read, or a key or value is refused.
+        """
+        file = read_yaml(path)
+        return cls(file.mapping, file.path.parent, file.path.stem, file=file)
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene") -> "Scene":
+        """Build a scene from plain values.
+
+        Parameters
+        ----------
+        mapping, folder, name
+            As of the class.
+
+        Returns
+        -------
+        Scene
+        """
+        return cls(mapping, folder, name)
+
+    def __repr__(self):
+        return f"<Scene {self.name!r} with {len(self._content.release)} releases in {str(self.folder)!r}>"
+
+    def __getstate__(self):
+        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content")}
+
+    # ---- keys ----
+
+    @property
+    def terrain_keys(self) -> Any:
+        """Keys of the terrain, checked: a `TerrainKeys`."""
+        return self._content.terrain
+
+    @property
+    def release_keys(self) -> tuple[Any, ...]:
+        """Keys of the releases, checked: each a `ReleaseKeys`."""
+        return self._content.release
+
+    @property
+    def output_keys(self) -> Any:
+        """Keys of the output, checked: an `OutputKeys`."""
+        return self._content.output
+
+    @property
+    def text(self) -> str | None:
+        """Text of the scene file; None if the scene is from a mapping."""
+        return None if self._file is None else self._file.text
+
+    @property
+    def path(self) -> Path | None:
+        """Scene file; None if the scene is from a mapping."""
+        return None if self._file is None else self._file.path
 
     @property
     def output_directory(self) -> Path:
         """Directory of the results."""
         return self.folder / (self.output_keys.directory or f"{self.name}_out")
 
+    def to_mapping(self) -> dict[str, Any]:
+        """Return keys and defaults as plain values, without unset ones.
+
+        Returns
+        -------
+        dict
+            `from_mapping` builds an equal scene from it, also by way of YAML or JSON.
+        """
+        return to_mapping(self._content)
+
+    def digest(self) -> str:
+        """Return 32 hexadecimal digits that differ where results may: keys of terrain, release and setup, files named.
+
+        Output keys do not count.
+
+        Returns
+        -------
+        str
+        """
+        content = {key: value for key, value in self.to_mapping().items() if key != "output"}
+        files = [file_digest(path) for path in named_files(self._content, self.folder)]
+        return digest([content, files])
+
+    # ---- what the keys stand for ----
+
     @cached_property
     def terrain(self) -> xr.Dataset:
-        """Ground as arrays over ``y`` and ``x`` [m]."""
-        return build_terrain(self.terrain_keys, self.folder)
+        """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
+        with located(self._file, "terrain"):
+            return build_terrain(
+                self.terrain_keys, self.folder, self.release_keys, self._content.setup.inflow, self._varying
+            )
+
+    @property
+    def _varying(self) -> tuple[VaryingParameter, ...]:
+        return varying_parameters(self._content.setup, self.terrain_keys.zones)
+
+    @property
+    def lattice(self) -> Lattice:
+        """Place of the nodes on the map."""
+        return lattice_of(self.terrain)
 
     @cached_property
     def releases(self) -> list[ScheduledRelease]:
-        """Releases in the order of their times."""
-        return schedule_releases(self.release_keys, self.terrain, self.folder)
+        """Releases in the order of their times, without the inflow at points."""
+        return schedule_releases(self.release_keys, self.terrain, self.folder, self._file)
+
+    @cached_property
+    def setup(self) -> Setup:
+        """Laws, material, numerics and inflow, also the inflow at points."""
+        setup = with_fields(self._content.setup, self._varying)
+        if not any(keys.kind == "points" for keys in self.release_keys):
+            return setup
+        points = point_hydrographs(self.release_keys, self.terrain, self.folder, self._file)
+        return dataclasses.replace(setup, inflow=(*setup.inflow, *points))
+
+    @cached_property
+    def places(self) -> OutputPlaces:
+        """Gauges, sections, thalweg and exposed polygons as coordinates."""
+        return output_places(self.output_keys, self.lattice, self.folder, self._file)
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks and doubts about terrain and releases, as sentences."""
+        notes = [*self.terrain.attrs.get("notes", ()), *(note for one in self.releases for note in one.notes)]
+        if not self.releases and not self.setup.inflow:
+            notes.append("nothing is released and nothing flows in; give release or inflow")
+        return notes
+
+    # ---- runs ----
 
     def grid(self) -> RasterModelGrid:
         """Return a new grid with the fields of the terrain, and closed nodes where there are no data."""
-        lattice = lattice_of(self.terrain)
-        grid = RasterModelGrid(lattice.shape, xy_spacing=lattice.spacing, xy_of_lower_left=lattice.lower_left)
-        missing = np.isnan(self.terrain["topographic__elevation"].values).reshape(-1)
-        for name, values in self.terrain.items():
-            grid.add_field(str(name), np.nan_to_num(values.values.reshape(-1)), at="node")
-        grid.status_at_node[missing] = grid.BC_NODE_IS_CLOSED
-        return grid
+        return build_grid(self.terrain)
 
     def flow(self, grid: RasterModelGrid | None = None, observers: Any = ()) -> DebrisFlow:
-        """Return a flow on a grid, by default a new one; releases at time 0 are set on it."""
+        """Return a flow whose releases at time 0 are set; later ones are in `releases`.
+
+        Parameters
+        ----------
+        grid : RasterModelGrid, optional
+            Grid to run on, which is changed; by default a new one.
+        observers : observer or sequence of them
+            As of `DebrisFlow`.
+
+        Returns
+        -------
+        DebrisFlow
+        """
         grid = self.grid() if grid is None else grid
-        release = grid.add_zeros("debris_flow__release_depth", at="node")
-        for one in self.releases:
-            if one.time == 0.0:
-                release += one.depth.reshape(-1)
+        for release in self.releases:
+            if release.time == 0.0:
+                set_release(grid, release)
         return DebrisFlow(grid, observers=observers, **vars(self.setup))
+
+    def run(self, *, overwrite: bool = False) -> Results:
+        """Run the scene to rest and write its results; a line shows how it gets on.
+
+        Parameters
+        ----------
+        overwrite : bool
+            Whether results of an earlier run in the output directory may be removed.
+
+        Returns
+        -------
+        Results
+            Maps, budget and files in `output_directory`.
+
+        Raises
+        ------
+        InputError, ParameterError, OutputError, OSError, KeyboardInterrupt
+            As of `runner.run_scene`; after an interruption `resume` goes on.
+        """
+        from .runner import run_scene
+
+        return run_scene(self, overwrite=overwrite)
+
+    def resume(self) -> Results:
+        """Go on with a run that was interrupted, to the results that it would have had without.
+
+        Returns
+        -------
+        Results
+
+        Raises
+        ------
+        InputError
+            If there is no run of this scene, or the scene or a file of it has changed.
+        """
+        from .runner import resume_scene
+
+        return resume_scene(self)

@@ -2,14 +2,20 @@
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from ..geo.shapes import covered_fraction, read_shapes
+from ..core.errors import InputError
 from .keys import ReleaseKeys
-from .terrain import lattice_of
+from .location import located
+from .read_yaml import YamlFile
+from .release import lay_on_top
+from .release_depths import Ground, polygon_depths, raster_depth
+
+FEWEST_NODES = 12
+"""A release over fewer nodes is hardly resolved."""
 
 
 class ScheduledRelease(NamedTuple):
@@ -18,17 +24,31 @@ class ScheduledRelease(NamedTuple):
     Attributes
     ----------
     time : float
-        Elapsed time at which the ground fails [s].
+        Elapsed time at which the mass starts to move [s].
     depth : ndarray, shape (rows, columns)
-        Vertical thickness that fails [m].
+        Vertical depth that starts to move [m].
+    source : {"ground", "above"}
+        Whether it fails out of the ground or is laid on top of it.
+    velocity : ndarray, shape (2, rows, columns), or None
+        Towards east and north, over the map [m/s]; None: from rest.
+    label : str
+        Key of the scene, for messages.
+    notes : tuple of str
+        Remarks on what was done, and doubts.
     """
 
     time: float
     depth: np.ndarray
+    source: str = "ground"
+    velocity: np.ndarray | None = None
+    label: str = "release"
+    notes: tuple[str, ...] = ()
 
 
-def schedule_releases(releases: Iterable[ReleaseKeys], terrain: xr.Dataset, folder: Path) -> list[ScheduledRelease]:
-    """Return the releases of a scene in the order of their times.
+def schedule_releases(
+    releases: Iterable[ReleaseKeys], terrain: xr.Dataset, folder: Path, file: YamlFile | None = None
+) -> list[ScheduledRelease]:
+    """Return the releases of a scene, without the inflow at points, in the order of their times.
 
     Parameters
     ----------
@@ -37,15 +57,101 @@ def schedule_releases(releases: Iterable[ReleaseKeys], terrain: xr.Dataset, fold
         As `build_terrain` returns it.
     folder : Path
         Directory to which names of files are relative.
+    file : YamlFile, optional
+        Scene file, to name lines.
 
     Returns
     -------
     list of ScheduledRelease
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used, a polygon has no depth, or no mass lies on nodes that may hold mass.
     """
-    lattice, scheduled = lattice_of(terrain), []
-    for keys in releases:
-        depth = np.zeros(lattice.shape)
-        for shape in read_shapes(folder / str(keys.polygons), lattice.crs):
-            depth += float(shape.attributes.get("depth", keys.depth)) * covered_fraction(shape.geometry, lattice)
-        scheduled.append(ScheduledRelease(keys.time, depth))
+    scheduled, ground = [], Ground.of(terrain)
+    releases = list(releases)
+    for k, keys in enumerate(releases):
+        if keys.kind == "points":
+            continue
+        path = ("release", k) if file is None or ("release", k) in file.lines else ("release",)
+        with located(file, *path):
+            scheduled.append(_scheduled(keys, ground, folder, f"release[{k}]" if len(path) > 1 else "release"))
     return sorted(scheduled, key=lambda release: release.time)
+
+
+def _scheduled(keys: ReleaseKeys, ground: Ground, folder: Path, label: str) -> ScheduledRelease:
+    found = polygon_depths(keys, ground, folder) if keys.kind == "polygons" else raster_depth(keys, ground, folder)
+    shape, moves = ground.lattice.shape, keys.velocity is not None or keys.speed is not None
+    depth, weighted, notes = np.zeros(shape), np.zeros((2, *shape)) if moves else None, []
+    for body in found:
+        depth += body.depth
+        notes += body.notes
+        if weighted is not None:
+            weighted += body.depth * _start_velocity(keys, body.depth, ground)[:, None, None]
+    velocity = None
+    if weighted is not None:
+        velocity = np.divide(weighted, depth, out=np.zeros_like(weighted), where=depth > 0.0)
+    notes += _doubts(keys, depth, ground)
+    return ScheduledRelease(keys.time, depth, keys.from_, velocity, label, tuple(f"{label}: {note}" for note in notes))
+
+
+def _start_velocity(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> np.ndarray:
+    """Return the velocity of a body at the start over the map, shape (2,) [m/s]."""
+    if keys.velocity is not None:
+        return np.array(keys.velocity)
+    if not keys.speed:
+        return np.zeros(2)
+    slope = ground.plane_slope(depth > 0.0)
+    steepness = float(np.hypot(*slope))
+    if steepness < 1e-3:
+        raise InputError("speed goes down the slope, but the ground of the release is level; give velocity: [vx, vy]")
+    return -keys.speed * slope / (steepness * np.hypot(1.0, steepness))
+
+
+def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
+    """Return doubts about a release as sentences."""
+    lattice, count, notes = ground.lattice, int(np.count_nonzero(depth)), []
+    if count < FEWEST_NODES:
+        notes.append(
+            f"the release covers {count} nodes of {lattice.spacing[0]:g} m; its volume is kept, its shape is not: "
+            "a finer spacing of the terrain would resolve it"
+        )
+    if depth.max() > 100.0:
+        notes.append(f"the release is up to {depth.max():.4g} m deep; depths are in m, volumes in m3")
+    if keys.from_ == "ground" and ground.soil is not None:
+        deeper = depth > ground.soil
+        if deeper.any():
+            notes.append(
+                f"the release is deeper than the soil at {np.count_nonzero(deeper)} nodes, by up to "
+                f"{(depth - ground.soil)[deeper].max():.3g} m; the soil is taken to reach down to the failure surface"
+            )
+    return notes
+
+
+def set_release(grid: Any, release: ScheduledRelease) -> None:
+    """Set the fields of a grid by which `DebrisFlow` releases a mass at its next call.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        With the fields of the terrain; missing fields of the release are added.
+    release : ScheduledRelease
+    """
+    depth, at = release.depth.reshape(-1), grid.at_node
+    asked = _field(grid, "debris_flow__release_depth")
+    if release.velocity is not None:
+        for axis, values in zip("xy", release.velocity, strict=True):
+            velocity = _field(grid, f"debris_flow__release_velocity_{axis}")
+            momentum = asked * velocity + depth * values.reshape(-1)
+            np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
+    if release.source == "above":
+        lay_on_top(grid, depth)
+    else:
+        asked += depth
+    if "soil__depth" in at:
+        np.maximum(at["soil__depth"], asked, out=at["soil__depth"])
+
+
+def _field(grid: Any, name: str) -> np.ndarray:
+    return grid.at_node[name] if name in grid.at_node else grid.add_zeros(name, at="node")

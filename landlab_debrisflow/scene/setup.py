@@ -10,13 +10,13 @@ import xarray as xr
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean
+from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
-from ..record.attributes import legal_name
 from .digest import digest, state_of, text_of
 
 UNSET: Any = None
@@ -223,23 +223,31 @@ class Setup:
         ParameterError
             If the Dataset has no setup, lacks a variable, or a law of it cannot be built from plain values.
         """
-        if "setup" not in dataset.attrs:
-            raise ParameterError("Setup: the Dataset has no attribute 'setup'; give the maps or snapshots of a flow")
-        try:
-            mapping = json.loads(dataset.attrs["setup"])
-        except ValueError as error:
-            raise ParameterError(
-                f"Setup: the attribute 'setup' of the Dataset is no JSON ({error}), so this package did not write it, "
-                "or it was changed; give the maps or snapshots of a flow as they were written"
-            ) from error
-        for kind in LAWS:
-            for key, value in mapping[kind].items():
-                if not isinstance(value, Mapping):
-                    continue
-                if (name := value["variable"]) not in dataset:
-                    raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")
-                mapping[kind][key] = dataset[name].values.reshape(-1)
-        return cls.from_mapping(mapping)
+        return cls.from_mapping(written_mapping(dataset))
+
+
+def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the mapping of the setup in a Dataset, of which `Setup.from_mapping` builds it; see `Setup.from_dataset`.
+
+    Parameters at nodes are arrays, shape (nodes,).
+    """
+    if "setup" not in dataset.attrs:
+        raise ParameterError("Setup: the Dataset has no attribute 'setup'; give the maps or snapshots of a flow")
+    try:
+        mapping: dict[str, Any] = json.loads(dataset.attrs["setup"])
+    except ValueError as error:
+        raise ParameterError(
+            f"Setup: the attribute 'setup' of the Dataset is no JSON ({error}), so this package did not write it, "
+            "or it was changed; give the maps or snapshots of a flow as they were written"
+        ) from error
+    for kind in LAWS:
+        for key, value in mapping[kind].items():
+            if not isinstance(value, Mapping):
+                continue
+            if (name := value["variable"]) not in dataset:
+                raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")
+            mapping[kind][key] = dataset[name].values.reshape(-1)
+    return mapping
 
 
 def is_declared(obj: Any) -> bool:

@@ -113,6 +113,24 @@ class Bed:
             other.pressure_ratio = other.pore_pressure.ratio
         return other
 
+    def variables(self) -> dict:
+        """Return the accounts of the call by name, as dimensions and values: of the nodes that were lowered [m]."""
+        nodes = np.flatnonzero(self.taken)
+        return {
+            "lowered_node": ("lowered", nodes), "taken": ("lowered", self.taken[nodes]),
+            "before": (("ground", "lowered"), self._before[:, nodes]),
+        }  # fmt: skip
+
+    def set_variables(self, variables) -> None:
+        """Restore the accounts of a call that `variables` returned, values by name."""
+        nodes = variables["lowered_node"]
+        self.taken[nodes], self._before[:, nodes] = variables["taken"], variables["before"]
+
+    @property
+    def elevation_before(self):
+        """Elevation at the beginning of the call, ndarray, shape (nodes,) [m]."""
+        return np.where(self.taken > 0.0, self._before[1], self.elevation)
+
     @classmethod
     def from_arrays(cls, elevation, spacing, soil=None, pressure_ratio=0.0, **others) -> "Bed":
         """Return a bed made of arrays alone, with open nodes along its edge and core nodes inside.

@@ -93,6 +93,18 @@ class BedPressure:
         other.ratio, other._load, other._age = self.ratio.copy(), self._load.copy(), self._age.copy()
         return other
 
+    def variables(self) -> dict:
+        """Return loads and times by name, as dimensions and values, without the pressures, which belong to the grid."""
+        return {
+            "start": ((), self._start), "ratio": ("node", self.ratio), "load": ("node", self._load),
+            "age": ("node", self._age), "under": ("loaded", self._under),
+        }  # fmt: skip
+
+    def set_variables(self, variables) -> None:
+        """Restore loads and times that `variables` returned, values by name."""
+        self._start, self._under = float(variables["start"]), variables["under"]
+        self.ratio[:], self._load[:], self._age[:] = (variables[name] for name in ("ratio", "load", "age"))
+
     def carry(self, x, y, half_width, force, time: float, dt: float) -> None:
         """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
 

@@ -88,3 +88,8 @@ def test_consolidation_of_the_tsing_shan_benchmark():
 def test_the_tail_of_s1000(tmp_path):
     write_rasters(tmp_path)
     built(benchmark("s1000_tail").flow_of(tmp_path, "Voellmy").run_until_rest)
+
+
+def test_which_component():
+    which = benchmark("which_component")
+    built(which.debris_flow(which.valley()))

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import InputError
-from landlab_debrisflow.record.observers import EVERY_STEP, Series
+from landlab_debrisflow.record.observers import EVERY_STEP
+from landlab_debrisflow.record.series import Series
 
 from ..twins import Failed, Fails, build, run_through
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.physics.registry import LAWS
-from landlab_debrisflow.record.observers import Series, Snapshots
+from landlab_debrisflow.record.observers import Snapshots
+from landlab_debrisflow.record.series import Series
 from validation.grids import inclined, release_slab
 
 SHAPE, SPACING = (9, 24), 5.0

@@ -12,7 +12,8 @@ from rich.console import Console
 from landlab_debrisflow import DebrisFlow, InputError, SimulationError, measures
 from landlab_debrisflow.core.parameters import declared
 from landlab_debrisflow.physics.erosion import Growth
-from landlab_debrisflow.record.observers import Progress, Series, Snapshots
+from landlab_debrisflow.record.observers import Progress, Snapshots
+from landlab_debrisflow.record.series import Series
 from validation.grids import changed_fields, copy_fields, inclined, release_slab
 
 from ..model.test_state import assert_same, begun, build, call

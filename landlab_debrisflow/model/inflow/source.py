@@ -160,6 +160,11 @@ class Inflow:
         return other
 
     @property
+    def rows(self) -> int:
+        """Number of rows that enter altogether."""
+        return self._time.size
+
+    @property
     def over(self) -> bool:
         """Whether all volume of the hydrographs has entered."""
         return self.rows_entered == self._time.size

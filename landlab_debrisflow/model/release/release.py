@@ -9,7 +9,8 @@ import numpy as np
 
 from ...spatial.raster import CLOSED
 from ...spatial.summation import SMOOTHING_RATIO
-from .placing import THICKNESS_RANGE, place_particles
+from ...terrain.surface import SurfaceSample
+from .placing import THICKNESS_RANGE, Placed, place_particles
 from .sites import find_sites, share_particles, volume_below_lips
 
 log = logging.getLogger("landlab_debrisflow")
@@ -23,7 +24,7 @@ flow that would get as short as it is light, and ask for such steps. So it has t
 no say in the limits by growth and convergence."""
 
 
-def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
+def release_particles(p, origins, nodes, depth, bed, phases, numerics, velocity=None) -> slice:
     """Add particles for failing ground and return their places.
 
     Parameters
@@ -42,6 +43,8 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
         Give the parts of grains and water.
     numerics : Numerics
         Give the number or the spacing of particles [m].
+    velocity : ndarray, shape (2, cells), optional
+        Velocity over the map along x and y [m s-1]; by default the ground fails at rest.
     """
     material, whole = phases.material, _whole_volume(p, phases)
     sites = find_sites(nodes, depth, bed.raster)
@@ -55,10 +58,11 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
     least, first = THICKNESS_RANGE * thickest[placed.site], p.awake
     deepest = max(thickest.max(), p.thickness.max(initial=0.0))
     usual = _usual_volume(np.concatenate([placed.volume, whole]))
+    moving = along_bed(placed, velocity, below)
     origin = origins.add(placed.x, placed.y, placed.particle, nodes[placed.cell], placed.part)
     for phase, part in phases.phase_fractions:
         p.append(
-            placed.x.size, x=placed.x, y=placed.y, z=below.elevation, phase=phase, share=part,
+            placed.x.size, x=placed.x, y=placed.y, z=below.elevation, velocity=moving, phase=phase, share=part,
             volume=part * placed.volume, released_volume=part * placed.volume, depth=placed.depth, thickness=normal,
             own_thickness=part * normal, least_thickness=part * least, porosity=material.porosity,
             density=material.density, origin=origin, light=placed.volume < LIGHT * usual,
@@ -66,6 +70,27 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics) -> slice:
             usual_length=SMOOTHING_RATIO * np.sqrt(usual / deepest),
         )  # fmt: skip
     return slice(first, p.awake)
+
+
+def along_bed(placed: Placed, velocity, below: SurfaceSample):
+    """Return the velocity of particles along the bed, shape (3, n) [m s-1], with the momentum of the ground that fails.
+
+    Parameters
+    ----------
+    placed : Placed
+        The n particles.
+    velocity : ndarray, shape (2, cells), or None
+        Velocity of the failing cells over the map [m s-1]; None: at rest.
+    below : SurfaceSample
+        Bed below the particles.
+    """
+    along = np.zeros((3, placed.x.size))
+    if velocity is not None:
+        for component, of_cells in zip(along, velocity, strict=False):
+            component[:] = np.bincount(placed.particle, placed.part * of_cells[placed.cell], placed.x.size)
+        along /= placed.volume
+        along[2] = along[0] * below.slope_x + along[1] * below.slope_y
+    return along
 
 
 def _particle_volume(whole, area: float, nodes, depth, numerics) -> float:
@@ -99,7 +124,7 @@ def _warn_of_pits(bed, sites, nodes, depth) -> None:
     if volume > WORTH_SAYING * sites.volume.sum():
         log.warning(
             "%.3g of the %.3g m3 released lie below the lowest ground beside their scar: a pit that they cannot leave "
-            "by themselves. Let the depth taper towards the lower rim, or add the release to topographic__elevation "
-            "(and soil__depth) first, which lays it on top of the ground",
+            "by themselves. Let the depth taper towards the lower rim (failure_surface of landlab_debrisflow.scene), "
+            "or lay the release on top of the ground (lay_on_top)",
             volume, sites.volume.sum(),
         )  # fmt: skip

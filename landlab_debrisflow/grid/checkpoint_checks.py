@@ -1,0 +1,120 @@
+"""Refusals of checkpoints whose contents cannot be those of a flow: kernels read no number of them unchecked."""
+
+import numpy as np
+
+from ..core.errors import InputError
+
+FREE = {
+    "particle", "released", "released_part", "body_number", "exit_node", "grain", "partner", "generation",
+    "budget_stretch", "budget_kept", "budget_backed_up", "budget_begin_and_end",
+}  # fmt: skip
+"""Dimensions whose size depends on the moment."""
+
+OF_A_CALL = (
+    "call_rows", "bed_lowered_node", "bed_taken", "bed_before", "peak_maps_under", "peak_maps_passed",
+    "peak_maps_then",
+)  # fmt: skip
+"""Variables that are there if a call has begun, beside ``call_end``."""
+
+FINITE = (
+    "x", "y", "z", "velocity", "volume", "depth", "thickness", "least_thickness", "own_thickness", "share",
+    "smoothing_length", "usual_length", "density",
+)  # fmt: skip
+"""Variables of the particles that are finite."""
+
+POSITIVE = "volume", "depth", "thickness", "least_thickness", "share", "smoothing_length", "density"
+"""Variables of the particles that are above 0."""
+
+
+def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow_rows: int) -> None:
+    """Refuse a Dataset that no flow wrote.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Contents of a file.
+    template : xarray.Dataset
+        As `checkpoint.capture` returns it of a flow with the same setup on the same grid, before its first call.
+    prefix : str
+        Beginning of the names of variables of the particles.
+    raster_shape, spacing : tuple
+        Rows and columns; dx and dy [m].
+    inflow_rows : int
+        Rows of particles that flow in altogether.
+
+    Raises
+    ------
+    InputError
+        If a variable is missing, of another type or shape, or has a number that cannot be.
+    """
+    names = [name for name in template.variables if "field" not in template[name].attrs]
+    if running := "call_end" in dataset:
+        names += OF_A_CALL
+    for name in names:
+        if name not in dataset.variables:
+            _refuse(f"it lacks the variable {name!r}")
+        if name not in template.variables:
+            continue
+        found, wanted = dataset.variables[name], template.variables[name]
+        same = found.dims == wanted.dims and found.dtype.kind == wanted.dtype.kind
+        sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}
+        if not same or any(wanted.sizes[dim] != size for dim, size in sizes.items()):
+            _refuse(f"{name!r} is {_words(found)} where {_words(wanted)} is expected")
+    read = {name: data.values for name, data in dataset.variables.items()}
+    _check_numbers(read, prefix, raster_shape, inflow_rows, running)
+    for name in FINITE:
+        if not np.isfinite(read[prefix + name]).all():
+            _refuse(f"{prefix}{name} is not finite everywhere")
+    for name in POSITIVE:
+        if not np.all(read[prefix + name] > 0.0):
+            _refuse(f"{prefix}{name} is not above 0 everywhere")
+    for name, count, step in zip("xy", raster_shape[::-1], spacing, strict=True):
+        if not np.all((read[prefix + name] >= -step) & (read[prefix + name] <= count * step)):
+            _refuse(f"{prefix}{name} is outside the grid somewhere")
+    if not np.isfinite(read["time"]) or read["time"] < 0.0:
+        _refuse(f"time is {read['time']} s")
+
+
+def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
+    """Refuse numbers that stand for places in arrays where there are no such places."""
+    count, nodes, bodies = read[f"{prefix}x"].size, raster_shape[0] * raster_shape[1], read["bodies_peak"].size
+    if not np.array_equal(np.sort(read[f"{prefix}place"]), np.arange(count)):
+        _refuse(f"{prefix}place does not number the particles")
+    if count and np.any(np.diff(read[f"{prefix}identity"]) <= 0):
+        _refuse(f"{prefix}identity does not increase")
+    ranges = {
+        "identity": (0, int(read["ever"])), "body": (-1, bodies), "origin": (-1, read["origins_x"].size),
+        "inflow_row": (-1, inflow_rows), "nearest_node": (0, nodes), "phase": (0, 2),
+    }  # fmt: skip
+    ranges = {prefix + name: bounds for name, bounds in ranges.items()} | {
+        "awake": (0, count + 1), "inflow_rows_entered": (0, inflow_rows + 1),
+        "origins_owner": (0, read["origins_x"].size), "origins_node": (0, nodes), "outflow_node": (0, nodes),
+        "written": (0, nodes + 1), "node_status": (0, 5), "node_known_status": (0, 5),
+    }  # fmt: skip
+    if running:
+        ranges |= {
+            "call_rows": (0, nodes + 1), "bed_lowered_node": (0, nodes), "peak_maps_under": (0, nodes),
+            "bed_pressure_under": (0, nodes), "budget_stretches": (0, nodes + 1),
+        }  # fmt: skip
+    if "partners_of" in read:
+        ranges |= {"partners_of": (0, count), "partners_index": (0, max(count, 1))}
+        ranges["partners_count"] = (0, read["partners_index"].shape[1] + 1)
+    for name, (least, end) in ranges.items():
+        values = read.get(name, np.zeros(0, int))
+        if values.dtype.kind not in "iub" or np.any((values < least) | (values >= end)):
+            _refuse(f"{name} has numbers outside [{least}, {end})")
+    for name in ("call_rows", "budget_stretches"):
+        ends = read.get(name, np.zeros((0, 2), int))
+        if np.any(ends % raster_shape[1]) or np.any(np.diff(ends) < 0):
+            _refuse(f"{name} are no stretches of whole rows")
+    if running and "budget_stretches" in read and np.diff(read["budget_stretches"]).sum() != read["budget_copies"].size:
+        _refuse("budget_copies does not fit budget_stretches")
+
+
+def _words(variable) -> str:
+    sizes = ", ".join(f"{dim} {size}" for dim, size in variable.sizes.items())
+    return f"{variable.dtype.name} ({sizes})"
+
+
+def _refuse(reason: str):
+    raise InputError(f"load: the contents of the checkpoint are not those of a flow: {reason}; nothing was loaded")

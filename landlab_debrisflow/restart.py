@@ -1,0 +1,140 @@
+"""Checkpoints of a flow: saved to a file, and loaded to go on to the bit."""
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+import xarray as xr
+from landlab import RasterModelGrid
+
+from .core.errors import InputError
+from .grid import checkpoint_grid, checks
+from .record.attributes import date_created, file_attributes
+from .record.checkpoint_file import read_checkpoint, write_checkpoint
+from .record.files import check_writable
+from .record.memories import read_memories, write_memories
+from .scene.agreement import agreed_setup, law_digests
+from .scene.setup import Setup
+
+ATTRIBUTES = (
+    "setup", "law_digests", "observers", "observers_with_state", "spacing", "lower_left", "warned",
+)  # fmt: skip
+"""Attributes of every checkpoint."""
+
+
+class Restart:
+    """Saving and loading of a component."""
+
+    _call: Any
+    _setup: Setup
+    _observers: tuple[Any, ...]
+    grid: RasterModelGrid
+
+    @property
+    def unfinished_until(self) -> float | None:
+        """Elapsed time until which a call that was interrupted, or loaded, should have gone [s]; None: there is none.
+
+        ``flow.run_one_step(flow.unfinished_until - flow.elapsed_time)`` finishes it.
+        """
+        return self._call.unfinished_until
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Save all that decides how the flow goes on, so that `load` continues it to the bit.
+
+        Between calls, and after a call that was interrupted, the file is there on return. If an observer calls, or
+        another thread during a call, it is written as soon as the step is made and all observers have seen it; if it
+        cannot be written then, the call ends after that step, as if an observer had failed.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            NetCDF file. A checkpoint of that name is kept, ``event.nc`` as ``event.previous.nc``; at no moment is there
+            half a file.
+
+        Returns
+        -------
+        pathlib.Path
+            Where it is, or will be.
+
+        Raises
+        ------
+        InputError
+            If it cannot be written; the checkpoint before stays.
+
+        Notes
+        -----
+        A few numbers of numpy, no code: fields, statuses and place of the grid, particles, columns, accounts, the
+        setup, and the memory of observers that have methods ``state()`` and ``restore(mapping)``.
+        """
+        path = check_writable(path)
+        self._call.save(lambda dataset: write_checkpoint(path, self._completed(dataset)))
+        return path
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], grid: RasterModelGrid | None = None, *, observers: Any = (), **setup: Any
+    ) -> Self:
+        """Return the flow that `save` wrote.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            The file.
+        grid : RasterModelGrid, optional
+            Of the same shape, place and statuses: its fields get the values of the file. By default a new one.
+        observers : observer or sequence of them, optional
+            Of the same classes, in the same order, as the flow had when it was saved; they go on, too.
+        **setup
+            Keywords of `DebrisFlow`. Only laws are needed that are not declared or have no name in `LAWS`, because no
+            file can hold them; anything given must be what it was.
+
+        Returns
+        -------
+        DebrisFlow
+
+        Raises
+        ------
+        InputError, ParameterError
+            If the file is missing, damaged or something else, or if grid, observers or laws are not those of the flow;
+            the grid is as it was then.
+        """
+        dataset = read_checkpoint(path)
+        return cls._from_dataset(dataset, grid, checks.check_observers(observers), setup)
+
+    @classmethod
+    def _from_dataset(cls, dataset: xr.Dataset, grid: Any, observers: Sequence[Any], given: dict[str, Any]) -> Self:
+        if missing := [name for name in ATTRIBUTES if name not in dataset.attrs]:
+            raise InputError(
+                f"load: the checkpoint lacks the attribute {missing[0]!r}; give a file that flow.save() wrote"
+            )
+        setup = agreed_setup(dataset, given)
+        if grid is None:
+            shape = dataset.sizes["y"], dataset.sizes["x"]
+            spacing, corner = dataset.attrs["spacing"], dataset.attrs["lower_left"]
+            grid = RasterModelGrid(shape, xy_spacing=tuple(spacing), xy_of_lower_left=tuple(corner))
+            grid.status_at_node = dataset["node_status"].values.reshape(-1)
+        elif not isinstance(grid, RasterModelGrid):
+            raise InputError(f"load: a RasterModelGrid is needed, got {type(grid).__name__}")
+        checkpoint_grid.check_same(grid, dataset)
+        memories = read_memories(dataset, observers)
+        make: Any = cls
+        with checkpoint_grid.fields_of(grid, dataset) as put_fields:
+            flow = make(grid, **vars(setup), observers=observers)
+            put_fields()
+            flow._call.load(dataset)
+            for observer, memory in zip(observers, memories, strict=True):
+                if memory is not None:
+                    observer.restore(memory)
+        return flow
+
+    def _completed(self, dataset: xr.Dataset) -> xr.Dataset:
+        """Return the Dataset of a flow with the setup and the memory of the observers."""
+        shape = self.grid.shape
+        for name, array in self._setup.node_arrays().items():
+            dataset[name] = ("y", "x"), np.reshape(array.values, shape), {"units": array.unit}
+        attributes = {"law_digests": json.dumps(law_digests(self._setup))} | self._setup.to_attributes()
+        dataset.attrs |= file_attributes() | date_created() | attributes
+        return write_memories(dataset, self._observers)

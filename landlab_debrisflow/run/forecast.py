@@ -1,0 +1,168 @@
+"""Forecast of a run: particles, number of steps, wall time, memory, and doubts."""
+
+import dataclasses
+import math
+from time import perf_counter
+
+import numpy as np
+
+from ..core.words import duration_text, grouped
+from .doubts import scene_doubts
+from .memory import peak_memory
+from .pilot import run_pilot, run_start
+from .scene import Scene
+
+FACTOR = 2.0
+"""Factor within which the wall time is right in most cases (`python -m benchmarks.forecast`)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Forecast:
+    """Forecast of a run.
+
+    Attributes
+    ----------
+    nodes : tuple of int
+        Rows and columns of the grid.
+    spacing : tuple of float
+        dx, dy [m].
+    released : float
+        Volume of all releases [m3].
+    inflow : float
+        Volume of all inflow [m3].
+    particles : int
+        Number of particles at the start.
+    consolidation_time : float
+        T_c = h^2 / c_v, median over the particles at the start [s].
+    erosion_time : float
+        T_e = h / e, thickness over erosion rate, median over the particles that erode and over time [s].
+    peclet_number, largest_peclet_number : float
+        Pe_b = T_c / T_e at the base, median and largest of the peaks over the eroded area [-].
+    duration : float
+        Elapsed time at the end of the event [s].
+    complete : bool
+        Whether the pilot run came to that end; False: the event lasts longer.
+    at_rest : bool
+        Whether the flow comes to rest before `max_duration`.
+    eroded, peak_depth, peak_speed : float
+        Of the pilot run [m3, m, m s-1].
+    steps : float
+        Number of time steps.
+    seconds : float
+        Wall time of the run on this machine, without kernels to compile [s].
+    memory : float
+        Memory of this process at the start of the run [bytes].
+    notes, doubts : tuple of str
+        Remarks on files, and what is odd.
+    """
+
+    nodes: tuple[int, int]
+    spacing: tuple[float, float]
+    released: float
+    inflow: float
+    particles: int
+    consolidation_time: float
+    erosion_time: float
+    peclet_number: float
+    largest_peclet_number: float
+    duration: float
+    complete: bool
+    at_rest: bool
+    eroded: float
+    peak_depth: float
+    peak_speed: float
+    steps: float
+    seconds: float
+    memory: float
+    notes: tuple[str, ...]
+    doubts: tuple[str, ...]
+
+    def __str__(self) -> str:
+        rows = [*self._content(), *self._outcome()]
+        width = max(len(name) for name, _ in rows)
+        lines = [f"{name:{width}}  {words}" for name, words in rows]
+        for heading, sentences in (("notes", self.notes), ("odd", self.doubts)):
+            lines += [f"{heading}:", *(f"  - {sentence}" for sentence in sentences)] if sentences else []
+        return "\n".join(lines)
+
+    def _content(self) -> list[tuple[str, str]]:
+        (rows, columns), (dx, dy) = self.nodes, self.spacing
+        spacing = f"{dx:g} m" if dx == dy else f"{dx:g} m x {dy:g} m"
+        mass = f"{grouped(self.released)} m3" + (f", inflow {grouped(self.inflow)} m3" if self.inflow else "")
+        return [
+            ("grid", f"{rows} x {columns} nodes of {spacing}"),
+            ("released", mass),
+            ("particles", f"{grouped(self.particles)} at the start"),
+        ]
+
+    def _outcome(self) -> list[tuple[str, str]]:
+        at_least = "" if self.complete else "more than "
+        end = "" if not self.complete else " until rest" if self.at_rest else " (max_duration), still moving"
+        rows = [("consolidation time T_c", _long(self.consolidation_time))]
+        if math.isfinite(self.erosion_time):
+            rows += [
+                ("erosion time T_e", _long(self.erosion_time)),
+                ("basal Péclet number Pe_b", f"{self.peclet_number:.3g}, largest {self.largest_peclet_number:.3g}"),
+                ("eroded", f"{at_least}{grouped(self.eroded)} m3 in the pilot run"),
+            ]
+        return [
+            *rows,
+            ("peaks", f"{self.peak_depth:.1f} m deep, {self.peak_speed:.1f} m/s in the pilot run"),
+            ("duration", f"{at_least}{self.duration:.0f} s{end}"),
+            ("steps", f"{at_least}{grouped(self.steps)}"),
+            ("memory", f"{self.memory / 2**20:.0f} MB"),
+            ("wall time", f"{at_least}{duration_text(self.seconds)}, within a factor of {FACTOR:g}"),
+        ]
+
+
+def forecast(scene: Scene) -> Forecast:
+    """Forecast a run, by a pilot run with few particles and the first steps with all; nothing is written.
+
+    The pilot run goes to the end of the event, or for ten seconds. It gives the duration, T_e and Pe_b. The number of
+    steps follows from the length of its steps: those that pressure waves limit are shorter by the square root of the
+    ratio of the numbers of particles (`Pilot.steps_with`). The first steps with all particles give T_c and the wall
+    time of a step on this machine as it is loaded now.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    Forecast
+
+    Raises
+    ------
+    InputError, ParameterError
+        If something of the scene cannot be used.
+
+    References
+    ----------
+    Pastor et al. (2022) for T_c, T_e and Pe_b; Monaghan (1992) for the Courant condition, see docs/theory.md.
+    """
+    began = perf_counter()
+    terrain, releases = scene.terrain, scene.releases
+    reading = perf_counter() - began
+    grid = scene.grid()
+    area = grid.dx * grid.dy
+    start, pilot = run_start(scene), run_pilot(scene)
+    start = run_start(scene) if start.seconds > 2.0 else start  # the first one may have compiled kernels
+    steps = pilot.steps_with(start.particles)
+    return Forecast(
+        nodes=grid.shape, spacing=(grid.dx, grid.dy),
+        released=float(sum(np.sum(one.depth) for one in releases)) * area, inflow=_inflow_volume(scene),
+        particles=start.particles, consolidation_time=start.consolidation_time, erosion_time=pilot.erosion_time,
+        peclet_number=pilot.peclet_number, largest_peclet_number=pilot.largest_peclet_number,
+        duration=pilot.duration, complete=pilot.complete, at_rest=pilot.at_rest, eroded=pilot.eroded,
+        peak_depth=pilot.peak_depth, peak_speed=pilot.peak_speed, steps=steps,
+        seconds=reading + start.seconds + steps * start.seconds_per_step, memory=peak_memory(),
+        notes=tuple(terrain.attrs.get("notes", ())), doubts=(*scene_doubts(scene), *start.doubts),
+    )  # fmt: skip
+
+
+def _inflow_volume(scene: Scene) -> float:
+    return float(sum(np.trapezoid(one.series("discharge")[0], one.times) for one in scene.setup.inflow))
+
+
+def _long(seconds: float) -> str:
+    return f"{seconds:.3g} s" if seconds < 100.0 else f"{seconds:.3g} s ({duration_text(seconds)})"

@@ -1,0 +1,244 @@
+"""Pilot runs: a scene with few particles to its end, and its first steps with all of them."""
+
+import dataclasses
+import logging
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..component import DebrisFlow
+from ..model.time_step import TERRAIN_FRACTION
+from ..record.measures import measures
+from ..scene.releases import set_release
+from .advance import advance
+from .scene import Scene
+
+PARTICLES = 150
+"""Particles of a pilot run."""
+
+LONGEST = 10.0
+"""Longest wall time of a pilot run [s]."""
+
+FIRST, TIMED = 4, 24
+"""Steps before the timed ones of a start, and steps until its end."""
+
+NEAR_LIMIT = 0.8
+"""Part of the limit by the terrain from which on it is that which limits a step [-]."""
+
+
+class PilotOverError(Exception):
+    """End of a pilot run."""
+
+
+class Pilot(NamedTuple):
+    """Outcome of a pilot run.
+
+    Attributes
+    ----------
+    duration : float
+        Elapsed time of its end [s].
+    complete : bool
+        Whether that is the end of the scene, at rest or at its longest time.
+    at_rest : bool
+        Whether it came to rest.
+    particles : int
+        Number of particles that it had.
+    steps : list of tuple of float
+        For every step its length, and the longest that the speed allows on the terrain [s].
+    erosion_time : float
+        Median over steps of that over particles; infinite without erosion [s].
+    peclet_number, largest_peclet_number : float
+        Median and largest of the basal Péclet numbers over the eroded area; NaN without erosion [-].
+    eroded, peak_depth, peak_speed : float
+        Volume [m3]; largest depth [m] and speed [m s-1].
+    """
+
+    duration: float
+    complete: bool
+    at_rest: bool
+    particles: int
+    steps: list
+    erosion_time: float
+    peclet_number: float
+    largest_peclet_number: float
+    eroded: float
+    peak_depth: float
+    peak_speed: float
+
+    def steps_with(self, particles: int) -> float:
+        """Return the number of steps that another number of particles would take.
+
+        Steps that pressure waves limit are as long as the spacing of the particles, n^(-1/2), allows; those that the
+        speed over the terrain limits do not depend on it (model/time_step.py).
+        """
+        finer = math.sqrt(particles / self.particles)
+        lengths, across = np.array(self.steps).reshape(-1, 2).T
+        return float(
+            np.sum(lengths / np.minimum(np.where(lengths < NEAR_LIMIT * across, lengths / finer, across), across))
+        )
+
+
+class Start(NamedTuple):
+    """Outcome of the first steps with all particles.
+
+    Attributes
+    ----------
+    particles : int
+        Number of particles.
+    consolidation_time : float
+        Median of thickness squared over coefficient of consolidation [s].
+    seconds : float
+        Wall time before the first step [s].
+    seconds_per_step : float
+        Wall time of a step [s].
+    doubts : list of str
+        Warnings of the component.
+    """
+
+    particles: int
+    consolidation_time: float
+    seconds: float
+    seconds_per_step: float
+    doubts: list
+
+
+class _Steps:
+    """Observer that notes the limits of every step and ends a run after a wall time."""
+
+    interval = math.inf
+
+    def __init__(self, node_spacing: float, longest: float):
+        self._way, self._longest, self._began = TERRAIN_FRACTION * node_spacing, longest, perf_counter()
+        self.steps: list[tuple[float, float]] = []
+        self.erosion_times: list[float] = []
+        self.particles = 0
+
+    def observe(self, flow: Any) -> None:
+        """Let the flow be."""
+
+    def follow(self, particles: Any, began: float, time: float) -> None:
+        """Note a step from `began` to `time` [s] of `particles`."""
+        self.particles = max(self.particles, particles.volume.size)
+        if time > began:
+            awake = slice(particles.awake)
+            speed2 = float((particles.velocity[:, awake] ** 2).sum(axis=0).max(initial=0.0))
+            self.steps.append((time - began, self._way / math.sqrt(speed2) if speed2 else math.inf))
+            eroding = particles.entrainment_rate[awake] > 0.0
+            if eroding.any():
+                times = particles.depth[awake][eroding] / particles.entrainment_rate[awake][eroding]
+                self.erosion_times.append(float(np.median(times)))
+        if perf_counter() - self._began > self._longest:
+            raise PilotOverError
+
+
+class _Clock:
+    """Observer that times steps and ends a run after some of them."""
+
+    interval = math.inf
+
+    def __init__(self) -> None:
+        self.began, self.walls = perf_counter(), []
+
+    def observe(self, flow: Any) -> None:
+        """Let the flow be."""
+
+    def follow(self, particles: Any, began: float, time: float) -> None:
+        """Note the wall time of a step from `began` to `time` [s]."""
+        self.walls.append(perf_counter())
+        if len(self.walls) >= TIMED:
+            raise PilotOverError
+
+
+def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST) -> Pilot:
+    """Run a scene with few particles, in memory.
+
+    Parameters
+    ----------
+    scene : Scene
+    particles : int
+        Number of particles of each release.
+    longest : float
+        Longest wall time [s]; then it is not complete.
+
+    Returns
+    -------
+    Pilot
+    """
+    numerics = dataclasses.replace(scene.setup.numerics, particle_count=particles, particle_spacing=None)
+    grid = scene.grid()
+    steps = _Steps(min(grid.dx, grid.dy), longest)
+    flow = _flow(scene, grid, steps, numerics=numerics)
+    with collected_warnings():
+        complete = _runs_through(flow, scene)
+    found = measures(flow)
+    return Pilot(
+        duration=flow.elapsed_time, complete=complete, at_rest=flow.at_rest, particles=max(1, steps.particles),
+        steps=steps.steps, erosion_time=float(np.median(steps.erosion_times)) if steps.erosion_times else math.inf,
+        peclet_number=float(found.median_basal_peclet_number),
+        largest_peclet_number=float(found.max_basal_peclet_number), eroded=flow.budget["eroded"],
+        peak_depth=float(found.max_depth), peak_speed=float(found.max_speed),
+    )  # fmt: skip
+
+
+def run_start(scene: Scene) -> Start:
+    """Run the first steps of a scene with all its particles, in memory.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    Start
+    """
+    clock = _Clock()
+    with collected_warnings() as doubts:
+        flow = _flow(scene, scene.grid(), clock)
+        _runs_through(flow, scene)
+        columns = flow.columns
+    walls = clock.walls or [perf_counter()]
+    timed = np.diff(walls[min(FIRST, len(walls) - 1) :])
+    times = columns.consolidation_time.values
+    return Start(
+        particles=int(flow.particles.sizes["particle"]),
+        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=walls[0] - clock.began,
+        seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
+    )  # fmt: skip
+
+
+def _flow(scene: Scene, grid: Any, observer: Any, **changes: Any) -> DebrisFlow:
+    for release in scene.releases:
+        if release.time == 0.0:
+            set_release(grid, release)
+    return DebrisFlow(grid, observers=[observer], **(vars(scene.setup) | changes))
+
+
+def _runs_through(flow: DebrisFlow, scene: Scene) -> bool:
+    """Advance a flow through its scene; return whether it came to the end."""
+    try:
+        advance(flow, scene)
+    except PilotOverError:
+        return False
+    return True
+
+
+@contextmanager
+def collected_warnings() -> Iterator[list[str]]:
+    """Collect the warnings of the package in a block, instead of logging them; yield their list."""
+    collected: list[str] = []
+
+    def collect(record: logging.LogRecord) -> bool:
+        if record.levelno >= logging.WARNING and not record.getMessage().startswith(PilotOverError.__name__):
+            collected.append(record.getMessage())
+        return False
+
+    log = logging.getLogger("landlab_debrisflow")
+    log.addFilter(collect)
+    try:
+        yield collected
+    finally:
+        log.removeFilter(collect)

@@ -1,0 +1,131 @@
+"""Record of a run in its directory: scene, digests of its files, versions, and how far it came."""
+
+import dataclasses
+import json
+from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ..core.errors import InputError
+from ..core.version import __version__
+from ..record.files import write_atomically
+from ..scene.digest import digest
+from .files import input_digests
+
+FORMAT = 1
+"""Version of the record."""
+
+RUNNING, INTERRUPTED, FAILED, FINISHED = "running", "interrupted", "failed", "finished"
+
+FREE = ("output.directory", "output.max_duration", "output.checkpoint_interval")
+"""Keys that may differ when a run goes on: its numbers until then are the same."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class RunRecord:
+    """Record of a run.
+
+    Attributes
+    ----------
+    scene : dict
+        Scene as plain values.
+    inputs : dict of str to str
+        SHA-256 of the files that it names.
+    digest : str
+        Digest of both.
+    scene_file : str or None
+        The scene file, from the directory of the results; None for a scene that came from none.
+    state : str
+        ``running`` (or ended without a word), ``interrupted``, ``failed`` or ``finished``.
+    elapsed_time : float
+        Elapsed time at the end, or at the interruption [s].
+    at_rest : bool
+        Whether all came to rest.
+    budget : dict of str to float
+        Volumes at the end [m3].
+    files : list of str
+        Files that were written, from the directory; with ``*`` for any name.
+    reason : str
+        Reason of a failure.
+    """
+
+    scene: dict[str, Any]
+    inputs: dict[str, str]
+    digest: str
+    scene_file: str | None = None
+    state: str = RUNNING
+    elapsed_time: float = 0.0
+    at_rest: bool = False
+    budget: dict[str, float] = dataclasses.field(default_factory=dict)
+    files: list[str] = dataclasses.field(default_factory=list)
+    reason: str = ""
+    started: str = dataclasses.field(default_factory=lambda: _now())
+    version: str = __version__
+    format: int = FORMAT
+
+    @classmethod
+    def of(cls, scene: Any, scene_file: str | None = None) -> "RunRecord":
+        """Return the record of a `Scene` that is about to run."""
+        mapping = json.loads(json.dumps(scene.to_mapping()))
+        inputs = input_digests(mapping, scene.folder)
+        return cls(scene=mapping, inputs=inputs, digest=digest([mapping, inputs]), scene_file=scene_file)
+
+    @classmethod
+    def read(cls, path: Path) -> "RunRecord":
+        """Read a record.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read or is no record.
+        """
+        try:
+            values = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError) as error:
+            raise InputError(
+                f"cannot read {path}: {error}; it is the record of a run, give another directory"
+            ) from error
+        names = {field.name: field for field in dataclasses.fields(cls)}
+        if not isinstance(values, dict) or values.get("format") != FORMAT:
+            found = values.get("format") if isinstance(values, dict) else None
+            raise InputError(
+                f"{path} is no record of a run that this version ({__version__}) can read: format {found!r}, needed "
+                f"{FORMAT}; run the scene with another output directory"
+            )
+        kinds = {"scene": dict, "inputs": dict, "digest": str, "files": list, "state": str, "budget": dict}
+        if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
+            raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
+        return cls(**{name: value for name, value in values.items() if name in names})
+
+    def write(self, path: Path) -> None:
+        """Write the record, atomically."""
+        text = json.dumps(dataclasses.asdict(self) | {"written": _now()}, indent=1)
+        write_atomically(path, lambda temporary: temporary.write_text(text + "\n", encoding="utf-8"))
+
+    def differences(self, other: "RunRecord", free: tuple[str, ...] = ()) -> list[str]:
+        """Return in words where another record has another scene or other files, but for `free` keys."""
+        mine, theirs = dict(_leaves(self.scene)), dict(_leaves(other.scene))
+        keys = [key for key in dict.fromkeys([*mine, *theirs]) if mine.get(key) != theirs.get(key)]
+        found = [
+            f"{key} was {mine.get(key, 'not set')!r}, is {theirs.get(key, 'not set')!r}"
+            for key in keys if key not in free
+        ]  # fmt: skip
+        names = dict.fromkeys([*self.inputs, *other.inputs])
+        return found + [f"the file {name} changed" for name in names if self.inputs.get(name) != other.inputs.get(name)]
+
+
+def _leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every key of plain values, with the keys above it in front, and its value."""
+    if isinstance(values, Mapping):
+        for name, value in values.items():
+            yield from _leaves(value, f"{key}.{name}" if key else str(name))
+    elif isinstance(values, list) and any(isinstance(value, Mapping) for value in values):
+        for number, value in enumerate(values, 1):
+            yield from _leaves(value, f"{key} {number}")
+    else:
+        yield key, values
+
+
+def _now() -> str:
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -1,0 +1,101 @@
+"""Results of a run in their directory."""
+
+import dataclasses
+import html
+from pathlib import Path
+
+import xarray as xr
+
+from ..core.errors import InputError
+from ..core.words import grouped
+from .files import MAPS, RECORD
+from .record import FINISHED, RunRecord
+
+
+@dataclasses.dataclass(frozen=True)
+class Results:
+    """Results of a scene.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory that holds them.
+
+    Raises
+    ------
+    InputError
+        If there is no record of a run.
+
+    Attributes
+    ----------
+    record : RunRecord
+        Scene, digests, versions, and how far the run came.
+    """
+
+    directory: Path
+    record: RunRecord = dataclasses.field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        path = Path(self.directory)
+        if not (path / RECORD).is_file():
+            raise InputError(f"{path} holds no results of a run: {RECORD} is missing; give the directory of a scene")
+        object.__setattr__(self, "directory", path)
+        object.__setattr__(self, "record", RunRecord.read(path / RECORD))
+
+    @property
+    def finished(self) -> bool:
+        """Whether the run came to its end and all results are there."""
+        return self.record.state == FINISHED
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether all came to rest within the longest duration."""
+        return self.record.at_rest
+
+    @property
+    def elapsed_time(self) -> float:
+        """Elapsed time at the end [s]."""
+        return self.record.elapsed_time
+
+    @property
+    def budget(self) -> dict[str, float]:
+        """Volumes at the end, as of `DebrisFlow.budget` [m3]."""
+        return self.record.budget
+
+    @property
+    def files(self) -> list[Path]:
+        """Files of the results."""
+        return sorted(path for name in self.record.files for path in self.directory.glob(name))
+
+    @property
+    def maps(self) -> xr.Dataset:
+        """Maps at the end, read from their file.
+
+        Raises
+        ------
+        InputError
+            If the run was not finished.
+        """
+        if not (self.directory / MAPS).is_file():
+            raise InputError(f"{self.directory} holds no maps: the run is {self.record.state}; resume it first")
+        with xr.open_dataset(self.directory / MAPS, decode_coords="all") as maps:
+            return maps.load()
+
+    def __repr__(self) -> str:
+        return "\n  ".join([f"Results in {self.directory}", *(f"{name}: {words}" for name, words in self._rows())])
+
+    def _repr_html_(self) -> str:
+        cells = "".join(
+            f'<tr><th style="text-align:left">{html.escape(name)}</th>'
+            f'<td style="text-align:left">{html.escape(words)}</td></tr>'
+            for name, words in self._rows()
+        )
+        return f"<table><caption>Results in {html.escape(str(self.directory))}</caption>{cells}</table>"
+
+    def _rows(self) -> list[tuple[str, str]]:
+        record = self.record
+        state = record.state if record.state != FINISHED else "at rest" if record.at_rest else "still moving"
+        rows = [("state", f"{state} at {record.elapsed_time:.6g} s")]
+        if record.budget:
+            rows.append(("budget [m3]", ", ".join(f"{name} {grouped(v)}" for name, v in record.budget.items())))
+        return [*rows, ("files", ", ".join(path.name for path in self.files))]

@@ -1,0 +1,179 @@
+"""Content of a scene file: its mapping as checked values, and back."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..core.errors import ParameterError
+from ..core.hints import did_you_mean
+from ..core.values import from_mapping, keys_of
+from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .location import located
+from .read_yaml import YamlFile
+from .setup import Setup
+from .zones import varying_parameters
+
+SETUP_KEYS = tuple(keys_of(Setup))
+SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS)
+
+
+class SceneContent(NamedTuple):
+    """Checked values of a scene.
+
+    Attributes
+    ----------
+    terrain : TerrainKeys
+        Ground.
+    release : tuple of ReleaseKeys
+        Releases, in the order of the scene.
+    output : OutputKeys
+        Duration, files and places of output.
+    setup : Setup
+        Laws, material, numerics and inflow as they are written, without the inflow at points.
+    """
+
+    terrain: TerrainKeys
+    release: tuple[ReleaseKeys, ...]
+    output: OutputKeys
+    setup: Setup
+
+
+def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> SceneContent:
+    """Check the mapping of a scene.
+
+    Parameters
+    ----------
+    mapping : mapping
+        Plain values by the keys of a scene.
+    file : YamlFile, optional
+        Where they were read from, to name lines.
+
+    Returns
+    -------
+    SceneContent
+
+    Raises
+    ------
+    ParameterError
+        If a key is unknown or a value is refused.
+    """
+    if not isinstance(mapping, Mapping):
+        raise ParameterError(f"scene: a mapping with the keys terrain and release is needed, got {mapping!r:.60}")
+    for key in mapping:
+        if key not in SCENE_KEYS:
+            with located(file):
+                hint = did_you_mean(key, SCENE_KEYS) or _owner(key)
+                raise ParameterError(f"scene: unknown key {key!r}{hint}; allowed: {', '.join(SCENE_KEYS)}")
+    terrain = _declared(TerrainKeys, mapping.get("terrain"), file, "terrain")
+    release = tuple(
+        _declared(ReleaseKeys, one, file, *path) for path, one in _entries("release", mapping.get("release"))
+    )
+    output = _declared(OutputKeys, mapping.get("output"), file, "output")
+    given = {key: mapping[key] for key in SETUP_KEYS if mapping.get(key) is not None}
+    for key, value in given.items():
+        for path, one in _entries(key, value) if key == "inflow" else [((key,), value)]:
+            with located(file, *path):
+                Setup(**{key: one})
+    setup = Setup(**given)
+    with located(file, "terrain"):
+        varying_parameters(setup, terrain.zones)
+    return SceneContent(terrain, release, output, setup)
+
+
+def to_mapping(content: SceneContent) -> dict[str, Any]:
+    """Return a scene and its defaults as plain values, without unset keys; `read_content` reads them back.
+
+    Parameters
+    ----------
+    content : SceneContent
+
+    Returns
+    -------
+    dict
+    """
+    release = [_plain_keys(one) for one in content.release]
+    return {
+        "terrain": _plain_keys(content.terrain), "release": release, "output": _plain_keys(content.output),
+        **content.setup.to_mapping(),
+    }  # fmt: skip
+
+
+def named_files(content: SceneContent, folder: Path) -> list[Path]:
+    """Return the existing files that terrain, releases and laws of a scene name, each once, in the order of the keys.
+
+    With a Shapefile come its siblings.
+
+    Parameters
+    ----------
+    content : SceneContent
+    folder : Path
+        Directory to which names of files are relative.
+
+    Returns
+    -------
+    list of Path
+    """
+    files: dict[Path, None] = {}
+    for text in _texts({**to_mapping(content), "output": {}}):
+        for name in (text, text.rpartition(":")[0]):
+            path = folder / name
+            if name and _is_file(path):
+                siblings = path.parent.glob(f"{path.stem}.*") if path.suffix.lower() == ".shp" else (path,)
+                files |= dict.fromkeys(sorted(siblings))
+    return list(files)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a word too long for a name, or with a null character
+        return False
+
+
+def _texts(value):
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping | list):
+        for inner in value.values() if isinstance(value, Mapping) else value:
+            yield from _texts(inner)
+
+
+def _entries(key: str, value: Any) -> list[tuple[tuple, Any]]:
+    """Return path and value of the entries of a key that takes one mapping or a list of them."""
+    if isinstance(value, list | tuple):
+        return [((key, k), one) for k, one in enumerate(value)]
+    return [] if value is None else [((key,), value)]
+
+
+def _declared(cls: type, value: Any, file: YamlFile | None, *path: str | int) -> Any:
+    with located(file, *path):
+        if not isinstance(value, Mapping) and value is not None:
+            keys = ", ".join(list(keys_of(cls))[:3])
+            raise ParameterError(f"a mapping is needed, with keys such as {keys}; got {value!r:.60}")
+        for key in value or ():
+            if not isinstance(key, str):
+                raise ParameterError(f"keys must be words, got {key!r:.60}")
+        return from_mapping(cls, value or {})
+
+
+def _owner(key: Any) -> str:
+    """Return a hint that a key belongs below another one, or an empty text."""
+    owners = [cls.keyword for cls in (TerrainKeys, ReleaseKeys, OutputKeys) if key in keys_of(cls)]
+    return f" (it is one of {' and '.join(owners)}: indent it below)" if owners else ""
+
+
+def _plain_keys(keys: Any) -> dict[str, Any]:
+    found = {key: (getattr(keys, field.name), field.metadata) for key, field in keys_of(type(keys)).items()}
+    return {key: _plain(value, meta) for key, (value, meta) in found.items() if value is not None}
+
+
+def _plain(value: Any, meta: Mapping[str, Any]) -> Any:
+    if not isinstance(value, tuple):
+        return _plain_keys(value) if hasattr(value, "__dataclass_fields__") else value
+    if meta["items"] is not None:
+        return [_plain_keys(one) for one in value]
+    return {name: _lists(one) for name, one in value} if meta["named"] else _lists(value)
+
+
+def _lists(value: Any) -> Any:
+    return [_lists(one) for one in value] if isinstance(value, tuple) else value
