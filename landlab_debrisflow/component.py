@@ -13,7 +13,7 @@ from .grid.call import GridCall
 from .grid.fields import NODE_FIELDS, no_new_fields
 from .model.diagnostics import Diagnostics
 from .model.inflow.hydrograph import Hydrograph
-from .model.inflow.source import Inflow
+from .model.inflow.inflow import Inflow
 from .model.numerics import Numerics
 from .model.simulation import Simulation
 from .physics.material import Material

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..core.errors import InputError
-from ..model.inflow.source import Inflow
+from ..model.inflow.inflow import Inflow
 from ..spatial.raster import CLOSED, CORE, FIXED_VALUE, nearest_line
 
 STATUS_WORDS = {FIXED_VALUE: "open (fixed-value)", CLOSED: "closed"}

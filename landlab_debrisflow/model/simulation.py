@@ -10,7 +10,7 @@ from .basal import held_at_rest, present_profiles
 from .bed_load import load_bed
 from .deposit import resting_depth
 from .diagnostics import Diagnostics
-from .inflow.source import Inflow
+from .inflow.inflow import Inflow
 from .particles import Particles
 from .phases.one_phase import OnePhaseDynamics
 from .phases.two_phase import TwoPhaseDynamics

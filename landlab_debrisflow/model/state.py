@@ -3,7 +3,7 @@
 from copy import deepcopy
 
 from .diagnostics import Counters
-from .inflow.source import Inflow
+from .inflow.inflow import Inflow
 from .outflow import Outflow
 from .particles import Particles
 from .phases.exchange import Exchange

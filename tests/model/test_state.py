@@ -7,7 +7,7 @@ import xarray as xr
 from landlab_debrisflow import InputError
 from landlab_debrisflow.core.parameters import on_nodes
 from landlab_debrisflow.model.inflow.hydrograph import Hydrograph
-from landlab_debrisflow.model.inflow.source import Inflow
+from landlab_debrisflow.model.inflow.inflow import Inflow
 from landlab_debrisflow.model.numerics import Numerics
 from landlab_debrisflow.model.simulation import Simulation
 from landlab_debrisflow.record.files import write_dataset

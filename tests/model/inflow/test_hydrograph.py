@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from landlab_debrisflow import Hydrograph, Numerics
 from landlab_debrisflow.model.inflow.hydrograph import Integral
-from landlab_debrisflow.model.inflow.source import Inflow
+from landlab_debrisflow.model.inflow.inflow import Inflow
 
 LINE = {"line_start": (10.0, 10.0), "line_end": (10.0, 30.0)}
 discharges = st.lists(st.floats(0.0, 100.0), min_size=2, max_size=6).filter(lambda q: sum(q) > 1.0)
