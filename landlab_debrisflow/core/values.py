@@ -11,7 +11,7 @@ import numpy as np
 from .checks import in_range
 from .coordinates import checked_coordinates
 from .errors import ParameterError
-from .hints import did_you_mean, give_number, number_in, python_value, same_word
+from .hints import did_you_mean, give_number, number_in, number_with_unit, python_value, same_word
 
 T = TypeVar("T")
 
@@ -96,7 +96,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
 
 def _checked_on_nodes(name: str, value: Any, meta):
     """Return the name of a field, or an array of values as `NodeValues`; both are compared with the grid later."""
-    if isinstance(value, NodeValues) or (isinstance(value, str) and number_in(value) is None):
+    named = isinstance(value, str) and number_in(value) is None and number_with_unit(value) is None
+    if isinstance(value, NodeValues) or named:
         return value
     try:
         values = np.ma.filled(value, np.nan) if isinstance(value, np.ma.MaskedArray) else np.asarray(value)

@@ -22,6 +22,9 @@ OVERLAP = 1e-6
 """Overlap over the smaller area that is worth a note [-]; neighbours that share a side overlap by rounding."""
 MOST_LISTED = 5
 
+FARTHEST = 1e8
+"""Largest coordinate of a shape [m]; the equator has 4e7 m, and no projection in metres goes much beyond."""
+
 
 def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, notes: list[str] | None) -> list[Any]:
     """Return geometries in two dimensions, mended; refuse unusable ones.
@@ -52,6 +55,8 @@ def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, 
         geometry = shapely.force_2d(geometry)
         if not np.isfinite(shapely.get_coordinates(geometry)).all():
             raise InputError(f"{label} has coordinates that are not finite, or none in the system of the DEM")
+        if np.abs(shapely.get_coordinates(geometry)).max() > FARTHEST:
+            raise InputError(f"{label} has coordinates beyond {FARTHEST:g} m, where no map reaches; draw it anew")
         try:
             if kind == "polygon":
                 geometry = _mended(geometry, label, notes)

@@ -3,6 +3,8 @@
 import numpy as np
 
 from ..core.errors import InputError
+from ..model.time_step import StepLimits
+from ..spatial.partners import Partners
 
 FREE = {
     "particle", "released", "released_part", "body_number", "exit_node", "grain", "partner", "generation",
@@ -15,6 +17,9 @@ OF_A_CALL = (
     "peak_maps_then",
 )  # fmt: skip
 """Variables that are there if a call has begun, beside ``call_end``."""
+
+TOGETHER = {"limits_": StepLimits._fields, "partners_": (*Partners._fields, "generation")}
+"""Endings of variables that are there together or not at all, by their beginning."""
 
 FINITE = (
     "x", "y", "z", "velocity", "volume", "depth", "thickness", "least_thickness", "own_thickness", "share",
@@ -48,6 +53,9 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         If a variable is missing, of another type or shape, or has a number that cannot be.
     """
     names = [name for name in template.variables if "field" not in template[name].attrs]
+    for beginning, endings in TOGETHER.items():
+        if any(str(name).startswith(beginning) for name in dataset.variables):
+            names += [beginning + ending for ending in endings]
     if running := "call_end" in dataset:
         names += OF_A_CALL
     for name in names:

@@ -141,7 +141,7 @@ def forecast(scene: Scene) -> Forecast:
     Pastor et al. (2022) for T_c, T_e and Pe_b; Monaghan (1992) for the Courant condition, see docs/theory.md.
     """
     began = perf_counter()
-    terrain, releases = scene.terrain, scene.releases
+    terrain, releases, _ = scene.terrain, scene.releases, scene.places
     reading = perf_counter() - began
     grid = scene.grid()
     area = grid.dx * grid.dy
