@@ -37,6 +37,7 @@ FIGURES = {
     "column.png": "python -m benchmarks.column",
     "column_stability.png": "python -m benchmarks.column_stability",
     "demo.png": "landlab-debrisflow demo --output-dir docs",
+    "failure_surfaces.png": "python -m benchmarks.releases --figure",
     "flow.png": "python -m benchmarks.flow",
     "flow_stability.png": "python -m benchmarks.flow_stability",
     "lazy_scheme.png": "python -m benchmarks.lazy_figure",

@@ -1,6 +1,7 @@
 """Kill runs with SIGKILL at moments drawn over all of them, go on from their checkpoints, and compare the ends.
 
     python -m benchmarks.kill --count 100
+    python -m benchmarks.kill --count 100 --commands
 
 A moment is drawn as the number of a checkpoint and a time after it; every second one lies while a checkpoint is being
 written, which its temporary file shows. Only files are watched, so that any program that leaves a checkpoint will do.
@@ -19,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks import kill_child
+from benchmarks import kill_child, kill_scene
 
 POLL = 2e-4
 """Time between two looks at the folder [s]."""
@@ -34,7 +35,12 @@ class Program(NamedTuple):
     result: str  # name of a file of JSON in the folder, which is written last
 
 
-CHILD = Program(*2 * [[sys.executable, "-m", "benchmarks.kill_child", "{}"]], kill_child.CHECKPOINT, kill_child.RESULT)
+def program(module) -> Program:
+    """Return the program of a module that takes the folder as its argument, and finds out itself whether to go on."""
+    return Program(*2 * [[sys.executable, "-m", module.__name__, "{}"]], module.CHECKPOINT, module.RESULT)
+
+
+CHILD, COMMANDS = program(kill_child), program(kill_scene)
 
 
 class Moment(NamedTuple):
@@ -96,11 +102,13 @@ def result(program: Program, folder: Path) -> dict:
     return json.loads((folder / program.result).read_text())
 
 
-def main(program: Program = CHILD) -> int:
+def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--count", type=int, default=100, help="of kills")
     parser.add_argument("--seed", type=int, default=15)
+    parser.add_argument("--commands", action="store_true", help="kill landlab-debrisflow run and resume")
     options = parser.parse_args()
+    program = COMMANDS if options.commands else CHILD
     rng, counts, places = np.random.default_rng(options.seed), Counter(), Counter()
     with tempfile.TemporaryDirectory() as whole:
         _, _, written = run(program, Path(whole), None)

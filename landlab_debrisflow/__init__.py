@@ -5,6 +5,8 @@ Public are the names below and those of `exact` (closed forms), `laws` (classes 
 components as a release). Deeper modules may change at any time.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from . import exact
 from .columns.solve import solve_column
 from .component import DebrisFlow
@@ -14,9 +16,11 @@ from .model.inflow.hydrograph import Hydrograph
 from .model.numerics import Numerics
 from .physics.material import Material
 from .record.measures import measures
-from .run.scene import Scene
-from .run.simulate import simulate
 from .scene.setup import Setup
+
+if TYPE_CHECKING:
+    from .run.scene import Scene
+    from .run.simulate import simulate
 
 __all__ = [
     "DebrisFlow",
@@ -34,3 +38,21 @@ __all__ = [
     "simulate",
     "solve_column",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import the names of scenes when they are first used: the readers of files load slowly."""
+    if name == "Scene":
+        from .run.scene import Scene
+
+        return Scene
+    if name == "simulate":
+        from .run.simulate import simulate
+
+        return simulate
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the public names, whether they have been imported or not."""
+    return sorted({*globals(), *__all__})

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from landlab import RasterModelGrid
 
-from .core.errors import InputError
+from .core.errors import InputError, ParameterError
 from .grid import checkpoint_grid, checks
 from .grid.checkpoint_frame import check_frame
 from .record.attributes import date_created, file_attributes
@@ -58,7 +58,7 @@ class Restart:
         Raises
         ------
         InputError
-            If it cannot be written; the checkpoint before stays.
+            If it cannot be written (an `OutputError`); the checkpoint before stays.
 
         Notes
         -----
@@ -117,7 +117,7 @@ class Restart:
         with checkpoint_grid.fields_of(grid, dataset) as put_fields:
             flow = make(grid, **vars(setup), observers=observers)
             put_fields()
-            flow._call.load(dataset)
+            _load(flow, dataset)
             for observer, memory in zip(observers, memories, strict=True):
                 if memory is not None:
                     _restore(observer, memory)
@@ -131,6 +131,16 @@ class Restart:
         attributes = {"law_digests": json.dumps(law_digests(self._setup))} | self._setup.to_attributes()
         dataset.attrs |= file_attributes() | date_created() | attributes
         return write_memories(dataset, self._observers)
+
+
+def _load(flow: Any, dataset: xr.Dataset) -> None:
+    """Put a flow into the state of a checkpoint; refuse contents that do not fit each other."""
+    try:
+        flow._call.load(dataset)
+    except (InputError, ParameterError):
+        raise
+    except (LookupError, TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"load: the contents of the checkpoint are not those of a flow: {error}") from error
 
 
 def _restore(observer: Any, memory: Any) -> None:

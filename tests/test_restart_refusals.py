@@ -171,6 +171,37 @@ def test_numbers_that_cannot_be(copy, name, change, words):
     refused(copy, f"the contents of the checkpoint are not those of a flow: {words}")
 
 
+@pytest.fixture(scope="module")
+def mixed(tmp_path_factory):
+    """A checkpoint of a flow of two phases that moves."""
+    flow = build("two phases")
+    flow.run_one_step(2.0)
+    return flow.save(tmp_path_factory.mktemp("checkpoint") / "mixed.nc")
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "words"),
+    [
+        ("awake", lambda n: n - 1, "of two phases nothing sleeps"),
+        ("partners_of", lambda n: n[::-1] * 0, "are not grains and the water around them"),
+        ("partners_index", np.zeros_like, "are not grains and the water around them"),
+        ("partners_count", lambda n: n + 33, r"partners_count has numbers outside \[0, 33\)"),
+        ("particle_phase", lambda n: n + 1, r"particle_phase has numbers outside \[0, 2\)"),
+    ],
+)
+def test_partners_that_cannot_be(mixed, tmp_path, name, change, words):
+    copy = Path(shutil.copy(mixed, tmp_path))
+    changed(copy, **{name: change})
+    refused(copy, f"the contents of the checkpoint are not those of a flow: .*{words}")
+
+
+def test_water_without_partners(mixed, tmp_path):
+    dataset = read_checkpoint(mixed)
+    names = [name for name in dataset.variables if name.startswith("partners_")]
+    write_checkpoint(tmp_path / "flow.nc", dataset.drop_vars(names))
+    refused(tmp_path / "flow.nc", "there is water, but no partners_of")
+
+
 # ---- another grid, another setup ----
 
 

@@ -20,6 +20,7 @@ def test_every_scene_is_small_and_known():
     assert sum(path.stat().st_size for path in SCENES.iterdir()) < 100_000
 
 
+@pytest.mark.slow
 def test_a_dam_and_buildings_stand_in_the_terrain():
     scene = Scene.from_file(SCENES / "dam.yaml")
     assert abs(scene.releases[0].depth.sum() * 25.0 - 900.0) < 1e-6
@@ -29,6 +30,7 @@ def test_a_dam_and_buildings_stand_in_the_terrain():
     assert maps.debris_flow__max_depth.max() > 0.5 and maps.attrs["budget_released"] == pytest.approx(900.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_surge_enters_the_channel():
     scene = Scene.from_file(SCENES / "surge.yaml")
     (surge,) = scene.setup.inflow

@@ -104,11 +104,18 @@ def _pair(name, value) -> Pair:
     value = python_value(value)
     if not isinstance(value, list | tuple | np.ndarray) or len(value) != 2:
         raise ParameterError(f"{name} must be two numbers in brackets, such as [500, 20.5], got {_told(value)}")
-    numbers = [python_value(number) for number in value]
-    for number in numbers:
-        if isinstance(number, bool) or not isinstance(number, Real) or not math.isfinite(number):
-            raise ParameterError(f"{name} must be two finite numbers, got {_told(number)}{give_number(number)}")
-    return float(numbers[0]), float(numbers[1])
+    x, y = (_number(name, python_value(number)) for number in value)
+    return x, y
+
+
+def _number(name, value) -> float:
+    try:
+        number = math.nan if isinstance(value, bool) or not isinstance(value, Real) else float(value)
+    except OverflowError:  # of an integer
+        number = math.inf
+    if not math.isfinite(number):
+        raise ParameterError(f"{name} must be two finite numbers, got {_told(value)}{give_number(value)}")
+    return number
 
 
 def _told(value) -> str:

@@ -14,6 +14,8 @@ from .source import RasterSource
 
 SAME_LATTICE = 1e-3
 """Largest shift between two lattices, over the spacing, at which their nodes count as the same [-]."""
+COARSER = 1.5
+"""Area of a cell over that of the source from which on means are taken [-]."""
 LEAST_DATA = 0.5
 """Part of a cell that must have data for its mean to be taken [-]."""
 
@@ -89,7 +91,7 @@ def resample(values: np.ndarray, source: Lattice, target: Lattice, finer: str = 
         from rasterio.enums import Resampling
     except ImportError as error:
         raise import_error(error) from error
-    coarser = target.area > 1.5 * source.area
+    coarser = target.area > COARSER * source.area
     method = Resampling.average if coarser else Resampling[finer]
     crs = {"src_crs": source.crs or "EPSG:32601", "dst_crs": target.crs or "EPSG:32601"}
     crs = crs if source.crs and target.crs else dict.fromkeys(crs, "EPSG:32601")  # unknown ones are the same
@@ -108,12 +110,11 @@ def resample(values: np.ndarray, source: Lattice, target: Lattice, finer: str = 
             ) from error
         return result[::-1]
 
-    result = onto(np.where(data, values, np.nan), method)
-    if coarser:
-        fraction = onto(data.astype(float), Resampling.average)
-        return np.where(fraction >= LEAST_DATA, result, np.nan)
-    nearest = onto(data.astype(float), Resampling.nearest)
-    return np.where(nearest == 1.0, result, np.nan)
+    result = onto(values, method)
+    if not coarser:
+        return result
+    fraction = onto(data.astype(float), Resampling.average)
+    return np.where(fraction >= LEAST_DATA, result, np.nan)
 
 
 def _transform(lattice: Lattice):

@@ -1,10 +1,12 @@
 """Refusals of checkpoints whose contents cannot be those of a flow: kernels read no number of them unchecked."""
 
+from collections import ChainMap
+
 import numpy as np
 
 from ..core.errors import InputError
 from ..model.time_step import StepLimits
-from ..spatial.partners import Partners
+from ..physics.contracts import WATER
 
 FREE = {
     "particle", "released", "released_part", "body_number", "exit_node", "grain", "partner", "generation",
@@ -12,14 +14,34 @@ FREE = {
 }  # fmt: skip
 """Dimensions whose size depends on the moment."""
 
-OF_A_CALL = (
-    "call_rows", "bed_lowered_node", "bed_taken", "bed_before", "peak_maps_under", "peak_maps_passed",
-    "peak_maps_then",
-)  # fmt: skip
-"""Variables that are there if a call has begun, beside ``call_end``."""
+CALL = {
+    "call_end": ((), "f"), "call_rows": (("call_begin_and_end",), "i"), "bed_lowered_node": (("bed_lowered",), "i"),
+    "bed_taken": (("bed_lowered",), "f"), "bed_before": (("bed_ground", "bed_lowered"), "f"),
+    "peak_maps_under": (("peak_maps_shown",), "i"), "peak_maps_passed": ((), "f"), "peak_maps_then": ((), "f"),
+}  # fmt: skip
+"""Dimensions and kind of number of the variables that are there if a call has begun."""
 
-TOGETHER = {"limits_": StepLimits._fields, "partners_": (*Partners._fields, "generation")}
-"""Endings of variables that are there together or not at all, by their beginning."""
+LOADED_BED = {
+    "bed_pressure_start": ((), "f"), "bed_pressure_under": (("bed_pressure_loaded",), "i"),
+    **dict.fromkeys(("bed_pressure_age", "bed_pressure_load", "bed_pressure_ratio"), (("y", "x"), "f")),
+}  # fmt: skip
+LIMITS = {f"limits_{name}": ((), "i" if name == "broken" else "f") for name in StepLimits._fields}
+PARTNERS = {
+    **dict.fromkeys(("partners_of", "partners_count"), (("grain",), "i")), "partners_generation": (("generation",), "i"),
+    "partners_index": (("grain", "partner"), "i"), "partners_weight": (("grain", "partner"), "f"),
+}  # fmt: skip
+SOIL_KEPT = {
+    "budget_stretches": (("budget_stretch", "budget_begin_and_end"), "i"),
+    "budget_copies": (("budget_backed_up", "budget_kept"), "f"),
+}  # fmt: skip
+TOGETHER = CALL, LOADED_BED, LIMITS, PARTNERS, SOIL_KEPT
+"""Variables that are there together or not at all."""
+
+ALONE = {
+    **dict.fromkeys(("node_event_eroded", "node_known_elevation"), (("y", "x"), "f")),
+    "node_known_status": (("y", "x"), "u"),
+}  # fmt: skip
+"""Further variables that are there at some moments."""
 
 FINITE = (
     "x", "y", "z", "velocity", "volume", "depth", "thickness", "least_thickness", "own_thickness", "share",
@@ -53,21 +75,23 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         If a variable is missing, of another type or shape, or has a number that cannot be.
     """
     names = [name for name in template.variables if "field" not in template[name].attrs]
-    for beginning, endings in TOGETHER.items():
-        if any(str(name).startswith(beginning) for name in dataset.variables):
-            names += [beginning + ending for ending in endings]
-    if running := "call_end" in dataset:
-        names += OF_A_CALL
+    for group in TOGETHER:
+        names += group if any(name in dataset for name in group) else ()
+    running = "call_end" in dataset
     for name in names:
         if name not in dataset.variables:
             _refuse(f"it lacks the variable {name!r}")
         if name not in template.variables:
-            continue
+            continue  # its form is looked at below
         found, wanted = dataset.variables[name], template.variables[name]
         same = found.dims == wanted.dims and found.dtype.kind == wanted.dtype.kind
         sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}
         if not same or any(wanted.sizes[dim] != size for dim, size in sizes.items()):
             _refuse(f"{name!r} is {_words(found)} where {_words(wanted)} is expected")
+    for name, (dimensions, kind) in ChainMap(*TOGETHER, ALONE).items():
+        found = dataset.variables.get(name)
+        if found is not None and (found.dims != dimensions or found.dtype.kind != kind):
+            _refuse(f"{name!r} is {_words(found)} where numbers over ({', '.join(dimensions)}) are expected")
     read = {name: data.values for name, data in dataset.variables.items()}
     _check_numbers(read, prefix, raster_shape, inflow_rows, running)
     for name in FINITE:
@@ -111,12 +135,26 @@ def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
         values = read.get(name, np.zeros(0, int))
         if values.dtype.kind not in "iub" or np.any((values < least) | (values >= end)):
             _refuse(f"{name} has numbers outside [{least}, {end})")
+    if "partners_of" in read:
+        _check_partners(read, prefix)
+    elif np.any(read[f"{prefix}phase"] == WATER):
+        _refuse("there is water, but no partners_of")
     for name in ("call_rows", "budget_stretches"):
         ends = read.get(name, np.zeros((0, 2), int))
         if np.any(ends % raster_shape[1]) or np.any(np.diff(ends) < 0):
             _refuse(f"{name} are no stretches of whole rows")
     if running and "budget_stretches" in read and np.diff(read["budget_stretches"]).sum() != read["budget_copies"].size:
         _refuse("budget_copies does not fit budget_stretches")
+
+
+def _check_partners(read, prefix) -> None:
+    """Refuse grains without their partners among the water, and two phases of which anything sleeps."""
+    of, index, phase = read["partners_of"], read["partners_index"], read[f"{prefix}phase"]
+    filled = np.arange(index.shape[1]) < read["partners_count"][:, None]
+    if read["awake"] != phase.size:
+        _refuse("of two phases nothing sleeps, but awake is not the number of particles")
+    if np.unique(of).size != of.size or np.any(phase[of] == WATER) or np.any(phase[index[filled]] != WATER):
+        _refuse("partners_of and partners_index are not grains and the water around them")
 
 
 def _words(variable) -> str:

@@ -122,7 +122,8 @@ class Monitor:
         left = self._estimate.remaining()
         if left is None:
             return []
-        return [f"end in {'at most' if left.bound else 'about'} {duration_text(left.seconds)}"]
+        time = duration_text(left.seconds)
+        return [f"end in at most {time} at this pace" if left.bound else f"end in about {time}"]
 
     def _show(self, now: float) -> None:
         if self._display:

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from time import perf_counter
 
 import numpy as np
 
@@ -35,7 +34,7 @@ class Forecast:
     consolidation_time : float
         T_c = h^2 / c_v, median over the particles at the start [s].
     erosion_time : float
-        T_e = h / e, thickness over erosion rate, median over the particles that erode and over time [s].
+        T_e = h / e, thickness over erosion rate, median over the particles that erode while the flow is fast [s].
     peclet_number, largest_peclet_number : float
         Pe_b = T_c / T_e at the base, median and largest of the peaks over the eroded area [-].
     duration : float
@@ -49,7 +48,7 @@ class Forecast:
     steps : float
         Number of time steps.
     seconds : float
-        Wall time of the run on this machine, without kernels to compile [s].
+        Wall time of the steps on this machine if nothing else runs on it, without kernels to compile and files [s].
     memory : float
         Memory of this process at the start of the run [bytes].
     notes, doubts : tuple of str
@@ -120,8 +119,8 @@ def forecast(scene: Scene) -> Forecast:
 
     The pilot run goes to the end of the event, or for ten seconds. It gives the duration, T_e and Pe_b. The number of
     steps follows from the length of its steps: those that pressure waves limit are shorter by the square root of the
-    ratio of the numbers of particles (`Pilot.steps_with`). The first steps with all particles give T_c and the wall
-    time of a step on this machine as it is loaded now.
+    ratio of the numbers of particles (`Pilot.steps_with`). The first steps with all particles give T_c and the CPU
+    time of a step on this machine; how that changes in a run, the pilot run tells.
 
     Parameters
     ----------
@@ -140,9 +139,7 @@ def forecast(scene: Scene) -> Forecast:
     ----------
     Pastor et al. (2022) for T_c, T_e and Pe_b; Monaghan (1992) for the Courant condition, see docs/theory.md.
     """
-    began = perf_counter()
     terrain, releases, _ = scene.terrain, scene.releases, scene.places
-    reading = perf_counter() - began
     grid = scene.grid()
     area = grid.dx * grid.dy
     start, pilot = run_start(scene), run_pilot(scene)
@@ -155,7 +152,7 @@ def forecast(scene: Scene) -> Forecast:
         peclet_number=pilot.peclet_number, largest_peclet_number=pilot.largest_peclet_number,
         duration=pilot.duration, complete=pilot.complete, at_rest=pilot.at_rest, eroded=pilot.eroded,
         peak_depth=pilot.peak_depth, peak_speed=pilot.peak_speed, steps=steps,
-        seconds=reading + start.seconds + steps * start.seconds_per_step, memory=peak_memory(),
+        seconds=start.seconds + steps * start.seconds_per_step * pilot.cost_ratio, memory=peak_memory(),
         notes=tuple(terrain.attrs.get("notes", ())), doubts=(*scene_doubts(scene), *start.doubts),
     )  # fmt: skip
 

@@ -5,7 +5,7 @@ import logging
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +30,10 @@ NEAR_LIMIT = 0.8
 """Part of the limit by the terrain from which on it is that which limits a step [-]."""
 
 
+FAST = 0.5
+"""Part of the peak speed from which on a flow is fast [-]."""
+
+
 class PilotOverError(Exception):
     """End of a pilot run."""
 
@@ -50,9 +54,11 @@ class Pilot(NamedTuple):
     steps : list of tuple of float
         For every step its length, and the longest that the speed allows on the terrain [s].
     erosion_time : float
-        Median over steps of that over particles; infinite without erosion [s].
+        Median over the particles that erode and over the steps in which the flow is fast; infinite without erosion [s].
     peclet_number, largest_peclet_number : float
         Median and largest of the basal Péclet numbers over the eroded area; NaN without erosion [-].
+    cost_ratio : float
+        CPU time of a step in the mean over the run, over that of a start [-].
     eroded, peak_depth, peak_speed : float
         Volume [m3]; largest depth [m] and speed [m s-1].
     """
@@ -65,6 +71,7 @@ class Pilot(NamedTuple):
     erosion_time: float
     peclet_number: float
     largest_peclet_number: float
+    cost_ratio: float
     eroded: float
     peak_depth: float
     peak_speed: float
@@ -92,9 +99,9 @@ class Start(NamedTuple):
     consolidation_time : float
         Median of thickness squared over coefficient of consolidation [s].
     seconds : float
-        Wall time before the first step [s].
+        CPU time before the first step [s].
     seconds_per_step : float
-        Wall time of a step [s].
+        CPU time of a step [s].
     doubts : list of str
         Warnings of the component.
     """
@@ -114,7 +121,8 @@ class _Steps:
     def __init__(self, node_spacing: float, longest: float):
         self._way, self._longest, self._began = TERRAIN_FRACTION * node_spacing, longest, perf_counter()
         self.steps: list[tuple[float, float]] = []
-        self.erosion_times: list[float] = []
+        self._clock: list[float] = []
+        self._erosion_times: list[tuple[float, float]] = []
         self.particles = 0
 
     def observe(self, flow: Any) -> None:
@@ -122,6 +130,7 @@ class _Steps:
 
     def follow(self, particles: Any, began: float, time: float) -> None:
         """Note a step from `began` to `time` [s] of `particles`."""
+        self._clock.append(process_time())
         self.particles = max(self.particles, particles.volume.size)
         if time > began:
             awake = slice(particles.awake)
@@ -130,9 +139,25 @@ class _Steps:
             eroding = particles.entrainment_rate[awake] > 0.0
             if eroding.any():
                 times = particles.depth[awake][eroding] / particles.entrainment_rate[awake][eroding]
-                self.erosion_times.append(float(np.median(times)))
+                self._erosion_times.append((math.sqrt(speed2), float(np.median(times))))
         if perf_counter() - self._began > self._longest:
             raise PilotOverError
+
+    @property
+    def cost_ratio(self) -> float:
+        """CPU time of a step in the mean over the run, over that of a start [-]."""
+        first = self._clock[: TIMED + 1]
+        if len(self._clock) < 2 * TIMED or first[-1] == first[FIRST]:
+            return 1.0
+        whole = (self._clock[-1] - self._clock[FIRST]) / (len(self._clock) - 1 - FIRST)
+        return whole / ((first[-1] - first[FIRST]) / (len(first) - 1 - FIRST))
+
+    @property
+    def erosion_time(self) -> float:
+        """Median over particles and over the steps in which the flow is fast; infinite without erosion [s]."""
+        fastest = max((speed for speed, _ in self._erosion_times), default=0.0)
+        fast = [time for speed, time in self._erosion_times if speed >= FAST * fastest]
+        return float(np.median(fast)) if fast else math.inf
 
 
 class _Clock:
@@ -141,15 +166,15 @@ class _Clock:
     interval = math.inf
 
     def __init__(self) -> None:
-        self.began, self.walls = perf_counter(), []
+        self.began, self.clock = process_time(), []
 
     def observe(self, flow: Any) -> None:
         """Let the flow be."""
 
     def follow(self, particles: Any, began: float, time: float) -> None:
-        """Note the wall time of a step from `began` to `time` [s]."""
-        self.walls.append(perf_counter())
-        if len(self.walls) >= TIMED:
+        """Note the CPU time after a step from `began` to `time` [s]."""
+        self.clock.append(process_time())
+        if len(self.clock) > TIMED:
             raise PilotOverError
 
 
@@ -177,9 +202,10 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     found = measures(flow)
     return Pilot(
         duration=flow.elapsed_time, complete=complete, at_rest=flow.at_rest, particles=max(1, steps.particles),
-        steps=steps.steps, erosion_time=float(np.median(steps.erosion_times)) if steps.erosion_times else math.inf,
+        steps=steps.steps, erosion_time=steps.erosion_time,
         peclet_number=float(found.median_basal_peclet_number),
-        largest_peclet_number=float(found.max_basal_peclet_number), eroded=flow.budget["eroded"],
+        largest_peclet_number=float(found.max_basal_peclet_number), cost_ratio=steps.cost_ratio,
+        eroded=flow.budget["eroded"],
         peak_depth=float(found.max_depth), peak_speed=float(found.max_speed),
     )  # fmt: skip
 
@@ -200,13 +226,13 @@ def run_start(scene: Scene) -> Start:
         flow = _flow(scene, scene.grid(), clock)
         _runs_through(flow, scene)
         columns = flow.columns
-    walls = clock.walls or [perf_counter()]
-    timed = np.diff(walls[min(FIRST, len(walls) - 1) :])
+    read = clock.clock or [process_time()]
+    timed = np.diff(read[min(FIRST, len(read) - 1) :])
     times = columns.consolidation_time.values
     return Start(
         particles=int(flow.particles.sizes["particle"]),
-        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=walls[0] - clock.began,
-        seconds_per_step=float(np.median(timed)) if timed.size else 0.0, doubts=doubts,
+        consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=read[0] - clock.began,
+        seconds_per_step=float(np.mean(timed)) if timed.size else 0.0, doubts=doubts,
     )  # fmt: skip
 
 

@@ -42,6 +42,8 @@ class RunRecord:
         Elapsed time at the end, or at the interruption [s].
     at_rest : bool
         Whether all came to rest.
+    steps : int
+        Number of time steps.
     budget : dict of str to float
         Volumes at the end [m3].
     files : list of str
@@ -57,6 +59,7 @@ class RunRecord:
     state: str = RUNNING
     elapsed_time: float = 0.0
     at_rest: bool = False
+    steps: int = 0
     budget: dict[str, float] = dataclasses.field(default_factory=dict)
     files: list[str] = dataclasses.field(default_factory=list)
     reason: str = ""

@@ -135,8 +135,10 @@ def _compute(
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
         if not flow.at_rest:
             flow.save(directory.checkpoint)
-        state = {"elapsed_time": flow.elapsed_time, "at_rest": flow.at_rest, "budget": flow.budget}
-        directory.note(state=FINISHED, reason="", **state)
+        directory.note(
+            state=FINISHED, reason="", elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget,
+            steps=flow.diagnostics.steps,
+        )  # fmt: skip
     except BaseException as failure:
         monitor.finish()
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)

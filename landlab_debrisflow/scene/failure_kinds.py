@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import coo_array, csc_array
-from scipy.sparse.linalg import spsolve
+from scipy.sparse.linalg import splu
 
 from .fall_lines import SIDES
 from .outline import Outline
@@ -85,44 +85,54 @@ def sloping_local_base_level(outline: Outline, floor_fall: float) -> Family:
     entries.append((links, np.arange(rows.size), np.arange(rows.size)))
     values, row, column = (np.concatenate(parts) for parts in zip(*entries, strict=True))
     matrix = coo_array((values, (row, column)), shape=(rows.size, rows.size)).tocsc()
-    failing = np.ones(rows.size, bool)
+    obstacle = Obstacle(matrix)
 
     def depth(laplacian: float) -> np.ndarray:
-        nonlocal failing
-        below, failing = solve_obstacle(matrix, laplacian - bend, failing)
         body = np.zeros(inside.shape)
-        body[rows, columns] = below
+        body[rows, columns] = obstacle.solve(laplacian, bend)
         return np.minimum(body, outline.fall)
 
     even = float(bend.min())  # a floor that is less curved lies nowhere below the ground
     return Family(depth, even, even + float(outline.fall.max()) / outline.area, outline.fall)
 
 
-def solve_obstacle(matrix: csc_array, load: np.ndarray, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the least u >= 0 with matrix u >= load, and where u > 0, each of shape (n,).
+class Obstacle:
+    """Least u >= 0 with matrix u >= load, for one load after the other.
 
     Parameters
     ----------
     matrix : sparse array, shape (n, n)
         An M-matrix, such as a negative Laplacian.
-    load : ndarray, shape (n,)
-        In the unit of u times that of the matrix.
-    free : ndarray of bool, shape (n,)
-        Guess of where u > 0.
 
     Notes
     -----
-    The primal-dual active set method of Hintermüller et al. (2002), which ends after a finite number of steps.
+    The primal-dual active set method of Hintermüller et al. (2002), which ends after a finite number of steps. As long
+    as u > 0 at the same places, u changes linearly with an even load: no system need be solved then.
     """
-    while True:
-        u = np.zeros(load.size)
-        if free.any():
-            chosen = np.flatnonzero(free)
-            u[chosen] = spsolve(matrix[chosen][:, chosen], load[chosen])
-        changed = np.where(free, u > 0.0, matrix @ u < load)
-        if np.array_equal(changed, free):
-            return u, free
-        free = changed
+
+    def __init__(self, matrix: csc_array):
+        self._matrix = matrix
+        self._free = np.ones(matrix.shape[0], bool)  # where u > 0
+        self._answers = None
+
+    def solve(self, even: float, uneven: np.ndarray) -> np.ndarray:
+        """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), is always the same."""
+        load = even - uneven
+        while True:
+            if self._answers is None:
+                self._answers = self._respond(np.stack([np.ones(load.size), -uneven], axis=1))
+            u = self._answers @ [even, 1.0]
+            changed = np.where(self._free, u > 0.0, self._matrix @ u < load)
+            if np.array_equal(changed, self._free):
+                return u
+            self._free, self._answers = changed, None
+
+    def _respond(self, loads: np.ndarray) -> np.ndarray:
+        """Return the answers to loads, shape (n, 2), where u > 0; 0 elsewhere."""
+        answers, places = np.zeros(loads.shape), np.flatnonzero(self._free)
+        if places.size:
+            answers[places] = splu(self._matrix[places][:, places].tocsc()).solve(loads[places])
+        return answers
 
 
 KINDS = {

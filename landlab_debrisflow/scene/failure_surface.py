@@ -127,7 +127,7 @@ def failure_surface(
         while size(family.depth(high)) < value:
             high = family.least + 2.0 * (high - family.least)
         width = high - family.least
-        number = brentq(lambda x: size(family.depth(x)) - value, family.least, high, xtol=1e-14 * width)
+        number = brentq(lambda x: size(family.depth(x)) - value, family.least, high, xtol=1e-13 * width)
         depth = family.depth(number)
     return depth * outline.fraction * (value / size(depth))
 

@@ -58,6 +58,7 @@ def point_hydrographs(
 
 
 def _hydrograph(keys: ReleaseKeys, table, point: np.ndarray, ground: Ground, label: str) -> Hydrograph:
+    width, speed = float(keys.width or 0.0), float(keys.speed or 0.0)  # both are set: the keys agree on that
     (dx, dy), (rows, columns) = ground.lattice.spacing, ground.lattice.shape
     column, row = (point - ground.lattice.lower_left) / (dx, dy)
     if not (0.5 <= column <= columns - 1.5 and 0.5 <= row <= rows - 1.5):
@@ -66,7 +67,7 @@ def _hydrograph(keys: ReleaseKeys, table, point: np.ndarray, ground: Ground, lab
             f"{extent(ground.lattice.bounds)}; the line of the inflow needs ground around it"
         )
     x, y = np.arange(columns) * dx, np.arange(rows) * dy
-    radius = max(0.5 * keys.width, 1.5 * max(dx, dy))
+    radius = max(0.5 * width, 1.5 * max(dx, dy))
     near = np.hypot(x - column * dx, (y - row * dy)[:, None]) <= radius
     near &= np.isfinite(ground.elevation)
     slope = ground.plane_slope(near)
@@ -75,10 +76,10 @@ def _hydrograph(keys: ReleaseKeys, table, point: np.ndarray, ground: Ground, lab
         raise InputError(
             f"{label} lies on level ground: where the flow goes is not known; give inflow with a line and a direction"
         )
-    across = 0.5 * keys.width * np.array([-slope[1], slope[0]]) / steepness
+    across = 0.5 * width * np.array([-slope[1], slope[0]]) / steepness
     times, discharge = np.array(table, dtype=float).T
     return Hydrograph(
         line_start=tuple(point - across), line_end=tuple(point + across), times=tuple(times + keys.time),
-        discharge=tuple(discharge), velocity=keys.speed,
+        discharge=tuple(discharge), velocity=(speed,),
         direction=float(np.degrees(np.arctan2(-slope[1], -slope[0]))),
     )  # fmt: skip

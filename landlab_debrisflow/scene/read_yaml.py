@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from ..core.errors import InputError
 
-MOST_BYTES = 5_000_000
+MOST_BYTES = 1_000_000
 """Size of the largest scene file that is read; tables and coordinates in such numbers belong into files."""
 MOST_LEVELS = 20
 """Levels of nesting at most; a scene has up to eight."""
@@ -134,10 +134,7 @@ class _Reader:
 
     def _value(self, event, path: tuple) -> Any:
         yaml = self._yaml
-        if isinstance(event, yaml.AliasEvent) or event.anchor is not None:
-            self._refuse(event, "anchors (&) and aliases (*) are not read; write the value out")
-        if event.tag is not None:
-            self._refuse(event, f"the tag {event.tag!r:.60} is not read; write plain values")
+        self._check(event)
         if isinstance(event, yaml.ScalarEvent):
             return self._scalar(event)
         if len(path) >= MOST_LEVELS:
@@ -145,6 +142,13 @@ class _Reader:
         if isinstance(event, yaml.SequenceStartEvent):
             return self._list(path)
         return self._mapping(path)
+
+    def _check(self, event) -> None:
+        """Refuse what means more than it shows."""
+        if isinstance(event, self._yaml.AliasEvent) or event.anchor is not None:
+            self._refuse(event, "anchors (&) and aliases (*) are not read; write the value out")
+        if event.tag is not None:
+            self._refuse(event, f"the tag {event.tag!r:.60} is not read; write plain values")
 
     def _list(self, path) -> list:
         values: list[Any] = []
@@ -157,10 +161,9 @@ class _Reader:
     def _mapping(self, path) -> dict:
         values: dict[str, Any] = {}
         while not isinstance(event := next(self._events), self._yaml.MappingEndEvent):
+            self._check(event)
             if not isinstance(event, self._yaml.ScalarEvent):
-                self._value(event, path)
                 self._refuse(event, "a key must be a word, not a list or mapping")
-            self._value(event, path)
             key, here = event.value, (*path, event.value)
             if key in values:
                 self._refuse(event, f"the key {key!r:.60} is there already, in line {self.lines[here]}; keep one")

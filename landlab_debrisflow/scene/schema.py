@@ -44,8 +44,8 @@ def scene_schema() -> dict[str, Any]:
     Examples
     --------
     >>> schema = scene_schema()
-    >>> schema["$defs"]["friction_voellmy"]["properties"]["turbulent_coefficient"]["minimum"] > 0.0
-    True
+    >>> schema["$defs"]["friction_voellmy"]["properties"]["turbulent_coefficient"]["anyOf"][0]
+    {'type': 'number', 'minimum': 1.0}
     """
     definitions = {
         "terrain": _declared(TerrainKeys), "release": _declared(ReleaseKeys), "output": _declared(OutputKeys),

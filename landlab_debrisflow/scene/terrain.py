@@ -16,7 +16,7 @@ from ..geo.lattice import Lattice, Window, extent
 from ..geo.names import said
 from ..geo.rasters import MOST_NODES, checksum_of, open_raster, read_window
 from ..geo.references import label_of, same_place, wkt_of
-from ..geo.resampling import read_onto, resample
+from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
 from ..model.inflow.hydrograph import Hydrograph
 from .edits import Ground, edit_ground
@@ -168,7 +168,7 @@ def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: l
     bounds, (dx, dy) = lattice.bounds, own.spacing
     needed = own.window_around((bounds[0] - 4 * dx, bounds[1] - 4 * dy, bounds[2] + 4 * dx, bounds[3] + 4 * dy))
     values = read_window(source, needed, missing=keys.nodata, notes=notes)
-    how = "means over cells" if lattice.area > own.area else "by cubic interpolation, which adds no detail"
+    how = "means over cells" if lattice.area > COARSER * own.area else "by cubic interpolation, which adds no detail"
     said(notes, f"spacing: elevation from cells of {own.spacing[0]:g} to {spacing:g} m, {how}")
     return lattice, resample(values, own.cut(needed), lattice, "cubic")
 

@@ -27,7 +27,7 @@ def shapes():
         yield pytest.param(star(generator, x, y, 10.0 ** generator.uniform(0.0, 2.3)), id=f"star{k}")
     ring = Point(WEST + 200.0, SOUTH + 120.0).buffer(90.0).difference(Point(WEST + 210.0, SOUTH + 110.0).buffer(40.0))
     yield pytest.param(ring, id="ring")
-    yield pytest.param(star(generator, WEST + 200.0, SOUTH + 100.0, 150.0, corners=800), id="many_corners")
+    yield pytest.param(star(generator, WEST + 200.0, SOUTH + 100.0, 60.0, corners=600), id="many_corners")
     yield pytest.param(MultiPolygon([ring, box(WEST - 50.0, SOUTH - 50.0, WEST + 33.0, SOUTH + 7.0)]), id="pieces")
     yield pytest.param(box(*LATTICE.bounds), id="all")
     yield pytest.param(box(WEST - 1e4, SOUTH - 1e4, EAST + 1e4, NORTH + 1e4), id="more")

@@ -76,7 +76,7 @@ def test_a_gauge_beside_a_wall_does_not_see_it():
 
 def test_the_front_is_the_quantile_of_the_volume():
     thalweg = [(WEST, SOUTH + 60.0), (WEST + 100.0, SOUTH + 60.0), (WEST + 300.0, SOUTH + 60.0)]
-    front, particles = Front(thalweg, 1.0), Every(1.0, lambda flow: flow.particles)
+    front, particles = Front(thalweg, 1.7), Every(1.7, lambda flow: flow.particles)
     flow = slope(front, particles)
     flow.run_until_rest()
     data = front.dataset

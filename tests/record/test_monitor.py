@@ -115,7 +115,7 @@ def test_the_end_is_a_bound_until_the_energy_falls(clock):
     shown.expect(until=101.0, rest_energy=1e-4)
     for time in (0.0, 1.0):
         shown.follow(particles(), time - 0.5, time)
-    assert shown.line.endswith("end in at most 1 min 40 s")  # 100 s at the pace of a second for a second
+    assert shown.line.endswith("end in at most 1 min 40 s at this pace")  # 100 s at the pace of a second for a second
     for time in (2.0, 3.0, 4.0):
         shown.follow(particles(3.0 * math.exp(-0.5 * time)), time - 0.5, time)
     assert shown.line.endswith("end in about 5.2 s")  # ln(1e4) s after 0, where E = exp(-t), less 4 s

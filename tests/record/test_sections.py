@@ -154,7 +154,11 @@ def test_an_undone_call_is_forgotten():
         def observe(self, flow):
             pass
 
-    sections, fails, once = Sections({"a": line_at(WEST + 40.0)}), Fails(), Sections({"a": line_at(WEST + 40.0)})
+    sections, fails, once = (
+        Sections({"a": line_at(WEST + 60.0)}, 0.5),
+        Fails(),
+        Sections({"a": line_at(WEST + 60.0)}, 0.5),
+    )
     flow, other = slope(sections, fails), slope(once)
     for each in (flow, other):
         each.run_one_step(4.0)
@@ -165,26 +169,31 @@ def test_an_undone_call_is_forgotten():
     for each in (flow, other):
         each.run_one_step(4.0)
     assert sections.dataset.crossed_volume.values == pytest.approx(once.dataset.crossed_volume.values, rel=1e-14)
+    assert float(once.dataset.volume.sel(time=slice(4.0, 5.0)).sum()) > 1.0
 
 
 coordinates = st.tuples(st.integers(-3, 3), st.integers(-3, 3))  # whole numbers: vertices are met exactly
 
 
-@given(st.lists(coordinates, min_size=2, max_size=12), st.integers(-2, 2))
-def test_walks_cross_a_bent_line_as_often_as_they_change_sides(walk, offset):
-    """The line goes from far south to far north with a bend."""
+@given(st.lists(coordinates, min_size=2, max_size=12), st.integers(-2, 2), st.booleans(), st.booleans())
+def test_walks_cross_a_bent_line_as_often_as_they_change_sides(walk, offset, backward, mirrored):
+    """The line goes from far south to far north with a bend, or back; or from west to east, with x and y exchanged."""
     x = 0.5 * offset
     line = np.array([(x, -9.0), (x, -1.0), (x + 1.0, 0.0), (x, 1.0), (x, 9.0)])
 
     def right(px, py):
-        px, py = px + 1e-6, py + 1e-12
+        px, py = (px + 1e-12, py + 1e-6) if mirrored else (px + 1e-6, py + 1e-12)
         return px > x + max(0.0, 1.0 - abs(py))
 
     walk = np.array(walk, float)
     start, end = walk[:-1].T, walk[1:].T
+    line = line[::-1] if backward else line
+    if mirrored:
+        start, end, line = start[::-1], end[::-1], line[:, ::-1]
     _, fraction, sign = crossings(start, end, line)
     assert np.all((fraction >= 0.0) & (fraction <= 1.0))
-    assert -sign.sum() == int(right(*walk[-1])) - int(right(*walk[0]))
+    to_the_right = sign.sum() if backward != mirrored else -sign.sum()
+    assert to_the_right == int(right(*walk[-1])) - int(right(*walk[0]))
 
 
 @pytest.mark.parametrize(

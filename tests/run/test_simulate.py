@@ -50,6 +50,7 @@ def test_duration_and_rest():
     assert simulate(SETUP, still).attrs["at_rest"] == 1
 
 
+@pytest.mark.slow
 def test_a_scene_brings_setup_duration_and_releases_at_their_times():
     later = {"polygons": HEAD, "depth": 0.5, "time": 4.0, "from": "above"}
     mapping = MAPPING | {"release": [MAPPING["release"], later], "output": {"max_duration": 8.0}}

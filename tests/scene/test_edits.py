@@ -109,6 +109,7 @@ def test_a_thin_wall_is_refused_with_the_spacing_that_would_do(tmp_path):
     assert np.all((made[Z].values[40:60] > 1000.0 - 0.4 * x + 1e-9).sum(axis=1) >= 3)
 
 
+@pytest.mark.slow
 def test_a_wall_that_is_overtopped(tmp_path):
     """A wall of 1 m in the way of 3 m: it is ground, and flow gets over."""
     write_slope(tmp_path / "dem.tif", rows=16, columns=60)

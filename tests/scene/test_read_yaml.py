@@ -62,11 +62,13 @@ LAUGHS = "a: &a [x, x]\nb: &b [*a, *a]\nc: &c [*b, *b]\n"
         ("a: ! 3\n", "the tag"),
         ("a: 1\n---\nb: 2\n", "line 2, column 1: a second document"),
         ("? [a]\n: 1\n", "a key must be a word"), ("{{a: 1}: 2}\n", "a key must be a word"),
+        ("? " * 100_000, "a key must be a word|nesting"), ("- " * 100_000, "nesting"), ("*a : 1\n", "anchors"),
+        ("a: " * 100_000, "no YAML"), ("!!str a: 1\n", "the tag"), ("{" * 100_000, "nesting|a key must be a word"),
         (f"a: {'[' * (MOST_LEVELS + 1)}", "levels of nesting"), ("a: " + "[" * 5000, "nesting"),
         ("", "is empty"), ("  \n\n", "is empty"), ("# only this\n", "got None"), ("- 1\n", "got a list"),
         ("3\n", "got 3"), ("a: \x00\n", "line 1: .* control character"), ("a: 1\nb: \x1b[2J\n", "line 2: .* control"),
         (b"a: 1\nb: \xfc\n", "line 2: byte 0xfc is no text in UTF-8"), ("a: 1".encode("utf-16"), "UTF-16"),
-        (bytes(range(256)), "no text in UTF-8"), (b"a: b\n" * (MOST_BYTES // 4), "more than 5 MB"),
+        (bytes(range(256)), "no text in UTF-8"), (b"a: b\n" * (MOST_BYTES // 4), "more than 1 MB"),
     ],
 )  # fmt: skip
 def test_what_is_refused_says_where(tmp_path, text, words):

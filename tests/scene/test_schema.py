@@ -131,6 +131,7 @@ NOT_IN_THE_SCHEMA = (
 """Words of refusals of values that do not go together."""
 
 
+@pytest.mark.slow
 @settings(max_examples=400, deadline=None, derandomize=True)
 @given(data=st.data())
 def test_a_changed_value_that_is_refused_is_refused_by_the_schema(data):
@@ -143,7 +144,7 @@ def test_a_changed_value_that_is_refused_is_refused_by_the_schema(data):
         assert errors(mutated), f"{path}: {refusal}"
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
+@settings(max_examples=30, deadline=None, derandomize=True)
 @given(data=st.data())
 def test_a_key_too_many_is_refused_by_both(data):
     mapping = data.draw(st.sampled_from(WHOLES))

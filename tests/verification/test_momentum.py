@@ -50,14 +50,10 @@ def momentum(flow):
 
 def thrown(grid, velocity, **keywords):
     """Release what is to fail and give all of it one velocity along the bed (map components) [m/s]."""
-    flow = place(DebrisFlow(grid, **keywords))
-    simulation = flow._simulation
-    simulation.set_free()
-    simulation._refresh()
-    u, v = velocity
-    zx, zy = simulation.particles.surface_sample[1:3]
-    simulation.particles.velocity[:] = np.array([u + 0.0 * zx, v + 0.0 * zx, u * zx + v * zy])
-    return flow
+    failing = grid.at_node["debris_flow__release_depth"] > 0.0
+    for axis, component in zip("xy", velocity, strict=True):
+        grid.add_field(f"debris_flow__release_velocity_{axis}", np.where(failing, component, 0.0), at="node")
+    return place(DebrisFlow(grid, **keywords))
 
 
 def body(slope=0.0, shape=(30, 60), soil=None, **keywords):
