@@ -27,7 +27,8 @@ LOADED_BED = {
 }  # fmt: skip
 LIMITS = {f"limits_{name}": ((), "i" if name == "broken" else "f") for name in StepLimits._fields}
 PARTNERS = {
-    **dict.fromkeys(("partners_of", "partners_count"), (("grain",), "i")), "partners_generation": (("generation",), "i"),
+    **dict.fromkeys(("partners_of", "partners_count"), (("grain",), "i")),
+    "partners_generation": (("generation",), "i"),
     "partners_index": (("grain", "partner"), "i"), "partners_weight": (("grain", "partner"), "f"),
 }  # fmt: skip
 SOIL_KEPT = {

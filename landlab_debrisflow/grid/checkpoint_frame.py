@@ -30,7 +30,9 @@ def check_frame(dataset: Any) -> None:
     if len(found["observers"]) != len(found["observers_with_state"]):
         _refuse("observers and observers_with_state differ in number")
     for name in ("spacing", "lower_left"):
-        values = np.ravel(dataset.attrs.get(name, ()))
+        if name not in dataset.attrs:
+            _refuse(f"it lacks the attribute {name!r}")
+        values = np.ravel(dataset.attrs[name])
         if values.shape != (2,) or values.dtype.kind not in "iuf" or not np.isfinite(values).all():
             _refuse(f"the attribute {name!r} is not two numbers")
     if np.min(dataset.attrs["spacing"]) <= 0.0:
@@ -56,10 +58,12 @@ def check_frame(dataset: Any) -> None:
 def _json(attributes: Any, name: str, kind: type) -> Any:
     try:
         content = json.loads(attributes[name])
-    except (KeyError, TypeError, ValueError, RecursionError):
+    except KeyError:
+        _refuse(f"it lacks the attribute {name!r}")
+    except (TypeError, ValueError, RecursionError):
         content = None
     if not isinstance(content, kind):
-        _refuse(f"the attribute {name!r} is missing or no {kind.__name__} as JSON")
+        _refuse(f"the attribute {name!r} is no {kind.__name__} in JSON")
     return content
 
 

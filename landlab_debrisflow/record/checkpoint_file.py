@@ -116,7 +116,8 @@ def read_checkpoint(path: str | os.PathLike[str]) -> xr.Dataset:
         return _from_bytes(content)
     except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise InputError(
-            f"{path} is no checkpoint that flow.save() wrote: its NetCDF cannot be read ({error}){_alternative(path)}"
+            f"{path} is no checkpoint that flow.save() wrote: its NetCDF cannot be read ({error}); give "
+            f"another{_alternative(path)}"
         ) from error
 
 

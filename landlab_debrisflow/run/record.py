@@ -101,7 +101,9 @@ class RunRecord:
         if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
             raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
         if foreign := [name for name in values["files"] if not is_result(name)]:
-            raise InputError(f"{path} is no record of a run: it lists {foreign[0]!r}, which no run writes")
+            raise InputError(
+                f"{path} is no record of a run: it lists {foreign[0]!r}, which no run writes; choose another directory"
+            )
         if not all(isinstance(volume, float | int) for volume in values["budget"].values()):
             raise InputError(f"{path} is no whole record of a run: its budget is {values['budget']!r:.60}")
         return cls(**{name: value for name, value in values.items() if name in names})
