@@ -144,6 +144,8 @@ def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
         ends = read.get(name, np.zeros((0, 2), int))
         if np.any(ends % raster_shape[1]) or np.any(np.diff(ends) < 0):
             _refuse(f"{name} are no stretches of whole rows")
+    if running and not np.array_equal(read["node_status"], read.get("node_known_status")):
+        _refuse("node_known_status is not node_status, which cannot change in a call")
     if running and "budget_stretches" in read and np.diff(read["budget_stretches"]).sum() != read["budget_copies"].size:
         _refuse("budget_copies does not fit budget_stretches")
 

@@ -66,6 +66,8 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     `p` are the particles, whose velocities of the awake ones are changed [m s-1]; `exchange` is the state of the
     exchange between phases; `walls` is None where no node is closed; `dt` is in s.
     """
+    if p.count == 0:  # all have left in this step, and partners are still those of before
+        return
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:

@@ -89,8 +89,9 @@ def _frame(directory: Path) -> Frame:
     """Return times and place of the maps in a directory."""
     if not (paths := numbered_files(directory)):
         raise InputError(f"combine_maps: {directory} holds no maps of a MapSeries")
-    times, windows, xs, ys = [], [], {}, {}
-    first = _read(paths[0])
+    times, windows, first = [], [], _read(paths[0])
+    xs: dict[int, float] = {}
+    ys: dict[int, float] = {}
     for path in paths:
         maps = _read(path)
         if differing := [name for name in SAME if maps.attrs.get(name) != first.attrs.get(name)]:
@@ -167,23 +168,23 @@ def _write_netcdf(path: Path, frame: Frame) -> None:
 
     with Dataset(path, "w") as file:
         file.setncatts(_attributes(frame))
-        for name, (values, words) in _coordinates(frame).items():
-            file.createDimension(name, values.size)
-            axis = file.createVariable(name, "f8", (name,))
+        for axis_name, (values, words) in _coordinates(frame).items():
+            file.createDimension(axis_name, values.size)
+            axis = file.createVariable(axis_name, "f8", (axis_name,))
             axis.setncatts(words)
             axis[:] = values
         for name, data in frame.first.data_vars.items():
             chunk = (1, *(min(512, size) for size in (frame.y.size, frame.x.size)))
             variable = file.createVariable(
-                name, "f4", ("time", "y", "x"), zlib=True, complevel=1, chunksizes=chunk, fill_value=False
+                str(name), "f4", ("time", "y", "x"), zlib=True, complevel=1, chunksizes=chunk, fill_value=False
             )
             variable.setncatts(_words(data, frame))
         if GRID_MAPPING in frame.first.coords:
             mapping = file.createVariable(GRID_MAPPING, "i4", ())
             mapping.setncatts(_plain(frame.first[GRID_MAPPING].attrs))
             mapping[...] = 0
-        for k, name, layer in _layers(frame):
-            file.variables[name][k] = layer
+        for k, variable_name, layer in _layers(frame):
+            file.variables[variable_name][k] = layer
 
 
 def _replace_store(path: Path, frame: Frame) -> Path:
@@ -214,20 +215,23 @@ def _write_zarr(path: Path, frame: Frame) -> None:
     except ImportError as error:
         raise InputError('combine_maps: Zarr stores need zarr; pip install "landlab_debrisflow[geo]"') from error
     store = zarr.open_group(path, mode="w", attributes=_attributes(frame))
-    for name, (values, words) in _coordinates(frame).items():
-        axis = store.create_array(name, shape=values.shape, dtype="f8", dimension_names=(name,), attributes=words)
+    for axis_name, (values, words) in _coordinates(frame).items():
+        axis = store.create_array(
+            axis_name, shape=values.shape, dtype="f8", dimension_names=(axis_name,), attributes=words
+        )
         axis[:] = values
     shape = frame.times.size, frame.y.size, frame.x.size
+    arrays = {}
     for name, data in frame.first.data_vars.items():
-        store.create_array(
-            name, shape=shape, chunks=(1, min(512, shape[1]), min(512, shape[2])), dtype="f4", fill_value=0.0,
+        arrays[str(name)] = store.create_array(
+            str(name), shape=shape, chunks=(1, min(512, shape[1]), min(512, shape[2])), dtype="f4", fill_value=0.0,
             dimension_names=("time", "y", "x"), attributes=_words(data, frame),
         )  # fmt: skip
     if GRID_MAPPING in frame.first.coords:
         words = _plain(frame.first[GRID_MAPPING].attrs)
         store.create_array(GRID_MAPPING, shape=(), dtype="i4", dimension_names=(), attributes=words)
-    for k, name, layer in _layers(frame):
-        store[name][k] = layer
+    for k, variable, layer in _layers(frame):
+        arrays[variable][k] = layer
     with warnings.catch_warnings():  # xarray looks for it first, zarr says that it is no part of its standard
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)

@@ -189,7 +189,7 @@ class MapSeries:
         place = {"grid_rows": grid.shape[0], "grid_columns": grid.shape[1], "row": rows[0], "column": columns[0]}
         attributes = self._attributes | date_created() | quantity_attributes("elapsed_time", time, "s") | place
         x, y = grid.xy_of_lower_left
-        variables = {}
+        variables: dict[str, tuple[tuple[str, ...], np.ndarray, Mapping[str, Any]]] = {}
         for axis, origin, spacing, (first, last) in (("y", y, grid.dy, rows), ("x", x, grid.dx, columns)):
             variables[axis] = (axis,), origin + spacing * np.arange(first, last + 1), axis_attributes(axis)
         variables["time"] = (), np.array(time), variable_attributes("s", "elapsed time")

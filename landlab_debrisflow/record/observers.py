@@ -204,7 +204,7 @@ def check_interval(interval: object, owner: str) -> float:
     InputError
         If it is not.
     """
-    number = isinstance(interval, Real) and not isinstance(interval, bool)
-    good = number and 0.0 < interval < float("inf")
+    number = float(interval) if isinstance(interval, Real) and not isinstance(interval, bool) else 0.0
+    good = 0.0 < number < float("inf")
     require(good, f"{owner}: interval", "be a finite number of seconds > 0", interval, error=InputError)
-    return float(interval)  # type: ignore[arg-type]
+    return number

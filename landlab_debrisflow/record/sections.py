@@ -62,8 +62,8 @@ class Sections:
         self.lines = {name: line(f"Sections: {name!r}", vertices) for name, vertices in named.items()}
         self._local = list(self.lines.values())
         self._signs = np.ones(len(self.lines))
-        self._paths, self._events, self._time, self._two_phases = Paths(), [], 0.0, False
-        self._events: list[np.ndarray]
+        self._paths, self._time, self._two_phases = Paths(), 0.0, False
+        self._events: list[np.ndarray] = []
 
     def prepare(self, grid: Any, setup: Any) -> None:
         """Find to which side of each line the ground falls.
@@ -176,8 +176,8 @@ class Sections:
             words = f"volume {'of grains ' if name != 'volume' else ''}that crossed so far"
             data[f"crossed_{name}"] = "section", whole, variable_attributes("m3", words)
         directions = [_direction(vertices, sign) for vertices, sign in zip(self._local, self._signs, strict=True)]
-        words = variable_attributes("deg", "direction in which crossing counts as positive, anticlockwise from east")
-        data["positive_direction"] = "section", np.array(directions), words
+        meaning = "direction in which crossing counts as positive, anticlockwise from east"
+        data["positive_direction"] = "section", np.array(directions), variable_attributes("deg", meaning)
         middle = variable_attributes("s", "elapsed time, middle of the bin") | {"bounds": "time_bounds"}
         coordinates = {
             "section": ("section", np.array(names, object), {"long_name": "name of the section"}),

@@ -43,14 +43,14 @@ class Tracks(Follower):
 
     def __init__(self, interval: float, particles: int | Sequence[int] = 100) -> None:
         super().__init__(interval)
-        self._count, self._chosen = None, None
+        self._count: int | None = None
+        self._chosen: np.ndarray | None = None
         if isinstance(particles, Integral) and not isinstance(particles, bool):
             if particles < 1:
                 raise InputError(f"Tracks: the number of particles must be at least 1, got {particles}")
             self._count = int(particles)
         else:
             self._chosen = chosen_particles("Tracks", particles)
-        self._chosen: np.ndarray | None
 
     def sample(self, particles: Any, time: float) -> None:
         """Note where the particles are.

@@ -58,6 +58,17 @@ def watched():
     return flow
 
 
+def left_at_once():
+    """Return a flow of one particle of grains and one of water that left the grid in one step."""
+
+    def beside_the_edge(grid):
+        release = (grid.x_of_node == 105.0) & (grid.y_of_node == 20.0)
+        grid.at_node["debris_flow__release_depth"][:] = 0.5 * release
+        grid.add_field("debris_flow__release_velocity_x", 8.0 * release, at="node")
+
+    return run(4.0, flow="two_phase", soil=None, change=beside_the_edge, numerics={"particle_count": 1})
+
+
 SCENES = {f"{kind} {law}": lambda kind=kind, law=law: run(**{kind: law}) for kind in LAWS for law in LAWS[kind]}
 SCENES |= {
     f"two phases {kind} {law}": lambda kind=kind, law=law: run(0.3, flow="two_phase", **{kind: law})
@@ -69,6 +80,7 @@ SCENES |= {
     )
 }
 SCENES |= {
+    "two phases that leave at once": left_at_once,
     "at a wall": lambda: run(2.0, change=wall),
     "two phases at a wall": lambda: run(1.5, change=wall, flow="two_phase"),
     "loaded bed": lambda: run(material=LOADED),
