@@ -77,8 +77,8 @@ def check_metric(lattice: Lattice, path: object) -> None:
     if crs.is_geographic and np.abs(lattice.bounds).max() > LARGEST_ANGLE:
         raise InputError(
             f"{path}: its coordinate reference system is in degrees ({label_of(lattice.crs)}), but its coordinates are "
-            f"not: {extent(lattice.bounds)}; assign the right one: gdal_edit.py -a_srs EPSG:CODE {path}, or rio edit-info "
-            f"{path} --crs EPSG:CODE"
+            f"not: {extent(lattice.bounds)}; assign the right one: gdal_edit.py -a_srs EPSG:CODE {path}, or rio "
+            f"edit-info {path} --crs EPSG:CODE"
         )
     if crs.is_geographic:
         raise InputError(

@@ -15,33 +15,29 @@ FREE = {
 """Dimensions whose size depends on the moment."""
 
 CALL = {
-    "call_end": ((), "f"), "call_rows": (("call_begin_and_end",), "i"), "bed_lowered_node": (("bed_lowered",), "i"),
-    "bed_taken": (("bed_lowered",), "f"), "bed_before": (("bed_ground", "bed_lowered"), "f"),
-    "peak_maps_under": (("peak_maps_shown",), "i"), "peak_maps_passed": ((), "f"), "peak_maps_then": ((), "f"),
+    "call_end": (), "call_rows": ("call_begin_and_end",), "bed_lowered_node": ("bed_lowered",),
+    "bed_taken": ("bed_lowered",), "bed_before": ("bed_ground", "bed_lowered"),
+    "peak_maps_under": ("peak_maps_shown",), "peak_maps_passed": (), "peak_maps_then": (),
 }  # fmt: skip
-"""Dimensions and kind of number of the variables that are there if a call has begun."""
+"""Dimensions of the variables that are there if a call has begun."""
 
 LOADED_BED = {
-    "bed_pressure_start": ((), "f"), "bed_pressure_under": (("bed_pressure_loaded",), "i"),
-    **dict.fromkeys(("bed_pressure_age", "bed_pressure_load", "bed_pressure_ratio"), (("y", "x"), "f")),
+    "bed_pressure_start": (), "bed_pressure_under": ("bed_pressure_loaded",), "bed_pressure_age": ("y", "x"),
+    "bed_pressure_load": ("y", "x"), "bed_pressure_ratio": ("y", "x"),
 }  # fmt: skip
-LIMITS = {f"limits_{name}": ((), "i" if name == "broken" else "f") for name in StepLimits._fields}
 PARTNERS = {
-    **dict.fromkeys(("partners_of", "partners_count"), (("grain",), "i")),
-    "partners_generation": (("generation",), "i"),
-    "partners_index": (("grain", "partner"), "i"), "partners_weight": (("grain", "partner"), "f"),
+    "partners_of": ("grain",), "partners_count": ("grain",), "partners_index": ("grain", "partner"),
+    "partners_weight": ("grain", "partner"), "partners_generation": ("generation",),
 }  # fmt: skip
 SOIL_KEPT = {
-    "budget_stretches": (("budget_stretch", "budget_begin_and_end"), "i"),
-    "budget_copies": (("budget_backed_up", "budget_kept"), "f"),
+    "budget_stretches": ("budget_stretch", "budget_begin_and_end"),
+    "budget_copies": ("budget_backed_up", "budget_kept"),
 }  # fmt: skip
+LIMITS: dict[str, tuple] = {f"limits_{name}": () for name in StepLimits._fields}
 TOGETHER = CALL, LOADED_BED, LIMITS, PARTNERS, SOIL_KEPT
 """Variables that are there together or not at all."""
 
-ALONE = {
-    **dict.fromkeys(("node_event_eroded", "node_known_elevation"), (("y", "x"), "f")),
-    "node_known_status": (("y", "x"), "u"),
-}  # fmt: skip
+ALONE = dict.fromkeys(("node_event_eroded", "node_known_elevation", "node_known_status"), ("y", "x"))
 """Further variables that are there at some moments."""
 
 FINITE = (
@@ -89,9 +85,9 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}
         if not same or any(wanted.sizes[dim] != size for dim, size in sizes.items()):
             _refuse(f"{name!r} is {_words(found)} where {_words(wanted)} is expected")
-    for name, (dimensions, kind) in ChainMap(*TOGETHER, ALONE).items():
+    for name, dimensions in ChainMap(*TOGETHER, ALONE).items():
         found = dataset.variables.get(name)
-        if found is not None and (found.dims != dimensions or found.dtype.kind != kind):
+        if found is not None and (found.dims != dimensions or found.dtype.kind not in "iuf"):
             _refuse(f"{name!r} is {_words(found)} where numbers over ({', '.join(dimensions)}) are expected")
     read = {name: data.values for name, data in dataset.variables.items()}
     _check_numbers(read, prefix, raster_shape, inflow_rows, running)

@@ -108,7 +108,7 @@ def failure_surface(
         return float(depth.max() if unit is None else (depth * outline.fraction).sum() * outline.cell_area / unit)
 
     most = size(family.largest)
-    if not np.isfinite(most):
+    if np.isnan(most):
         heights = elevation[np.isfinite(elevation)]
         raise InputError(
             f"{CALLER}the elevation, {heights.min():.4g} to {heights.max():.4g} m, is too large to compute with; "

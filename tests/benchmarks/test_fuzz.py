@@ -1,4 +1,4 @@
-"""Files drawn at random, most of them odd, are read or refused; some here, thousands by ``python -m benchmarks.fuzz``."""
+"""Files drawn at random, most of them odd, are read or refused; thousands by ``python -m benchmarks.fuzz``."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 WITHOUT_FLOWS = [one for one in (case(5, number) for number in range(400)) if one.kind not in ("checkpoint", "record")]
 
 
-@pytest.mark.parametrize("one", [one for one in WITHOUT_FLOWS if one.number % 4][:24], ids=lambda one: f"{one.number}")
+@pytest.mark.parametrize("one", [one for one in WITHOUT_FLOWS if one.number % 4][:12], ids=lambda one: f"{one.number}")
 def test_files_are_read_or_refused(one, tmp_path):
     outcome = read(one, tmp_path)
     assert outcome.name in GOOD, outcome

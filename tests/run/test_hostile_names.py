@@ -138,6 +138,6 @@ def test_what_is_no_file_is_refused_at_once(name, key, tmp_path):
         mapping["release"] = {"polygons": name}
     elif key == "hydrograph":
         mapping["release"] = {"points": [[400060, 5200150]], "hydrograph": name, "speed": 3.0, "width": 10.0}
+    scene = Scene.from_mapping(mapping, tmp_path)
     with pytest.raises(ValueError, match=re.escape(name)):
-        scene = Scene.from_mapping(mapping, tmp_path)
         _ = scene.releases, scene.setup, scene.places
