@@ -3,7 +3,7 @@
     DEBRISFLOW_DATA=... python -m benchmarks.forecast > benchmarks/forecast.txt
 
 A factor is that of the forecast over what it was. The CPU time of a run is that of its steps. An end that is seen, by
-the monitor at a quarter, half and three quarters of the wall time, is over that of the run; "<=" if it is a bound. Without
+the monitor at a quarter, half and three quarters of the wall time, is over that of the run; "<=": a bound. Without
 DEBRISFLOW_DATA the scene of S-1000 is left out.
 """
 

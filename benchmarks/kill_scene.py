@@ -50,11 +50,9 @@ def digests(folder: Path) -> dict[str, str]:
         elif path.suffix == ".json":
             values = json.loads(path.read_text(encoding="utf-8"))
             values["scene"]["output"].pop("directory")
-            values = {key: value for key, value in values.items() if key not in (*DATES, "files", "digest")}
-            parts = [
-                json.dumps(values, sort_keys=True).encode(),
-                str(sorted(json.loads(path.read_text())["files"])).encode(),
-            ]
+            values["files"].sort()
+            values = {key: value for key, value in values.items() if key not in (*DATES, "digest")}
+            parts = [json.dumps(values, sort_keys=True).encode()]
         elif path.suffix == ".yaml":
             continue  # names the directory
         else:

@@ -58,7 +58,7 @@ def grouped(number: float) -> str:
 
     Examples
     --------
-    >>> grouped(1234567.8)
-    '1 234 568'
+    >>> grouped(1234567.8), grouped(-1e-9)
+    ('1 234 568', '0')
     """
-    return f"{number:,.0f}".replace(",", " ")
+    return f"{round(number):,}".replace(",", " ")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from ..core.errors import OutputError
+from ..core.errors import InputError, OutputError
 
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
@@ -24,17 +24,20 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
 
     Raises
     ------
+    InputError
+        If the directory does not exist.
     OutputError (an InputError)
-        If the directory is missing or may not be written to, or if `path` is a directory or a file that
-        may not be replaced.
+        If the directory may not be written to, or if `path` is a directory or a file that may not be replaced.
     """
     path = Path(path)
     folder = path.parent
     if path.is_dir():
         raise OutputError(f"cannot write {path}: it is a directory; give the name of a file in it")
     if not folder.is_dir():
-        word = "is not a directory" if folder.exists() else "does not exist"
-        raise OutputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
+        remedy = "create it first (mkdir -p) or choose another"
+        if folder.exists():
+            raise OutputError(f"cannot write {path}: {folder} is not a directory; {remedy}")
+        raise InputError(f"cannot write {path}: {folder} does not exist; {remedy}")
     try:  # the only honest test: permission bits say nothing on read-only or full file systems
         with tempfile.TemporaryFile(dir=folder):
             pass
@@ -66,10 +69,10 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
     """
     path = Path(path)
     if not path.is_dir():
-        word = "is a file" if path.exists() else "does not exist"
-        raise OutputError(
-            f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
-        )
+        named, remedy = f"cannot write to {os.fspath(path)!r}", "create it first (mkdir -p) or choose another"
+        if path.exists():
+            raise OutputError(f"{named}: it is a file; {remedy}")
+        raise InputError(f"{named}: it does not exist; {remedy}")
     check_writable(path / "any")
     return path
 

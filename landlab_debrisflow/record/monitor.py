@@ -27,7 +27,8 @@ class Monitor:
 
     On a terminal and in a notebook one line is renewed; in any case a line goes to the logger
     "landlab_debrisflow.progress" at the level INFO every half minute. Fields of the grid are not written for it, and
-    between two updates it reads the clock and nothing else.
+    between two updates it reads the clock and nothing else. "At most" so much time left is
+    the longest duration at the pace of the last half minute, "about" an estimate: see `EndEstimate`.
 
     Parameters
     ----------
@@ -81,17 +82,17 @@ class Monitor:
         volume, moving = particles.volume[awake], speed2 > 0.0
         self._estimate.add(now, time, float(np.dot(volume, speed2)))
         front = particles.z[awake][moving].min() if moving.any() else None
-        words = [f"{time:8.1f} s", f"moving {grouped(volume[moving].sum())} m3"]
+        words = f"{time:.1f} s, moving {grouped(volume[moving].sum())} m3"
         if front is not None:
-            words += [f"front at {front:.0f} m", f"fastest {math.sqrt(speed2.max()):.1f} m/s"]
-        self.line = ", ".join([*words, *self._end()])
+            words += f" at up to {math.sqrt(speed2.max()):.1f} m/s, front at {front:.0f} m"
+        self.line = words + self._end()
         self._show(now)
 
     def observe(self, flow: Any) -> None:
         """Show the flow when it comes to rest."""
         budget = flow.budget
         mass = f"{grouped(budget['moving'] + budget['deposited'])} m3"
-        self.line = f"{flow.elapsed_time:8.1f} s, {'at rest' if flow.at_rest else 'nothing moves'}, {mass} deposited"
+        self.line = f"{flow.elapsed_time:.1f} s, {'at rest' if flow.at_rest else 'nothing moves'}, {mass} deposited"
         self._due_in_log = -math.inf
         self._show(monotonic())
 
@@ -108,7 +109,7 @@ class Monitor:
 
     def _log(self) -> None:
         self._logged = self.line
-        log.info("%s", self.line.strip())
+        log.info("%s", self.line)
 
     def say(self, text: str) -> None:
         """Show a text in place of the line until the next step, such as the reason why the first one takes long."""
@@ -118,12 +119,9 @@ class Monitor:
         if self._display:
             self._display.show(text)
 
-    def _end(self) -> list[str]:
+    def _end(self) -> str:
         left = self._estimate.remaining()
-        if left is None:
-            return []
-        time = duration_text(left.seconds)
-        return [f"end in at most {time} at this pace" if left.bound else f"end in about {time}"]
+        return "" if left is None else f", {'at most' if left.bound else 'about'} {duration_text(left.seconds)} left"
 
     def _show(self, now: float) -> None:
         if self._display:

@@ -3,7 +3,19 @@
 from typing import Any
 
 from ..component import DebrisFlow
+from ..core.errors import InputError
 from ..scene.releases import set_release
+
+
+def check_mass(scene: Any) -> None:
+    """Refuse a `Scene` in which nothing is released and nothing flows in.
+
+    Raises
+    ------
+    InputError
+    """
+    if not scene.releases and not scene.setup.inflow:
+        raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
 
 
 def advance(flow: DebrisFlow, scene: Any) -> None:

@@ -13,9 +13,6 @@ from .scene import Scene
 LEAST_ANGLE = 2.0
 """Angle of friction below which hardly any flow stops [deg]."""
 
-FEWEST_NODES = 12
-"""Nodes of a release below which its outline and shape are not resolved."""
-
 LARGEST_PART = 0.05
 """Part of a release that may lie below the lip of its scar without a doubt [-]."""
 
@@ -57,11 +54,6 @@ def _release_doubts(scene: Scene, release, cell: float) -> Iterator[str]:
     depth = release.depth
     failing = depth > 0.0
     count, volume = int(failing.sum()), float(depth.sum()) * cell
-    if count < FEWEST_NODES:
-        yield (
-            f"it covers {count} node{'s' * (count > 1)} of {cell:g} m2: its shape is not resolved; a finer spacing "
-            "would do"
-        )
     spacing = math.sqrt(count * cell / scene.setup.numerics.count_for(count * cell))
     ratio = spacing / math.sqrt(cell)
     if ratio > COARSEST:
@@ -126,9 +118,10 @@ def below_lip(elevation: np.ndarray, depth: np.ndarray) -> tuple[float, float]:
     window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     ground = np.where(np.isnan(elevation[window]), np.inf, elevation[window])
     bed = ground - depth[window]
-    filling = np.where(depth[window] > 0.0, np.minimum(_filled(bed) - bed, depth[window]), 0.0)
-    pits = _filled(ground) - ground
-    filling = np.maximum(0.0, filling - np.where(np.isfinite(pits), pits, 0.0))
+    known = np.isfinite(ground)
+    pits = np.where(known, _filled(ground) - np.where(known, ground, 0.0), 0.0)
+    filling = np.where(known, _filled(bed) - np.where(known, bed, 0.0), 0.0) - pits
+    filling = np.clip(filling, 0.0, depth[window])
     return float(filling.sum()), float(filling.max())
 
 

@@ -11,7 +11,7 @@ from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
 from ..record.monitor import COMPILING, Monitor
-from .advance import advance
+from .advance import advance, check_mass
 from .directory import OutputDirectory
 from .files import RECORD, SCENE
 from .maps import write_results
@@ -48,8 +48,7 @@ def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = 
         After the step. What was computed is kept: `resume_scene` goes on.
     """
     _ = scene.places
-    if not scene.releases and not scene.setup.inflow:  # known before anything is written, and results of before removed
-        raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
+    check_mass(scene)  # before anything is written, and results of before removed
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(_record(scene, directory), overwrite)
         return _compute(scene, directory, scene.flow, monitor)
@@ -160,6 +159,8 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
         directory.note(state=state, elapsed_time=time, reason=f"{type(failure).__name__}: {failure}")
     if directory.checkpoints:
         failure.add_note(f"a checkpoint is kept: landlab-debrisflow resume {directory.path} goes on from there")
+    else:
+        failure.add_note("there was no checkpoint yet: landlab-debrisflow run begins anew")
 
 
 def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:

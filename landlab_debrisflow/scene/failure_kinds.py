@@ -113,7 +113,7 @@ class Obstacle:
     def __init__(self, matrix: csc_array):
         self._matrix = matrix
         self._free = np.ones(matrix.shape[0], bool)  # where u > 0
-        self._answers = None
+        self._answers: np.ndarray | None = None
 
     def solve(self, even: float, uneven: np.ndarray) -> np.ndarray:
         """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), is always the same."""

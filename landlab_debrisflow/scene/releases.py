@@ -140,9 +140,11 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
     """
     depth, at = release.depth.reshape(-1), grid.at_node
     asked = _field(grid, "debris_flow__release_depth")
-    if release.velocity is not None:
-        for axis, values in zip("xy", release.velocity, strict=True):
-            velocity = _field(grid, f"debris_flow__release_velocity_{axis}")
+    names = [f"debris_flow__release_velocity_{axis}" for axis in "xy"]
+    if release.velocity is not None or names[0] in at:  # one without a velocity slows another one on the same nodes
+        at_rest = np.zeros((2, depth.size))
+        for name, values in zip(names, at_rest if release.velocity is None else release.velocity, strict=True):
+            velocity = _field(grid, name)
             momentum = asked * velocity + depth * values.reshape(-1)
             np.divide(momentum, asked + depth, out=velocity, where=asked + depth > 0.0)
     if release.source == "above":

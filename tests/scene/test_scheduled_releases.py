@@ -199,3 +199,11 @@ def test_points_become_inflow_down_the_slope(tmp_path):
     for place, words in (([WEST + 1.0, SOUTH + 150.0], "edge of the terrain"), ([0.0, 0.0], "outside")):
         with pytest.raises(InputError, match=words):
             _ = scene({"points": place, "hydrograph": [[0, 1], [9, 1]], "width": 10.0, "speed": 3.0}).setup
+
+
+def test_a_release_at_rest_slows_a_moving_one_on_its_nodes():
+    grid, depth = plane(), np.zeros((6, 7))
+    depth[2, 3] = 0.2
+    set_release(grid, ScheduledRelease(0.0, depth, "ground", np.stack([2.0 * (depth > 0.0), 0.0 * depth])))
+    set_release(grid, ScheduledRelease(0.0, 3.0 * depth, "ground", None))
+    assert grid.at_node["debris_flow__release_velocity_x"][2 * 7 + 3] == pytest.approx(0.5, rel=1e-12)
