@@ -10,11 +10,8 @@ reaches, ``--refusals N`` shows some refusals.
 """
 
 import argparse
-import functools
-import multiprocessing
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +21,7 @@ from rich.table import Table
 
 from .cases import FORMS, KINDS, case, prepare
 from .coverage import print_coverage
-from .trial import GOOD, try_case
+from .trial import GOOD, try_case, try_cases
 
 OUTCOMES = (*GOOD, "error", "hang", "crash", "not finite", "written")
 TEXT = Path(__file__).parent.with_suffix(".txt")
@@ -55,27 +52,17 @@ def main() -> int:
         console.print(escape(f"{one}\n{outcome.done}\n{outcome.name}: {outcome.words}"))
         return int(outcome.name not in GOOD)
     elif arguments.coverage:
-        print_coverage(console, cases)
+        print_coverage(console, cases, arguments.workers)
     else:
         return _run(console, cases, arguments)
     return 0
-
-
-def _tried(cases, arguments):
-    """Yield what `try_case` returns of every case, from some processes if asked for."""
-    trial = functools.partial(try_case, keep=arguments.keep)
-    if arguments.workers == 1:
-        yield from map(trial, cases)
-        return
-    with ProcessPoolExecutor(arguments.workers, mp_context=multiprocessing.get_context("fork")) as pool:
-        yield from pool.map(trial, cases, chunksize=20)
 
 
 def _run(console: Console, cases, arguments) -> int:
     counts, failures, refusals, began, cpu = Counter(), [], [], time.monotonic(), 0.0
     if arguments.keep is not None:
         arguments.keep.mkdir(exist_ok=True)
-    for one, (outcome, seconds, _) in zip(cases, _tried(cases, arguments), strict=True):
+    for one, (outcome, seconds, _) in zip(cases, try_cases(cases, arguments.workers, arguments.keep), strict=True):
         cpu += seconds
         counts[one.kind, one.form, outcome.name] += 1
         if outcome.name not in (*GOOD[:4],):

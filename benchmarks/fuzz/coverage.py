@@ -11,7 +11,7 @@ from rich.table import Table
 import landlab_debrisflow
 
 from .cases import Case
-from .trial import try_case
+from .trial import try_cases
 
 ROOT = Path(landlab_debrisflow.__file__).parent
 READERS = (
@@ -68,11 +68,10 @@ def traced(function):
     return result, {name: sorted(numbers) for name, numbers in lines.items()}
 
 
-def print_coverage(console: Console, cases: list[Case]) -> None:
+def print_coverage(console: Console, cases: list[Case], workers: int) -> None:
     """Print which share of the lines of every reader the cases reach."""
     reached: dict[str, set[int]] = defaultdict(set)
-    for one in cases:
-        _, _, found = try_case(one, tracer=traced)
+    for _, _, found in try_cases(cases, workers, tracer=traced):
         for name, numbers in (found or {}).items():
             reached[name] |= set(numbers)
     table = Table(title=f"Lines inside of functions that {len(cases)} files reach")

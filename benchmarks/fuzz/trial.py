@@ -1,7 +1,9 @@
 """A case in a process of its own: a copy of this one, with limits of time, memory and size of files."""
 
 import faulthandler
+import functools
 import json
+import multiprocessing
 import os
 import resource
 import select
@@ -10,6 +12,7 @@ import signal
 import sys
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from .cases import Case
@@ -49,6 +52,16 @@ def try_case(case: Case, keep: Path | None = None, tracer=None) -> tuple[Outcome
         return outcome, _time_of_copies() - began, found
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def try_cases(cases, workers: int = 1, keep: Path | None = None, tracer=None):
+    """Yield what `try_case` returns of every case, in their order, some at a time."""
+    trial = functools.partial(try_case, keep=keep, tracer=tracer)
+    if workers == 1:
+        yield from map(trial, cases)
+        return
+    with ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("fork")) as pool:
+        yield from pool.map(trial, cases, chunksize=20)
 
 
 GOOD = ("accepted", "warned", "refused", "diverged", "library")

@@ -195,7 +195,7 @@ class OutputDirectory:
             return
         self._remove_checkpoints()
         folder = self.path.resolve()
-        for name in self.record.files:
+        for name in self.record.results:
             for path in sorted(self.path.glob(name)):
                 if not path.parent.resolve().is_relative_to(folder):
                     continue
