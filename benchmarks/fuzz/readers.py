@@ -13,7 +13,7 @@ from landlab import FieldError
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, SimulationError
 from landlab_debrisflow.run.scene import Scene
 
-from . import records
+from . import checkpoints, records
 from .cases import Case
 
 REFUSALS = (InputError, ParameterError, FieldError)
@@ -118,7 +118,8 @@ def _read_scene(folder: Path, run: bool) -> list[str]:
 def _read_checkpoint(folder: Path) -> list[str]:
     """Load a checkpoint; run the flow for some steps."""
     stopper = _Stopper()
-    flow = DebrisFlow.load(folder / "checkpoint.nc")
+    observers = checkpoints.observers()
+    flow = DebrisFlow.load(folder / "checkpoint.nc", observers=observers)
     flow._observers = (*flow._observers, stopper)
     return _run(flow)
 

@@ -53,7 +53,7 @@ def number_in(text: Any) -> float | None:
 
 
 def number_with_unit(text: Any) -> float | None:
-    """Return the number of a text that is one with a unit behind it, or None.
+    """Return the number in front of the unit in a text, or None.
 
     Examples
     --------

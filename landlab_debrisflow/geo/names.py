@@ -57,7 +57,7 @@ def said(notes: list[str] | None, note: str) -> None:
 
 
 def reason_of(error: BaseException) -> str:
-    """Return the reason of a failure in one line: that of its first cause, without advice on the library."""
+    """Return the message of the first cause of a failure, in one line and without advice on the library."""
     while error.__cause__ is not None:
         error = error.__cause__
     return " ".join(str(error).split("; It might help")[0].split()).rstrip(". ") or type(error).__name__

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from .lattice import Bounds, extent
+from .lattice import FARTHEST, Bounds, extent
 from .names import said
 
 TYPES = {
@@ -21,9 +21,6 @@ AMBIGUOUS = 0.01
 OVERLAP = 1e-6
 """Overlap over the smaller area that is worth a note [-]; neighbours that share a side overlap by rounding."""
 MOST_LISTED = 5
-
-FARTHEST = 1e8
-"""Largest coordinate of a shape [m]; the equator has 4e7 m, and no projection in metres goes much beyond."""
 
 
 def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, notes: list[str] | None) -> list[Any]:

@@ -22,7 +22,7 @@ BESIDE = (".shx", ".dbf", ".prj", ".cpg", ".aux.xml")
 
 
 def is_result(name: Any) -> bool:
-    """Return whether a name is that of a file that runs write, from the directory, with ``*`` in that of the series.
+    """Return whether runs write files of a name into their directory; ``*`` may stand in the directory of the series.
 
     Examples
     --------

@@ -108,12 +108,6 @@ def failure_surface(
         return float(depth.max() if unit is None else (depth * outline.fraction).sum() * outline.cell_area / unit)
 
     most = size(family.largest)
-    if np.isnan(most):
-        heights = elevation[np.isfinite(elevation)]
-        raise InputError(
-            f"{CALLER}the elevation, {heights.min():.4g} to {heights.max():.4g} m, is too large to compute with; "
-            "elevations are in m, and missing ones NaN"
-        )
     if value > most:
         raise InputError(
             f"{CALLER}{asked} is {value:g}, but of this outline no body of more than {most:.4g} can leave: the ground "

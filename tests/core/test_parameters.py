@@ -60,6 +60,7 @@ def test_bounds_are_included(bound):
         ("angle", -math.inf, ("[0, 90] deg", "-inf")),
         ("load", math.inf, ("[0, inf] kg", "inf")),
         ("angle", "30", ("a number", "deg", "'30'")),
+        ("angle", "30 deg", ("a number", "'30 deg'", "give the number 30 alone")),
         ("angle", True, ("a number", "True")),
         ("angle", None, ("a number", "None")),
         ("angle", [30.0], ("a number", "[30.0]")),
