@@ -18,8 +18,12 @@ READERS = (
     "geo/*.py", "scene/*.py", "run/scene.py", "run/grids.py", "record/checkpoint_file.py", "record/memories.py",
     "grid/checkpoint*.py", "restart.py", "core/values.py",
 )  # fmt: skip
-NO_READERS = ("geotiff.py", "styles.py", "exposure.py", "tsing_shan.py", "schema.py", "new_scene.py", "__init__.py")
-"""Files in these folders that write, or read nothing."""
+NO_READERS = (
+    "geotiff.py", "styles.py", "exposure.py", "tsing_shan.py", "schema.py", "new_scene.py", "template.py", "gully.py",
+    "key_tables.py", "release.py", "failure_kinds.py", "failure_surface.py", "fall_lines.py", "outline.py",
+    "__init__.py",
+)  # fmt: skip
+"""Files in these folders that write or compute, and read nothing."""
 
 
 def reader_files() -> list[Path]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from landlab_debrisflow.laws import LAWS
 
+SURFACES = ("tapered", "sloping_local_base_level", "ellipsoid", "uniform")
 ROWS, COLUMNS, SPACING = 14, 18, 5.0
 WEST, SOUTH, CODE = 400000.0, 5200000.0, 32632
 """Corner of the first cell [m], and the coordinate reference system."""
@@ -84,6 +85,8 @@ def mapping(rng: np.random.Generator) -> dict[str, Any]:
     release = [
         {"polygons": "scars.geojson", "time": 0.0},
         {"polygons": [block(3, 4)[:4]], "depth": 1.2, "from": "above"},
+        {"polygons": [block(3, 4)], "depth": 0.8, "failure_surface": _one(rng, SURFACES)},
+        {"polygons": "scars.geojson", "failure_surface": _one(rng, SURFACES), "time": 3.0},
         {"polygons": [block(3, 4)[:4], block(9, 5)], "volume": 300.0, "failure_surface": "ellipsoid"},
         {"raster": "soil.asc", "time": 5.0},
         {"points": [[WEST + 20.0, SOUTH + 35.0]], "hydrograph": "surge.csv", "speed": 4.0, "width": 15.0},
@@ -109,6 +112,11 @@ def mapping(rng: np.random.Generator) -> dict[str, Any]:
         found["friction"] = {"law": "voellmy", "basal_friction_angle": 28.0, "turbulent_coefficient": 400.0}
     if rng.random() < 0.3:
         found["erosion"] = {"law": "growth", "growth_rate": 2e-3}
+    if rng.random() < 0.1:
+        found["friction"] = {"law": "coulomb", "basal_friction_angle": "soil.asc"}
+    if rng.random() < 0.15:
+        line = {"line_start": [WEST + 20.0, SOUTH + 25.0], "line_end": [WEST + 20.0, SOUTH + 45.0]}
+        found["inflow"] = line | {"times": [0.0, 30.0], "discharge": [8.0, 2.0], "velocity": 3.0}
     if rng.random() < 0.5:
         found["material"] = {"solid_density": 2650.0, "porosity": 0.4}
     return found | {"numerics": {"particle_count": 60}}

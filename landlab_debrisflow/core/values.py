@@ -15,6 +15,9 @@ from .hints import did_you_mean, give_number, number_in, number_with_unit, pytho
 
 T = TypeVar("T")
 
+MOST_WHOLE = 1e18
+"""Largest integer that is taken; arrays of numpy hold up to 9.2e18."""
+
 
 class NodeValues:
     """A parameter given at every node: an array that compares, hashes and prints like a value.
@@ -189,8 +192,10 @@ def _checked_number(name: str, value: Any, meta):
         number = float(value)
     except OverflowError:  # of an integer
         number = math.inf
-    told = value if kind is int and math.isfinite(number) else number
     low, high = meta["bounds"]
+    told = value if kind is int and abs(number) < MOST_WHOLE else number
+    if kind is int and told is number:  # no array holds it
+        low, high = max(low, -MOST_WHOLE), min(high, MOST_WHOLE)
     in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
     return int(value) if kind is int else number
 

@@ -67,6 +67,7 @@ def test_bounds_are_included(bound):
         ("angle", 1j, ("a number",)),
         ("bells", 2.0, ("an integer", "2.0")),
         ("bells", 11, ("[0, 10]", "11")),
+        ("bells", 2**64, ("[0, 10]", "1.8446744073709552e+19")),
         ("bells", False, ("an integer", "False")),
         ("painted", 1, ("true or false", "1")),
         ("wood", "oak", ("ash, beech", "'oak'")),
