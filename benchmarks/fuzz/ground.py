@@ -100,6 +100,9 @@ def mapping(rng: np.random.Generator) -> dict[str, Any]:
         "sections": "bridge.geojson", "tracks": 3, "least_depth": 0.05, "exposure": "scars.geojson",
     }  # fmt: skip
     kept = [key for key in output if rng.random() < 0.5]
+    if rng.random() < 0.05:
+        terrain = {"example": "gully", "soil_depth": 2.0}
+        chosen, kept = [{"polygons": [[[x + 30.0, y + 120.0] for x, y in block(0, 0)]], "depth": 1.0}], []
     found: dict[str, Any] = {
         "terrain": terrain,
         "release": chosen if len(chosen) > 1 or rng.random() < 0.5 else chosen[0],
