@@ -10,19 +10,15 @@ import numpy as np
 import xarray as xr
 from landlab import RasterModelGrid
 
-from .core.errors import InputError
+from .core.errors import InputError, ParameterError
 from .grid import checkpoint_grid, checks
+from .grid.checkpoint_frame import check_frame
 from .record.attributes import date_created, file_attributes
 from .record.checkpoint_file import read_checkpoint, write_checkpoint
 from .record.files import check_writable
 from .record.memories import read_memories, write_memories
 from .scene.agreement import agreed_setup, law_digests
 from .scene.setup import Setup
-
-ATTRIBUTES = (
-    "setup", "law_digests", "observers", "observers_with_state", "spacing", "lower_left", "warned",
-)  # fmt: skip
-"""Attributes of every checkpoint."""
 
 
 class Restart:
@@ -106,10 +102,7 @@ class Restart:
 
     @classmethod
     def _from_dataset(cls, dataset: xr.Dataset, grid: Any, observers: Sequence[Any], given: dict[str, Any]) -> Self:
-        if missing := [name for name in ATTRIBUTES if name not in dataset.attrs]:
-            raise InputError(
-                f"load: the checkpoint lacks the attribute {missing[0]!r}; give a file that flow.save() wrote"
-            )
+        check_frame(dataset)
         setup = agreed_setup(dataset, given)
         if grid is None:
             shape = dataset.sizes["y"], dataset.sizes["x"]
@@ -124,10 +117,10 @@ class Restart:
         with checkpoint_grid.fields_of(grid, dataset) as put_fields:
             flow = make(grid, **vars(setup), observers=observers)
             put_fields()
-            flow._call.load(dataset)
+            _load(flow, dataset)
             for observer, memory in zip(observers, memories, strict=True):
                 if memory is not None:
-                    observer.restore(memory)
+                    _restore(observer, memory)
         return flow
 
     def _completed(self, dataset: xr.Dataset) -> xr.Dataset:
@@ -138,3 +131,22 @@ class Restart:
         attributes = {"law_digests": json.dumps(law_digests(self._setup))} | self._setup.to_attributes()
         dataset.attrs |= file_attributes() | date_created() | attributes
         return write_memories(dataset, self._observers)
+
+
+def _load(flow: Any, dataset: xr.Dataset) -> None:
+    """Put a flow into the state of a checkpoint; refuse contents that do not fit each other."""
+    try:
+        flow._call.load(dataset)
+    except (InputError, ParameterError):
+        raise
+    except (LookupError, TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"load: the contents of the checkpoint are not those of a flow: {error}") from error
+
+
+def _restore(observer: Any, memory: Any) -> None:
+    """Give an observer its memory; refuse one that it cannot take."""
+    try:
+        observer.restore(memory)
+    except (LookupError, TypeError, ValueError) as error:
+        name = type(observer).__name__
+        raise InputError(f"load: the memory of {name} in the checkpoint is not one of its own: {error}") from error

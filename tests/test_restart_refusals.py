@@ -145,6 +145,52 @@ def test_an_attribute_that_is_missing(copy, name):
 
 
 @pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("setup", 3.0, "'setup' is no dict in JSON"), ("setup", "[]", "'setup' is no dict in JSON"),
+        ("warned", "true", "'warned' is no list in JSON"), ("law_digests", "{0}", "'law_digests' is no dict in JSON"),
+        ("observers", "[3]", "are no texts"), ("observers", '["Series"]', "differ in number"),
+        ("spacing", ":", "'spacing' is not two numbers"), ("spacing", [5.0, 0.0], "the spacing is not above 0"),
+        ("lower_left", 3, "'lower_left' is not two numbers"), ("lower_left", [0.0, np.inf], "is not two numbers"),
+    ],
+)  # fmt: skip
+def test_an_attribute_of_another_kind(copy, name, value, words):
+    write_checkpoint(copy, read_checkpoint(copy).assign_attrs({name: value}))
+    refused(copy, f"the contents of the checkpoint are not those of a flow: .*{words}; nothing was loaded")
+
+
+@pytest.mark.parametrize(
+    ("setup", "words"),
+    [
+        ('{"flow": 3}', "must have a mapping for each of flow, friction"),
+        ('{"flow": {}, "friction": {}, "erosion": {}, "column": {}, "x": 1}', "unknown key 'x'"),
+    ],
+)
+def test_a_setup_that_no_flow_has(copy, setup, words):
+    write_checkpoint(copy, read_checkpoint(copy).assign_attrs(setup=setup))
+    refused(copy, words, ParameterError)
+
+
+@pytest.mark.parametrize("name", ["peak_maps_under", "bed_taken", "bed_pressure_age", "limits_energy", "call_end"])
+def test_what_belongs_together(copy, name):
+    dataset = read_checkpoint(copy)
+    write_checkpoint(copy, dataset.drop_vars(name))
+    refused(copy, f"not those of a flow: it lacks the variable '{name}'")
+    data = dataset.variables[name]
+    other = xr.Variable((*data.dims, "more"), data.values[..., None], data.attrs)
+    write_checkpoint(copy, dataset.drop_vars(name).assign({name: other}))
+    refused(copy, f"not those of a flow: '{name}' is float64|'{name}' is int64")
+
+
+@pytest.mark.parametrize("content", [b"", b"hello", b"\x89HDF\r\n\x1a\n" + bytes(200)])
+def test_a_digest_that_is_right_around_what_is_no_netcdf(copy, content):
+    head = MAGIC, VERSION, len(content)
+    digest = hashlib.blake2b(content + TRAILER.pack(*head, b"")[:-32], digest_size=32).digest()
+    copy.write_bytes(content + TRAILER.pack(*head, digest))
+    refused(copy, "its NetCDF cannot be read .*; give another")
+
+
+@pytest.mark.parametrize(
     ("name", "change", "words"),
     [
         ("particle_x", lambda x: x + 1e4, "particle_x is outside the grid somewhere"),

@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from .. import __version__
@@ -27,9 +28,24 @@ def main(argv=None) -> int:
         Exit code, of `exit_codes`; if it is not 0, one line on standard error says why.
     """
     arguments = _parser().parse_args(argv)
+    return exit_code(lambda: arguments.command(arguments))
+
+
+def exit_code(command: Callable[[], int | None]) -> int:
+    """Return the exit code of a command that is called; print its failure, if it fails, in one line.
+
+    Parameters
+    ----------
+    command : callable
+        Returns an exit code, or None if it did all.
+
+    Returns
+    -------
+    int
+    """
     with ending_signals() as ending:
         try:
-            return arguments.command(arguments) or DONE
+            return command() or DONE
         except OutputError as error:
             return _fail(error, CANNOT_WRITE)
         except (InputError, ParameterError) as error:

@@ -1,6 +1,7 @@
 """Hints that end a refusal: the word or number that a user probably meant."""
 
 import difflib
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -51,6 +52,18 @@ def number_in(text: Any) -> float | None:
         return None
 
 
+def number_with_unit(text: Any) -> float | None:
+    """Return the number in front of the unit in a text, or None.
+
+    Examples
+    --------
+    >>> number_with_unit("28,5 deg"), number_with_unit("1.5m"), number_with_unit("2020_angle.tif")
+    (28.5, 1.5, None)
+    """
+    found = re.fullmatch(r"\s*([-+]?[0-9][0-9.,]*(?:[eE][-+]?[0-9]+)?)\s*[^\W\d_][^\d_.]{0,11}[23]?\s*", str(text))
+    return number_in(found[1]) if found and isinstance(text, str) else None
+
+
 def give_number(value: Any, whole: bool = False) -> str:
     """Return a remedy for a value that is no number, or no whole number, as the end of a sentence; "" if none is known.
 
@@ -58,11 +71,15 @@ def give_number(value: Any, whole: bool = False) -> str:
     --------
     >>> give_number("30.0"), give_number(2000.0, whole=True), give_number(2000.5, whole=True)
     ('; give the number 30.0 without quotes', '; give 2000', '; round it')
+    >>> give_number("28 deg")
+    '; give the number 28 alone, without its unit'
     """
     number = number_in(value)
     if number is not None:
         exact = int(number) if whole and number.is_integer() else number
         return f"; give the number {exact!r} without quotes"
+    if (number := number_with_unit(value)) is not None:
+        return f"; give the number {number:g} alone, without its unit"
     if whole and isinstance(value, float):
         return f"; give {int(value)}" if value.is_integer() else "; round it"
     if hasattr(value, "__len__") and not isinstance(value, str):

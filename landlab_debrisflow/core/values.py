@@ -11,9 +11,12 @@ import numpy as np
 from .checks import in_range
 from .coordinates import checked_coordinates
 from .errors import ParameterError
-from .hints import did_you_mean, give_number, number_in, python_value, same_word
+from .hints import did_you_mean, give_number, number_in, number_with_unit, python_value, same_word
 
 T = TypeVar("T")
+
+MOST_WHOLE = 1e18
+"""Largest integer that is taken; arrays of numpy hold up to 9.2e18."""
 
 
 class NodeValues:
@@ -96,7 +99,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
 
 def _checked_on_nodes(name: str, value: Any, meta):
     """Return the name of a field, or an array of values as `NodeValues`; both are compared with the grid later."""
-    if isinstance(value, NodeValues) or (isinstance(value, str) and number_in(value) is None):
+    named = isinstance(value, str) and number_in(value) is None and number_with_unit(value) is None
+    if isinstance(value, NodeValues) or named:
         return value
     try:
         values = np.ma.filled(value, np.nan) if isinstance(value, np.ma.MaskedArray) else np.asarray(value)
@@ -188,8 +192,10 @@ def _checked_number(name: str, value: Any, meta):
         number = float(value)
     except OverflowError:  # of an integer
         number = math.inf
-    told = value if kind is int and math.isfinite(number) else number
     low, high = meta["bounds"]
+    told = value if kind is int and abs(number) < MOST_WHOLE else number
+    if kind is int and told is number:  # no array holds it
+        low, high = max(low, -MOST_WHOLE), min(high, MOST_WHOLE)
     in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
     return int(value) if kind is int else number
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..core.errors import InputError
 from .lattice import Lattice, Window
-from .names import import_error, said
+from .names import import_error, reason_of, said
 from .source import RasterSource
 
 FORMATS = "give a GeoTIFF, an ESRI ASCII grid or NetCDF"
@@ -46,7 +46,7 @@ def opened(path: Path) -> Iterator[Any]:
         except MemoryError as error:
             raise InputError(f"cannot read {path}: it does not fit into memory; give a window or a spacing") from error
         except (rasterio.errors.RasterioError, CPLE_BaseError, OSError, ValueError, TypeError, OverflowError) as error:
-            raise InputError(f"cannot read {path} as a raster: {error}; {FORMATS}") from error
+            raise InputError(f"cannot read {path} as a raster: {reason_of(error)}; {FORMATS}") from error
 
 
 def open_gdal(path: Path, choice: str | None, notes: list[str] | None) -> RasterSource:

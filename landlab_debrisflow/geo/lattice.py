@@ -7,6 +7,9 @@ import numpy as np
 
 Bounds = tuple[float, float, float, float]
 
+FARTHEST = 1e8
+"""Largest coordinate on a map [m]; the equator has 4e7 m, and no projection in metres goes much beyond."""
+
 
 class Window(NamedTuple):
     """Rectangle of nodes of a lattice.

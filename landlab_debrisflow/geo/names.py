@@ -32,6 +32,8 @@ def find_file(name: str | Path) -> tuple[Path, str | None]:
             path = Path(head)
         if not path.exists():
             raise InputError(f"cannot read {name}: there is no such file{_similar(path)}")
+        if not (path.is_file() or path.is_dir()):
+            raise InputError(f"cannot read {path}: it is a device or a pipe; give the name of a file")
         if path.is_file() and path.stat().st_size == 0:
             raise InputError(f"cannot read {path}: the file is empty")
     except (OSError, ValueError) as error:  # names that are too long or hold a zero byte
@@ -52,6 +54,13 @@ def said(notes: list[str] | None, note: str) -> None:
     """Append a note to the list of notes, if there is one."""
     if notes is not None:
         notes.append(note)
+
+
+def reason_of(error: BaseException) -> str:
+    """Return the message of the first cause of a failure, in one line and without advice on the library."""
+    while error.__cause__ is not None:
+        error = error.__cause__
+    return " ".join(str(error).split("; It might help")[0].split()).rstrip(". ") or type(error).__name__
 
 
 def import_error(error: ImportError) -> InputError:

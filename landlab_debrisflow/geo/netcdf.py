@@ -119,7 +119,8 @@ def _steps(path: Path, data, dim) -> tuple[float, float, int]:
     """Return the lowest coordinate, the signed step and the number of the coordinates along a dimension."""
     if dim not in data.coords or data[dim].dtype.kind not in "iuf":
         raise InputError(
-            f"cannot read {path}: the dimension {dim} has no coordinates, so its place on the map is not known"
+            f"cannot read {path}: the dimension {dim} has no coordinates, so its place on the map is not known; write "
+            "the centres of the cells [m] into variables x and y, or give a GeoTIFF"
         )
     values = np.asarray(data[dim].values, float)
     if values.size < 2 or not np.isfinite(values).all():

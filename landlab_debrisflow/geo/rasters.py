@@ -10,7 +10,7 @@ from ..core.errors import InputError
 from ..grid.fill_values import HUGE, code_of, is_fill
 from .ascii_grid import is_ascii_grid, open_ascii_grid
 from .gdal import open_gdal
-from .lattice import Bounds, Lattice, Window, extent
+from .lattice import FARTHEST, Bounds, Lattice, Window, extent
 from .names import find_file, said
 from .netcdf import is_netcdf, open_netcdf
 from .references import check_metric, metres_of_height, wkt_of
@@ -165,6 +165,11 @@ def _referenced(lattice: Lattice, crs: str | None, path: Path, notes: list[str] 
                 notes, f"{path.name}: no coordinate reference system is named; metres are assumed, maps will have none"
             )
         lattice = lattice._replace(crs=given)
+    if not np.abs(lattice.bounds).max() <= FARTHEST:  # also if it is not a number
+        raise InputError(
+            f"{path} covers {extent(lattice.bounds)} with cells of {lattice.spacing[0]:g} x {lattice.spacing[1]:g} m: "
+            f"no map reaches beyond {FARTHEST:g} m; correct its place and spacing"
+        )
     check_metric(lattice, path)
     return lattice
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from .lattice import Bounds, Lattice
+from .lattice import Bounds, Lattice, extent
 from .names import import_error
 
 LARGEST_DISTORTION = 0.02
@@ -48,6 +48,10 @@ def label_of(wkt: str | None) -> str:
     return f"{':'.join(code)} ({crs.name})" if code else crs.name
 
 
+LARGEST_ANGLE = 400.0
+"""Coordinates beyond are no degrees, also where longitudes are counted on past 360 [deg]."""
+
+
 def check_metric(lattice: Lattice, path: object) -> None:
     """Refuse a raster whose coordinates are not metres, with the command that reprojects it.
 
@@ -71,6 +75,12 @@ def check_metric(lattice: Lattice, path: object) -> None:
             )
         return
     crs = _crs_of(lattice.crs)
+    if crs.is_geographic and np.abs(lattice.bounds).max() > LARGEST_ANGLE:
+        raise InputError(
+            f"{path}: its coordinate reference system is in degrees ({label_of(lattice.crs)}), but its coordinates are "
+            f"not: {extent(lattice.bounds)}; assign the right one: gdal_edit.py -a_srs EPSG:CODE {path}, or rio "
+            f"edit-info {path} --crs EPSG:CODE"
+        )
     if crs.is_geographic:
         raise InputError(
             f"{path}: the coordinates are degrees ({label_of(lattice.crs)}), metres are needed; reproject the file: "

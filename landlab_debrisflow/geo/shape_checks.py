@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from .lattice import Bounds, extent
+from .lattice import FARTHEST, Bounds, extent
 from .names import said
 
 TYPES = {
@@ -52,6 +52,8 @@ def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, 
         geometry = shapely.force_2d(geometry)
         if not np.isfinite(shapely.get_coordinates(geometry)).all():
             raise InputError(f"{label} has coordinates that are not finite, or none in the system of the DEM")
+        if np.abs(shapely.get_coordinates(geometry)).max() > FARTHEST:
+            raise InputError(f"{label} has coordinates beyond {FARTHEST:g} m, where no map reaches; draw it anew")
         try:
             if kind == "polygon":
                 geometry = _mended(geometry, label, notes)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
-from .names import import_error, said
+from .names import import_error, reason_of, said
 
 FORMATS = "give a GeoPackage, GeoJSON or Shapefile"
 TEXT = (".csv", ".txt", ".tsv")
@@ -54,7 +54,7 @@ def read_features(path: Path, choice: str | None, notes: list[str] | None) -> An
             raise
         except failures as error:
             remedy = _missing_companion(path) or FORMATS
-            raise InputError(f"cannot read {path} as shapes: {error}; {remedy}") from error
+            raise InputError(f"cannot read {path} as shapes: {reason_of(error)}; {remedy}") from error
     if not isinstance(frame, geopandas.GeoDataFrame):
         raise InputError(f"cannot read {path} as shapes: it is a table without geometry; {FORMATS}")
     for warning in warned:

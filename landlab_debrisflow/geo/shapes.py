@@ -112,12 +112,13 @@ def read_shapes(
     if isinstance(source, str | Path):
         path, choice = find_file(source)
         geometries, records, own = _features(path, choice, notes)
-        name = path.name
+        name = single = path.name
+        each = f"{name} feature"
         geometries = _changed(geometries, own, crs, name, bounds, notes)
     else:
-        geometries, name = _made(source, kind), "coordinates"
+        geometries, name, single, each = _made(source, kind), f"{kind}s", f"the {kind}", kind
         records = [{} for _ in geometries]
-    labels = [f"{name} feature {k + 1}" if len(geometries) > 1 else f"{name}" for k in range(len(geometries))]
+    labels = [f"{each} {k + 1}" for k in range(len(geometries))] if len(geometries) > 1 else [single] * len(geometries)
     if not len(geometries):
         raise InputError(f"{name} holds no shapes; draw some, or choose another layer or file")
     geometries = check_features(geometries, labels, kind, notes)
@@ -125,7 +126,7 @@ def read_shapes(
         note_outside(geometries, labels, bounds, notes)
     if kind == "polygon":
         note_overlaps(geometries, name, notes)
-    return [Shape(*each) for each in zip(geometries, records, labels, strict=True)]
+    return [Shape(*one) for one in zip(geometries, records, labels, strict=True)]
 
 
 def _features(path: Path, choice: str | None, notes: list[str] | None):

@@ -1,8 +1,11 @@
 """Refusals of checkpoints whose contents cannot be those of a flow: kernels read no number of them unchecked."""
 
+from collections import ChainMap
+
 import numpy as np
 
 from ..core.errors import InputError
+from ..model.time_step import StepLimits
 from ..physics.contracts import WATER
 
 FREE = {
@@ -11,11 +14,31 @@ FREE = {
 }  # fmt: skip
 """Dimensions whose size depends on the moment."""
 
-OF_A_CALL = (
-    "call_rows", "bed_lowered_node", "bed_taken", "bed_before", "peak_maps_under", "peak_maps_passed",
-    "peak_maps_then",
-)  # fmt: skip
-"""Variables that are there if a call has begun, beside ``call_end``."""
+CALL = {
+    "call_end": (), "call_rows": ("call_begin_and_end",), "bed_lowered_node": ("bed_lowered",),
+    "bed_taken": ("bed_lowered",), "bed_before": ("bed_ground", "bed_lowered"),
+    "peak_maps_under": ("peak_maps_shown",), "peak_maps_passed": (), "peak_maps_then": (),
+}  # fmt: skip
+"""Dimensions of the variables that are there if a call has begun."""
+
+LOADED_BED = {
+    "bed_pressure_start": (), "bed_pressure_under": ("bed_pressure_loaded",), "bed_pressure_age": ("y", "x"),
+    "bed_pressure_load": ("y", "x"), "bed_pressure_ratio": ("y", "x"),
+}  # fmt: skip
+PARTNERS = {
+    "partners_of": ("grain",), "partners_count": ("grain",), "partners_index": ("grain", "partner"),
+    "partners_weight": ("grain", "partner"), "partners_generation": ("generation",),
+}  # fmt: skip
+SOIL_KEPT = {
+    "budget_stretches": ("budget_stretch", "budget_begin_and_end"),
+    "budget_copies": ("budget_backed_up", "budget_kept"),
+}  # fmt: skip
+LIMITS: dict[str, tuple] = {f"limits_{name}": () for name in StepLimits._fields}
+TOGETHER = CALL, LOADED_BED, LIMITS, PARTNERS, SOIL_KEPT
+"""Variables that are there together or not at all."""
+
+ALONE = dict.fromkeys(("node_event_eroded", "node_known_elevation", "node_known_status"), ("y", "x"))
+"""Further variables that are there at some moments."""
 
 FINITE = (
     "x", "y", "z", "velocity", "volume", "depth", "thickness", "least_thickness", "own_thickness", "share",
@@ -49,18 +72,23 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         If a variable is missing, of another type or shape, or has a number that cannot be.
     """
     names = [name for name in template.variables if "field" not in template[name].attrs]
-    if running := "call_end" in dataset:
-        names += OF_A_CALL
+    for group in TOGETHER:
+        names += group if any(name in dataset for name in group) else ()
+    running = "call_end" in dataset
     for name in names:
         if name not in dataset.variables:
             _refuse(f"it lacks the variable {name!r}")
         if name not in template.variables:
-            continue
+            continue  # its form is looked at below
         found, wanted = dataset.variables[name], template.variables[name]
         same = found.dims == wanted.dims and found.dtype.kind == wanted.dtype.kind
         sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}
         if not same or any(wanted.sizes[dim] != size for dim, size in sizes.items()):
             _refuse(f"{name!r} is {_words(found)} where {_words(wanted)} is expected")
+    for name, dimensions in ChainMap(*TOGETHER, ALONE).items():
+        found = dataset.variables.get(name)
+        if found is not None and (found.dims != dimensions or found.dtype.kind not in "iuf"):
+            _refuse(f"{name!r} is {_words(found)} where numbers over ({', '.join(dimensions)}) are expected")
     read = {name: data.values for name, data in dataset.variables.items()}
     _check_numbers(read, prefix, raster_shape, inflow_rows, running)
     for name in FINITE:

@@ -111,7 +111,14 @@ def read_checkpoint(path: str | os.PathLike[str]) -> xr.Dataset:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"cannot read checkpoint {path}: {error.strerror}{_alternative(path)}") from error
-    return _from_bytes(_checked(path, data))
+    content = _checked(path, data)
+    try:
+        return _from_bytes(content)
+    except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:
+        raise InputError(
+            f"{path} is no checkpoint that flow.save() wrote: its NetCDF cannot be read ({error}); give "
+            f"another{_alternative(path)}"
+        ) from error
 
 
 def _checked(path: Path, data: bytes) -> bytes:

@@ -25,19 +25,17 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     InputError
-        If the directory does not exist.
+        If there is no such directory, or if `path` is one.
     OutputError (an InputError)
-        If the directory may not be written to, or if `path` is a directory or a file that may not be replaced.
+        If the directory may not be written to, or the file may not be replaced.
     """
     path = Path(path)
     folder = path.parent
     if path.is_dir():
-        raise OutputError(f"cannot write {path}: it is a directory; give the name of a file in it")
+        raise InputError(f"cannot write {path}: it is a directory; give the name of a file in it")
     if not folder.is_dir():
-        remedy = "create it first (mkdir -p) or choose another"
-        if folder.exists():
-            raise OutputError(f"cannot write {path}: {folder} is not a directory; {remedy}")
-        raise InputError(f"cannot write {path}: {folder} does not exist; {remedy}")
+        word = "is not a directory" if folder.exists() else "does not exist"
+        raise InputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
     try:  # the only honest test: permission bits say nothing on read-only or full file systems
         with tempfile.TemporaryFile(dir=folder):
             pass
@@ -69,10 +67,10 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
     """
     path = Path(path)
     if not path.is_dir():
-        named, remedy = f"cannot write to {os.fspath(path)!r}", "create it first (mkdir -p) or choose another"
-        if path.exists():
-            raise OutputError(f"{named}: it is a file; {remedy}")
-        raise InputError(f"{named}: it does not exist; {remedy}")
+        word = "is a file" if path.exists() else "does not exist"
+        raise InputError(
+            f"cannot write to {os.fspath(path)!r}: it {word}; create it first (mkdir -p) or choose another"
+        )
     check_writable(path / "any")
     return path
 

@@ -2,6 +2,7 @@
 
 import logging
 import math
+from collections.abc import Callable
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +37,8 @@ class Monitor:
         Where the line is shown; standard error by default. None of it is shown where that is no terminal.
     live : bool
         Whether a line is shown at all.
+    clock : callable
+        Returns the wall time [s].
 
     Attributes
     ----------
@@ -45,7 +48,10 @@ class Monitor:
 
     interval = math.inf
 
-    def __init__(self, console: "Console | None" = None, live: bool = True) -> None:
+    def __init__(
+        self, console: "Console | None" = None, live: bool = True, clock: Callable[[], float] = monotonic
+    ) -> None:
+        self._clock = clock
         self._estimate = EndEstimate()
         self._display = _display(console) if live else None
         self._due = self._due_in_log = -math.inf
@@ -73,7 +79,7 @@ class Monitor:
         began, time : float
             Elapsed times between which the step was [s].
         """
-        now = monotonic()
+        now = self._clock()
         if now < self._due:
             return
         self._due = now + (LIVE if self._display else 1.0)
@@ -94,7 +100,7 @@ class Monitor:
         mass = f"{grouped(budget['moving'] + budget['deposited'])} m3"
         self.line = f"{flow.elapsed_time:.1f} s, {'at rest' if flow.at_rest else 'nothing moves'}, {mass} deposited"
         self._due_in_log = -math.inf
-        self._show(monotonic())
+        self._show(self._clock())
 
     def close(self) -> None:
         """End the line that is shown, so that something else can be printed."""

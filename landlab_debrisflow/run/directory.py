@@ -195,9 +195,7 @@ class OutputDirectory:
             return
         self._remove_checkpoints()
         folder = self.path.resolve()
-        for name in self.record.files:
-            if not isinstance(name, str) or not name or Path(name).is_absolute() or ".." in Path(name).parts:
-                continue
+        for name in self.record.results:
             for path in sorted(self.path.glob(name)):
                 if not path.parent.resolve().is_relative_to(folder):
                     continue

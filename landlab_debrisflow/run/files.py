@@ -14,8 +14,25 @@ LOCK = ".lock"
 UNFINISHED = ".unfinished"
 """Directory in that of the results where these are written before they appear."""
 
+SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg")
+"""Endings of the files that runs write."""
+
 BESIDE = (".shx", ".dbf", ".prj", ".cpg", ".aux.xml")
 """Endings of files that belong to one of another name."""
+
+
+def is_result(name: Any) -> bool:
+    """Return whether runs write files of a name into their directory; ``*`` may stand in the directory of the series.
+
+    Examples
+    --------
+    >>> is_result("maps.nc"), is_result("series/maps_*.nc"), is_result("*.nc"), is_result("../maps.nc")
+    (True, True, False, False)
+    """
+    if not isinstance(name, str) or "**" in name or any(character in name for character in "?[\\\0"):
+        return False
+    folder, _, last = name.rpartition("/")
+    return folder in ("", SERIES) and last.endswith(SUFFIXES) and (folder == SERIES or "*" not in last)
 
 
 def input_digests(mapping: Mapping[str, Any], folder: Path) -> dict[str, str]:

@@ -146,8 +146,7 @@ def forecast(scene: Scene) -> Forecast:
     Pastor et al. (2022) for T_c, T_e and Pe_b; Monaghan (1992) for the Courant condition, see docs/theory.md.
     """
     check_mass(scene)
-    _ = scene.places  # what is measured where must be on the map, too
-    releases = scene.releases
+    releases, _ = scene.releases, scene.places
     grid = scene.grid()
     area = grid.dx * grid.dy
     start, pilot = run_start(scene), run_pilot(scene)

@@ -3,7 +3,7 @@
 import dataclasses
 import logging
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import perf_counter, process_time
 from typing import Any, NamedTuple
@@ -118,7 +118,8 @@ class _Steps:
 
     interval = math.inf
 
-    def __init__(self, node_spacing: float, longest: float):
+    def __init__(self, node_spacing: float, longest: float, clock: Callable[[], float] = process_time):
+        self._cpu = clock
         self._way, self._longest, self._began = TERRAIN_FRACTION * node_spacing, longest, perf_counter()
         self.steps: list[tuple[float, float]] = []
         self._clock: list[float] = []
@@ -130,7 +131,7 @@ class _Steps:
 
     def follow(self, particles: Any, began: float, time: float) -> None:
         """Note a step from `began` to `time` [s] of `particles`."""
-        self._clock.append(process_time())
+        self._clock.append(self._cpu())
         self.particles = max(self.particles, particles.volume.size)
         if time > began:
             awake = slice(particles.awake)

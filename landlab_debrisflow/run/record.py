@@ -11,7 +11,7 @@ from ..core.errors import InputError
 from ..core.version import __version__
 from ..record.files import write_atomically
 from ..scene.digest import digest
-from .files import input_digests
+from .files import input_digests, is_result
 
 FORMAT = 1
 """Version of the record."""
@@ -97,9 +97,17 @@ class RunRecord:
                 f"{FORMAT}; run the scene with another output directory"
             )
         kinds = {"scene": dict, "inputs": dict, "digest": str, "files": list, "state": str, "budget": dict}
+        kinds |= {"elapsed_time": float | int, "at_rest": bool, "scene_file": str | None, "version": str}
         if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
             raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
+        if not all(isinstance(volume, float | int) for volume in values["budget"].values()):
+            raise InputError(f"{path} is no whole record of a run: its budget is {values['budget']!r:.60}")
         return cls(**{name: value for name, value in values.items() if name in names})
+
+    @property
+    def results(self) -> list[str]:
+        """Names of `files` that runs write; a record is a file as others are, and may list anything."""
+        return [name for name in self.files if is_result(name)]
 
     def write(self, path: Path) -> None:
         """Write the record, atomically."""

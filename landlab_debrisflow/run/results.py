@@ -65,7 +65,7 @@ class Results:
     @property
     def files(self) -> list[Path]:
         """Files of the results."""
-        return sorted(path for name in self.record.files for path in self.directory.glob(name))
+        return sorted(path for name in self.record.results for path in self.directory.glob(name))
 
     @property
     def maps(self) -> xr.Dataset:

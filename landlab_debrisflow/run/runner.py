@@ -120,9 +120,9 @@ def _compute(
 ) -> Results:
     """Run the flow that `build` returns when it is given observers, and write the results of its scene."""
     monitor = monitor or Monitor()
-    monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
     flow = None
     try:
+        monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
         directory.note(state=RUNNING)
         if scene.text is not None:
             directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))

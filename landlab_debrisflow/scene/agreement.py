@@ -46,17 +46,19 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
             hint = did_you_mean(name, legal)
             raise ParameterError(f"load: unknown keyword {name!r}{hint}; allowed: grid, observers, {', '.join(legal)}")
     written, digests = written_mapping(dataset), json.loads(dataset.attrs["law_digests"])
+    if foreign := digests.keys() - LAWS.keys():
+        raise ParameterError(f"load: the checkpoint has a law of the kind {min(foreign)!r}, of which there is none")
     for kind in digests:
         if kind not in given:
             raise ParameterError(
-                f"load: the {kind} law of the checkpoint is a {written[kind]['law']}, which no file can hold; give the "
-                f"same again: {kind}=..."
+                f"load: the {kind} law of the checkpoint is a {written[kind].get('law')}, which no file can hold; give "
+                f"the same again: {kind}=..."
             )
-    setup = Setup(**(written | dict(given)))
+    setup = Setup.from_mapping(written | dict(given))
     now = setup.to_mapping()
     for name in given:
         law = getattr(setup, name)
-        if (different := _difference(written[name], now[name])) or (
+        if (different := _difference(written.get(name), now[name])) or (
             name in digests and _digest(name, law) != digests[name]
         ):
             words = different or "it prints the same, but consists of something else"

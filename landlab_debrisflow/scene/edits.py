@@ -21,6 +21,8 @@ CREST_WIDTH = 3.0
 """Of a dam, if it is not given [m]."""
 SLOPES = {"dam": math.degrees(math.atan(2.0 / 3.0)), "excavation": 45.0}
 """Of the sides, if it is not given [deg]."""
+FARTHEST = 100.0
+"""Length of a line over the diagonal of the terrain, from which on it is not meant [-]."""
 FAR = 4.0
 """Width of a side over that on level ground, from which on the user is told."""
 SQUARE = np.ones((FEWEST_ACROSS, FEWEST_ACROSS), bool)
@@ -138,6 +140,13 @@ def _crest(edit: Edit, shape: Shape, ground: Ground) -> tuple[np.ndarray, np.nda
     line, lattice = shape.geometry, ground.lattice
     if edit.crest_elevation is not None:
         return np.array([0.0, line.length]), np.full(2, edit.crest_elevation)
+    rows, columns = lattice.shape
+    extent = math.hypot(rows * lattice.spacing[1], columns * lattice.spacing[0])
+    if line.length > FARTHEST * extent:
+        raise InputError(
+            f"{shape.label} is {line.length:.4g} m long, the terrain has {extent:.4g} m from corner to corner; draw "
+            "the line where the terrain is"
+        )
     count = math.ceil(line.length / (0.5 * min(lattice.spacing))) + 1
     stations = np.linspace(0.0, line.length, count)
     points = np.array([line.interpolate(station).coords[0][:2] for station in stations])

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..core.errors import InputError
 from ..core.hints import number_in
+from ..geo.names import find_file
 
 MOST_BYTES = 5_000_000
 COLUMNS = {"time": ("time", "t"), "discharge": ("discharge", "q", "flow")}
@@ -54,6 +55,7 @@ def read_hydrograph(path: Path) -> tuple[tuple[float, float], ...]:
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
     """Return number and cells of every line that is not empty and no comment (#)."""
     try:
+        path, _ = find_file(path)
         if path.stat().st_size > MOST_BYTES:
             raise InputError(f"cannot read {path}: it has more than {MOST_BYTES / 1e6:g} MB, too much for a hydrograph")
         text = path.read_text(encoding="utf-8-sig")

@@ -8,6 +8,9 @@ from ..core.checks import in_range, require
 from ..core.errors import InputError
 from .fall_lines import fall_to_exit
 
+TALLEST = 1e5
+"""Largest relief of the ground that is computed with [m]; beyond, its values rather mark missing data."""
+
 CALLER = "failure_surface: "
 
 
@@ -84,6 +87,12 @@ def read_outline(inside: Any, elevation: Any, spacing: Any) -> Outline:
         "cut the outline where there are no data", "g", InputError,
     )  # fmt: skip
     ground[~np.isfinite(ground)] = np.nan
+    relief = float(np.nanmax(ground) - np.nanmin(ground))
+    if not relief <= TALLEST:
+        raise InputError(
+            f"{CALLER}elevation has a relief of {relief:.4g} m, more than any mountain; is it in m, and are missing "
+            "values NaN?"
+        )
     steps = np.broadcast_to(np.asarray(spacing, float), 2) if np.size(spacing) in (1, 2) else np.full(2, np.nan)
     require(
         np.all(np.isfinite(steps) & (steps > 0.0)), f"{CALLER}spacing", "be one or two lengths > 0 m", spacing,

@@ -185,7 +185,7 @@ class _Reader:
         lines = self._text.split("\n")
         if mark is not None and mark.line < len(lines) and "\t" in lines[mark.line][: mark.column + 1]:
             return "; indent with blanks, not with tabs"
-        return "; put text with : or # into quotes" if "mapping values" in words else ""
+        return "; put text with : # ` @ or % into quotes" if re.search("mapping values|cannot start", words) else ""
 
     def _refuse(self, event, words: str):
         raise InputError(f"{self._place(event.start_mark)}: {words}")

@@ -119,7 +119,7 @@ def polygon_depths(keys: ReleaseKeys, ground: Ground, folder: Path) -> Iterator[
 
 
 def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
-    mean_depth, volume = _amount(keys, shape)
+    amount = _amount(keys, shape)
     fraction, notes = covered_fraction(shape.geometry, ground.lattice), []
     whole = float(shape.geometry.area)
     usable = np.where(ground.core, fraction, 0.0)
@@ -131,23 +131,23 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
             "use a larger DEM, or move the polygon"
         )
     if inside < 0.999 * whole:
-        kept = "the volume is kept" if volume is not None else "what lies there is left out"
+        kept = "the volume is kept" if "volume" in amount else "what lies there is left out"
         notes.append(
             f"{shape.label}: {100.0 * (1.0 - inside / whole):.3g} % of it lie outside, on the edge of the grid or "
             f"without elevation; {kept}"
         )
     if keys.from_ == "above" or keys.failure_surface == "uniform":
-        return Body(usable * (mean_depth if volume is None else volume / inside), notes)
-    return Body(_failing_depth(keys, usable, mean_depth, volume, ground, shape.label), notes)
+        (name, value), *_ = amount.items()
+        return Body(usable * (value / inside if name == "volume" else value), notes)
+    return Body(_failing_depth(keys, usable, amount, ground, shape.label), notes)
 
 
 def _failing_depth(
-    keys: ReleaseKeys, usable: np.ndarray, mean_depth: float | None, volume: float | None, ground: Ground, label: str
+    keys: ReleaseKeys, usable: np.ndarray, amount: dict[str, float], ground: Ground, label: str
 ) -> np.ndarray:
     """Return the depth of the body that fails within an outline [m]; only the nodes around it are looked at.
 
-    `usable` is the fraction of each cell inside [-], shape (rows, columns); of `mean_depth` [m] and `volume` [m3] one
-    is None.
+    `usable` is the fraction of each cell inside [-], shape (rows, columns); `amount` as `_amount` returns it.
     """
     rows, columns = np.nonzero(usable)
     near = slice(rows.min() - 1, rows.max() + 2), slice(columns.min() - 1, columns.max() + 2)  # the rim has no release
@@ -158,33 +158,37 @@ def _failing_depth(
             ground.elevation[near],
             ground.lattice.spacing,
             kind=kind,
-            mean_depth=mean_depth,
-            volume=volume,
+            **amount,
         )
     except InputError as error:
         raise InputError(f"{label}: {error}; in a scene that is from: above") from error
     return depth
 
 
-def _amount(keys: ReleaseKeys, shape: Shape) -> tuple[float | None, float | None]:
-    """Return mean depth [m] and volume [m3] of a polygon, of which one is None."""
+AMOUNTS = {"depth": "mean_depth", "largest_depth": "largest_depth", "volume": "volume"}
+"""Attributes and keys that say how much of a polygon fails, and what they are to `failure_surface`."""
+
+
+def _amount(keys: ReleaseKeys, shape: Shape) -> dict[str, float]:
+    """Return how much of a polygon fails: mean depth [m], largest depth [m] or volume [m3], by its name."""
     attributes = {str(name).lower(): value for name, value in shape.attributes.items()}
-    found = {name: number for name in ("depth", "volume") if (number := _number(name, attributes, shape)) is not None}
-    if len(found) == 2:
-        raise InputError(f"{shape.label} has both a depth and a volume; keep the one that counts")
+    found = {name: number for name in AMOUNTS if (number := _number(name, attributes, shape)) is not None}
+    if len(found) > 1:
+        raise InputError(f"{shape.label} has both a {' and a '.join(found)}; keep the one that counts")
     if not found:
-        found = {name: getattr(keys, name) for name in ("depth", "volume") if getattr(keys, name) is not None}
+        found = {name: getattr(keys, name) for name in AMOUNTS if getattr(keys, name) is not None}
     if not found:
         names = list(shape.attributes)
-        near = "".join(did_you_mean(name, ("depth", "volume")) for name in names)
+        near = "".join(did_you_mean(name, AMOUNTS) for name in names)
         told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attributes"
         raise InputError(
             f"{shape.label} has neither an attribute depth [m] nor volume [m3] with a value; {told}; add one, or the "
             "key depth or volume to the release"
         )
-    if found.get("depth", 0.0) > MOST_DEPTH:
-        raise InputError(f"{shape.label}: depth must be at most {MOST_DEPTH:g} m, got {found['depth']:g}; give metres")
-    return found.get("depth"), found.get("volume")
+    (name, value), *_ = found.items()
+    if name != "volume" and value > MOST_DEPTH:
+        raise InputError(f"{shape.label}: {name} must be at most {MOST_DEPTH:g} m, got {value:g}; give metres")
+    return {AMOUNTS[name]: value}
 
 
 def _number(name: str, attributes: dict[str, Any], shape: Shape) -> float | None:

@@ -10,7 +10,7 @@ SURFACES = ("tapered", "sloping_local_base_level", "ellipsoid", "uniform")
 KINDS = ("polygons", "raster", "points")
 """Keys of which a release has exactly one."""
 KINDS_OF = {
-    "depth": ("polygons",), "volume": ("polygons",), "failure_surface": ("polygons",),
+    "depth": ("polygons",), "largest_depth": ("polygons",), "volume": ("polygons",), "failure_surface": ("polygons",),
     "from": ("polygons", "raster"), "velocity": ("polygons", "raster"), "speed": ("polygons", "raster", "points"),
     "hydrograph": ("points",), "width": ("points",),
 }  # fmt: skip
@@ -34,6 +34,9 @@ class ReleaseKeys:
     )  # fmt: skip
     depth: float | None = parameter(
         "m", "mean depth, vertical, of polygons without an attribute", None, (0.0, None), open_below=True
+    )
+    largest_depth: float | None = parameter(
+        "m", "largest depth, vertical, of polygons without an attribute", None, (0.0, None), open_below=True
     )
     volume: float | None = parameter(
         "m3", "volume of each polygon without an attribute", None, (0.0, None), open_below=True
@@ -72,9 +75,9 @@ class ReleaseKeys:
                 raise ParameterError(
                     f"release: {key} belongs to {' or '.join(kinds)}, not to {self.kind}; leave it out"
                 )
-        for one, other in (("depth", "volume"), ("velocity", "speed")):
-            if self._is_set(one) and self._is_set(other):
-                raise ParameterError(f"release: give {one} or {other}, not both")
+        for names in (("depth", "largest_depth", "volume"), ("velocity", "speed")):
+            if len(given := [name for name in names if self._is_set(name)]) > 1:
+                raise ParameterError(f"release: give {' or '.join(given)}, not both")
         if self.from_ == "above" and self.failure_surface is not None:
             raise ParameterError(
                 "release: failure_surface shapes what fails out of the ground, but from is above; leave one of them out"

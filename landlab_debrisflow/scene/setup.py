@@ -235,16 +235,21 @@ def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
         raise ParameterError("Setup: the Dataset has no attribute 'setup'; give the maps or snapshots of a flow")
     try:
         mapping: dict[str, Any] = json.loads(dataset.attrs["setup"])
-    except ValueError as error:
+    except (TypeError, ValueError, RecursionError) as error:
         raise ParameterError(
             f"Setup: the attribute 'setup' of the Dataset is no JSON ({error}), so this package did not write it, "
             "or it was changed; give the maps or snapshots of a flow as they were written"
         ) from error
+    if not isinstance(mapping, dict) or not all(isinstance(mapping.get(kind), dict) for kind in LAWS):
+        raise ParameterError(
+            f"Setup: the attribute 'setup' of the Dataset must have a mapping for each of {', '.join(LAWS)}; give the "
+            "maps or snapshots of a flow as they were written"
+        )
     for kind in LAWS:
         for key, value in mapping[kind].items():
             if not isinstance(value, Mapping):
                 continue
-            if (name := value["variable"]) not in dataset:
+            if (name := value.get("variable")) not in dataset:
                 raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")
             mapping[kind][key] = dataset[name].values.reshape(-1)
     return mapping

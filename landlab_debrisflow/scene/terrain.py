@@ -151,7 +151,8 @@ def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: l
     """Return lattice and elevation of the terrain, of another spacing if that is asked for."""
     own, spacing = source.lattice, keys.spacing
     if min(window.shape) < SMALLEST:
-        raise InputError(f"{source.path} has {window.shape} nodes, at least {SMALLEST} x {SMALLEST} are needed")
+        rows, columns = window.shape
+        raise InputError(f"{source.path} has {rows} x {columns} nodes, at least {SMALLEST} x {SMALLEST} are needed")
     if spacing is None or np.allclose(spacing, own.spacing, rtol=1e-6):
         return own.cut(window), read_window(source, window, missing=keys.nodata, notes=notes)
     west, south, east, north = own.bounds
@@ -178,7 +179,7 @@ def _note_missing(elevation: np.ndarray, notes: list[str]) -> None:
         _note_filled(elevation, value, notes)
     missing = np.isnan(elevation)
     if missing.all():
-        raise InputError("elevation: there are no data in the window; choose another one")
+        raise InputError("elevation: there are no data in the window, all is NODATA; choose another window or DEM")
     if not missing.any():
         return
     areas, count = label(missing)

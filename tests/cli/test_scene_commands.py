@@ -62,7 +62,7 @@ def test_a_log_gets_what_standard_error_does_not(scene, tmp_path, capsys):
     assert capsys.readouterr() == ("", "")
     log = (tmp_path / "run.log").read_text(encoding="utf-8")
     assert ", moving " in log and "warning: not at rest after 3 s" in log
-    assert "cannot write" in refused(["run", scene, "--log", "no/run.log"], exit_codes.CANNOT_WRITE, capsys)
+    assert "cannot write" in refused(["run", scene, "--log", "no/run.log"], exit_codes.USER_ERROR, capsys)
 
 
 @pytest.mark.slow
@@ -114,13 +114,13 @@ def test_results_that_cannot_be_written(scene, tmp_path, capsys):
         (ZeroDivisionError("a\nb"), exit_codes.INTERNAL_ERROR, "internal error, ZeroDivisionError: a b"),
     ],
 )
-def test_failures_have_codes(failure, code, words, scene, capsys, monkeypatch):
-    def fail(*_, **__):
+def test_failures_have_codes(failure, code, words, capsys, monkeypatch):
+    def fail():
         raise failure
 
     monkeypatch.delenv("LANDLAB_DEBRISFLOW_TRACEBACK", raising=False)
-    monkeypatch.setattr(runner, "run_scene", fail)
-    assert words in refused(["run", scene], code, capsys)
+    assert main.exit_code(fail) == code
+    assert words in capsys.readouterr().err
 
 
 def test_a_new_scene_and_its_schema(tmp_path, monkeypatch, capsys):

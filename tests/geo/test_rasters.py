@@ -291,6 +291,28 @@ def test_degrees_are_refused_with_the_command_that_reprojects(tmp_path):
     assert f"rio warp {path} out.tif --dst-crs EPSG:32633" in str(refusal.value)
 
 
+@pytest.mark.parametrize("place", [(1e300, 0.0, WEST, 0.0, -1e300, NORTH), (5.0, 0.0, 1e15, 0.0, -5.0, NORTH)])
+def test_no_map_reaches_so_far(tmp_path, place):
+    path = write_tiff(tmp_path / "dem.tif", Z, transform=Affine(*place))
+    with pytest.raises(InputError, match=r"no map reaches beyond 1e\+08 m"):
+        read_raster(path)
+
+
+def test_degrees_that_are_none(tmp_path):
+    """A system in degrees over coordinates in metres is a wrong system: to reproject from it would lead nowhere."""
+    path = write_tiff(tmp_path / "dem.tif", Z, crs="EPSG:4326")
+    with pytest.raises(InputError, match=r"in degrees .* but its coordinates are not: x .* gdal_edit.py -a_srs"):
+        read_raster(path)
+
+
+def test_a_file_cut_off_names_the_reason_of_the_library(tmp_path):
+    path = write_tiff(tmp_path / "dem.tif", Z)
+    path.write_bytes(path.read_bytes()[:-300])
+    with pytest.raises(InputError, match=r"(?i)read error") as failure:
+        read_raster(path)
+    assert "previous exception" not in str(failure.value) and ".;" not in str(failure.value)
+
+
 def test_degrees_that_no_file_names(tmp_path):
     path = write_tiff(tmp_path / "dem.tif", Z, crs=None, transform=placed(-70.2, -33.4, 2e-4, 2e-4))
     with pytest.raises(InputError, match=r"look like degrees.*-s_srs EPSG:4326 -t_srs EPSG:32719"):

@@ -242,3 +242,9 @@ def test_attributes_that_are_not_set(tmp_path):
 def test_numbers_that_are_text(tmp_path):
     (shape,) = read_shapes(write(tmp_path / "a.gpkg", SQUARE, depth=["1.5"]))
     assert shape.number("depth") == 1.5
+
+
+def test_coordinates_beyond_the_earth_are_refused():
+    line = [[0.0, 0.0], [-9.2e18, 10.0]]
+    with pytest.raises(InputError, match=r"the line has coordinates beyond 1e\+08 m"):
+        read_shapes([line], kind="line")

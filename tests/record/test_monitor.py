@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from landlab_debrisflow.record import monitor
 from landlab_debrisflow.record.end_estimate import EndEstimate
 from landlab_debrisflow.record.monitor import Monitor, NotebookLine
 
@@ -25,10 +24,10 @@ def particles(speed=3.0, count=4):
 
 
 @pytest.fixture
-def clock(monkeypatch):
+def clock():
     """A clock on the wall that goes on by a second whenever it is read."""
     seconds = itertools.count(100.0)
-    monkeypatch.setattr(monitor, "monotonic", lambda: next(seconds))
+    return lambda: next(seconds)
 
 
 def terminal(width=100):
@@ -37,7 +36,7 @@ def terminal(width=100):
 
 def test_a_terminal_shows_time_volume_front_and_speed(clock):
     console = terminal()
-    shown = Monitor(console)
+    shown = Monitor(console, clock=clock)
     shown.follow(particles(), 11.5, 12.0)
     assert console.file.getvalue() == "\r\x1b[2K12.0 s, moving 1 500 m3 at up to 3.0 m/s, front at 800 m"
     shown.close()
@@ -47,13 +46,12 @@ def test_a_terminal_shows_time_volume_front_and_speed(clock):
 
 def test_a_narrow_terminal_gets_one_line(clock):
     console = terminal(width=20)
-    Monitor(console).follow(particles(), 11.5, 12.0)
+    Monitor(console, clock=clock).follow(particles(), 11.5, 12.0)
     assert console.file.getvalue().removeprefix("\r\x1b[2K") == "12.0 s, moving 1 50"
 
 
-def test_nothing_is_read_between_two_updates(monkeypatch):
-    monkeypatch.setattr(monitor, "monotonic", lambda: 100.0)
-    shown = Monitor(terminal())
+def test_nothing_is_read_between_two_updates():
+    shown = Monitor(terminal(), clock=lambda: 100.0)
     shown.follow(particles(), 0.0, 1.0)
     shown.follow(None, 1.0, 2.0)
     assert shown.line.startswith("1.0 s")
@@ -61,7 +59,7 @@ def test_nothing_is_read_between_two_updates(monkeypatch):
 
 def test_a_file_gets_nothing_and_a_log_a_line_every_half_minute(clock, caplog):
     stream = io.StringIO()
-    shown = Monitor(Console(file=stream))
+    shown = Monitor(Console(file=stream), clock=clock)
     with caplog.at_level(logging.INFO, "landlab_debrisflow.progress"):
         for time in range(100):  # two readings of the clock would be 2 s; one is 1 s
             shown.follow(particles(), time, time + 1.0)
@@ -70,7 +68,7 @@ def test_a_file_gets_nothing_and_a_log_a_line_every_half_minute(clock, caplog):
 
 
 def test_the_last_line_is_logged_once(clock, caplog):
-    shown = Monitor(live=False)
+    shown = Monitor(live=False, clock=clock)
     with caplog.at_level(logging.INFO, "landlab_debrisflow.progress"):
         for time in (1.0, 2.0, 3.0):
             shown.follow(particles(), time - 1.0, time)
@@ -79,9 +77,9 @@ def test_the_last_line_is_logged_once(clock, caplog):
     assert [record.getMessage()[:5] for record in caplog.records] == ["1.0 s", "3.0 s"]
 
 
-def test_a_remark_is_logged_once(caplog):
+def test_a_remark_is_logged_once(clock, caplog):
     console = terminal()
-    shown = Monitor(console)
+    shown = Monitor(console, clock=clock)
     with caplog.at_level(logging.INFO, "landlab_debrisflow.progress"):
         shown.say("compiling")
         shown.say("compiling")
@@ -104,14 +102,14 @@ def test_a_notebook_line_is_replaced(monkeypatch):
 
 
 def test_rest_is_told_with_the_deposit(clock):
-    shown = Monitor(live=False)
+    shown = Monitor(live=False, clock=clock)
     budget = {"moving": 0.0, "deposited": 12345.6}
     shown.observe(SimpleNamespace(elapsed_time=61.5, at_rest=True, budget=budget))
     assert shown.line.strip() == "61.5 s, at rest, 12 346 m3 deposited"
 
 
 def test_the_end_is_a_bound_until_the_energy_falls(clock):
-    shown = Monitor(live=False)
+    shown = Monitor(live=False, clock=clock)
     shown.expect(until=101.0, rest_energy=1e-4)
     for time in (0.0, 1.0):
         shown.follow(particles(), time - 0.5, time)

@@ -36,10 +36,9 @@ def test_steps_that_waves_limit_are_shorter_with_more_particles():
     assert pilot([(0.1, 0.15)]).steps_with(25) == pytest.approx(0.1 / 0.15)  # longer, until the terrain limits them
 
 
-def test_costs_of_steps_are_those_of_the_whole_run_over_those_of_the_start(monkeypatch):
+def test_costs_of_steps_are_those_of_the_whole_run_over_those_of_the_start():
     times = iter(np.cumsum([1.0] * 25 + [3.0] * 75))
-    monkeypatch.setattr(pilots, "process_time", lambda: next(times))
-    steps = pilots._Steps(5.0, 60.0)
+    steps = pilots._Steps(5.0, 60.0, lambda: next(times))
     still = SimpleNamespace(
         awake=1, velocity=np.ones((3, 1)), volume=np.ones(1), entrainment_rate=np.zeros(1), depth=np.ones(1)
     )

@@ -153,13 +153,13 @@ def test_a_full_disk_at_the_end_leaves_no_half_results(whole, tmp_path, monkeypa
 
 
 @pytest.mark.slow
-def test_a_failure_before_the_first_step_leaves_nothing(tmp_path, monkeypatch):
-    def refuse(*_):
-        raise RuntimeError("no")
+def test_a_failure_before_the_first_step_leaves_nothing(tmp_path):
+    class Refusing(Monitor):
+        def expect(self, *_):
+            raise RuntimeError("no")
 
-    monkeypatch.setattr(runner, "Observers", refuse)
     with pytest.raises(RuntimeError, match="no") as failure:
-        run_scene(scene(tmp_path), **QUIET)
+        run_scene(scene(tmp_path), monitor=Refusing(live=False))
     assert failure.value.__notes__ == ["nothing was kept"]
     assert not list(tmp_path.iterdir())
 

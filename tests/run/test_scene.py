@@ -123,7 +123,7 @@ def test_places_from_files(tmp_path):
     twice.to_file(tmp_path / "twice.gpkg")
     for output, words in (
         ({"gauges": "twice.gpkg"}, "both named '7'"), ({"sections": "named.gpkg"}, "line"),
-        ({"gauges": {"far": [0.0, 0.0]}}, "output: gauges: far: coordinates lies wholly outside"),
+        ({"gauges": {"far": [0.0, 0.0]}}, "output: gauges: far: the point lies wholly outside"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=words):
             _ = Scene.from_mapping(MAPPING | {"output": output}, tmp_path).places

@@ -86,6 +86,11 @@ def test_a_dam_of_a_few_nodes_is_refused_with_a_spacing(tmp_path):
         edited(tmp_path, {"dam": small, "crest_height": 0.5, "crest_width": 1.0})
 
 
+def test_a_line_far_longer_than_the_terrain_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"edits\[0\]: dam.* is 5e\+07 m long, the terrain has 360.6 m from corner"):
+        edited(tmp_path, {"dam": [place((150.0, 20.0))[0], [WEST - 5e7, NORTH - 20.0]], "crest_height": 5.0})
+
+
 # ---- walls ----
 
 

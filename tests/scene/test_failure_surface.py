@@ -274,6 +274,13 @@ def test_what_cannot_be_used_is_told(changes, message):
         failure_surface(**arguments)
 
 
+def test_a_fall_beyond_all_mountains_is_refused():
+    x, y, z = plane()
+    z[:, :18] = 1e15
+    with pytest.raises(InputError, match=r"elevation has a relief of 1e\+15 m, more than any mountain"):
+        failure_surface(disc(x, y), z, 2.0, mean_depth=1.0)
+
+
 def test_arguments_stay_as_they_are():
     x, y, z = plane()
     z[0, 0] = np.inf

@@ -9,7 +9,7 @@ from landlab import RasterModelGrid
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import Scene
-from landlab_debrisflow.core.errors import InputError
+from landlab_debrisflow.core.errors import InputError, ParameterError
 from landlab_debrisflow.scene.gully import LATTICE
 from landlab_debrisflow.scene.releases import ScheduledRelease, set_release
 
@@ -210,3 +210,11 @@ def test_a_release_at_rest_slows_a_moving_one_on_its_nodes():
     set_release(grid, ScheduledRelease(0.0, depth, "ground", np.stack([2.0 * (depth > 0.0), 0.0 * depth])))
     set_release(grid, ScheduledRelease(0.0, 3.0 * depth, "ground", None))
     assert grid.at_node["debris_flow__release_velocity_x"][2 * 7 + 3] == pytest.approx(0.5, rel=1e-12)
+
+
+@pytest.mark.parametrize("surface", ["tapered", "ellipsoid", "uniform"])
+def test_the_largest_depth_is_met(surface):
+    found = only({"polygons": HEAD, "largest_depth": 1.5, "failure_surface": surface})
+    assert found.depth.max() == pytest.approx(1.5, rel=1e-12)
+    with pytest.raises(ParameterError, match="give depth or largest_depth, not both"):
+        scene({"polygons": HEAD, "depth": 1.0, "largest_depth": 1.5})
