@@ -9,7 +9,7 @@ from ..core.words import duration_text, grouped
 from .advance import check_mass
 from .doubts import scene_doubts
 from .memory import peak_memory
-from .pilot import run_pilot, run_start
+from .pilot import Pilot, Start, run_pilot, run_start
 from .scene import Scene
 
 FACTOR = 2.0
@@ -149,9 +149,7 @@ def forecast(scene: Scene) -> Forecast:
     releases, _ = scene.releases, scene.places
     grid = scene.grid()
     area = grid.dx * grid.dy
-    start, pilot = run_start(scene), run_pilot(scene)
-    if start.seconds > COMPILED:
-        start, pilot = run_start(scene), run_pilot(scene)
+    start, pilot = timed_runs(scene)
     steps = pilot.steps_with(start.particles)
     return Forecast(
         nodes=grid.shape, spacing=(grid.dx, grid.dy),
@@ -163,6 +161,12 @@ def forecast(scene: Scene) -> Forecast:
         seconds=start.seconds + steps * start.seconds_per_step * pilot.cost_ratio, memory=peak_memory(),
         notes=tuple(scene.notes), doubts=(*scene_doubts(scene), *start.doubts),
     )  # fmt: skip
+
+
+def timed_runs(scene: Scene, run_start=run_start, run_pilot=run_pilot) -> tuple[Start, Pilot]:
+    """Return outcomes of the first steps and of the pilot run of a scene, neither timed while kernels compile."""
+    start, pilot = run_start(scene), run_pilot(scene)
+    return (run_start(scene), run_pilot(scene)) if start.seconds > COMPILED else (start, pilot)
 
 
 def _inflow_volume(scene: Scene) -> float:

@@ -55,7 +55,7 @@ def scene_text(
     notes: Mapping[str, str] | None = None, settings: Mapping[str, Mapping[str, Any]] | None = None,
     full: bool = False,
 ) -> str:  # fmt: skip
-    """Return the text of a scene file with some keys set and others as comments.
+    """Return the text of a scene file with some keys set and other keys as comments.
 
     Parameters
     ----------

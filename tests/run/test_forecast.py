@@ -11,8 +11,8 @@ import pytest
 from landlab_debrisflow import InputError, Scene
 from landlab_debrisflow.run import pilot as pilots
 from landlab_debrisflow.run.doubts import below_lip, scene_doubts
-from landlab_debrisflow.run.forecast import Forecast, forecast
-from landlab_debrisflow.run.pilot import Pilot, run_pilot, run_start
+from landlab_debrisflow.run.forecast import Forecast, forecast, timed_runs
+from landlab_debrisflow.run.pilot import Pilot, Start, run_pilot, run_start
 from tests.scene.dems import square, write_slope
 
 from .running import FIRST, MAPPING
@@ -53,24 +53,17 @@ def test_gauges_off_the_map_are_refused_before_anything_is_computed():
         forecast(scene(output={"gauges": {"bridge": [0.0, 0.0]}}))
 
 
-def test_times_of_pilot_runs_that_compiled_do_not_count(monkeypatch):
+def test_times_of_pilot_runs_that_compiled_do_not_count():
     """Kernels that compile in the first steps of a pilot run make its later steps look cheap."""
-    starts, runs = [], []
-    first_start, first_pilot = run_start(scene()), run_pilot(scene(output={"max_duration": 1.0}))
+    for seconds, runs in ((15.0, 2), (0.1, 1)):
+        starts = iter([start_of(seconds), start_of(0.2)])
+        numbers = iter([pilot([], 1), pilot([], 2)])
+        start, run = timed_runs(None, lambda _, starts=starts: next(starts), lambda _, numbers=numbers: next(numbers))
+        assert run.particles == runs and start.seconds == (0.2 if runs == 2 else 0.1)
 
-    def start(_):
-        starts.append(first_start._replace(seconds=0.1 if starts else 15.0, seconds_per_step=1e-3))
-        return starts[-1]
 
-    def pilot(_):
-        runs.append(first_pilot._replace(cost_ratio=1.0 if runs else 0.1))
-        return runs[-1]
-
-    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_start", start)
-    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_pilot", pilot)
-    found = forecast(scene())
-    assert (len(starts), len(runs)) == (2, 2)
-    assert found.seconds == pytest.approx(0.1 + found.steps * 1e-3, rel=1e-12)  # a cost ratio of 1
+def start_of(seconds):
+    return Start(particles=1, consolidation_time=1.0, seconds=seconds, seconds_per_step=1e-3, doubts=[])
 
 
 @pytest.mark.slow
