@@ -1,12 +1,15 @@
 """The page of scenes: its tables are the declarations, its scenes are scenes, its code runs."""
 
+import math
 import re
 from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
 
+from landlab_debrisflow import Material
 from landlab_debrisflow.cli.main import main
+from landlab_debrisflow.laws import Coulomb, Growth
 from landlab_debrisflow.scene.content import read_content
 from landlab_debrisflow.scene.key_tables import with_tables
 from landlab_debrisflow.scene.new_scene import new_scene
@@ -29,6 +32,18 @@ def test_scenes_are_scenes(text, tmp_path):
     file = read_yaml(path)
     read_content(file.mapping, file)
     assert list(Draft202012Validator(scene_schema()).iter_errors(file.mapping)) == []
+
+
+def test_the_apparent_friction_of_the_page_is_that_of_the_defaults():
+    material, friction = Material(), Coulomb()
+    density = material.density
+    buoyant = math.tan(math.radians(friction.basal_friction_angle)) * (1.0 - material.water_density / density)
+    apparent = buoyant * (1.0 - material.initial_pressure_ratio)
+    words = " ".join(PAGE.split())
+    assert f"make it {apparent:.3f}, that is {math.degrees(math.atan(apparent)):.0f}°" in words
+    assert f"then it is {buoyant:.2f}." in words
+    assert material.initial_pressure_ratio == material.bed_pressure_ratio == 0.65
+    assert f"doubles every {10.0 * round(0.1 * math.log(2.0) / Growth().growth_rate):.0f} m" in words
 
 
 @pytest.mark.slow

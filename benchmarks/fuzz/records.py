@@ -6,10 +6,10 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+
 from landlab_debrisflow.run.directory import OutputDirectory
 from landlab_debrisflow.run.record import RunRecord
 from landlab_debrisflow.run.results import Results
-
 from landlab_debrisflow.run.scene import Scene
 
 from . import ground

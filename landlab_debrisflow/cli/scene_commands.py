@@ -22,6 +22,8 @@ def add_commands(commands) -> None:
         "--from", nargs=2, dest="files", metavar=("DEM", "RELEASE"),
         help="raster of the elevation, and polygons, a raster of depths or points of the release",
     )  # fmt: skip
+    new.add_argument("--crs", help="coordinate reference system of a DEM that names none, such as EPSG:32633")
+    new.add_argument("--full", action="store_true", help="with every key of every law, not only the usual ones")
 
     check = _command(commands, "check", _check, "check a scene file and forecast its run; nothing is written")
     check.add_argument("scene", type=Path, help="scene file")
@@ -67,7 +69,7 @@ def _new(arguments) -> int:
     from ..scene.new_scene import new_scene
 
     with messages():
-        path = new_scene(arguments.scene, *(arguments.files or ()))
+        path = new_scene(arguments.scene, *(arguments.files or ()), crs=arguments.crs, full=arguments.full)
     say(f"wrote {path}; next: landlab-debrisflow check {path}")
     return DONE
 

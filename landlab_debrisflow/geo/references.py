@@ -1,6 +1,7 @@
 """Coordinate reference systems: lengths on the map must be metres of the ground."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -139,6 +140,29 @@ def transformed(x: np.ndarray, y: np.ndarray, source: str, target: str) -> tuple
         return change.transform(x, y)
     except (pyproj.exceptions.ProjError, ValueError) as error:
         raise InputError(f"no way from {label_of(source)} to {label_of(target)} is known: {error}") from error
+
+
+def check_reference(lattice: Lattice, crs: str | None, path: Path) -> None:
+    """Refuse a reference system given for a raster that names another one itself.
+
+    Parameters
+    ----------
+    lattice : Lattice
+    crs : str or None
+        The one given, such as ``"EPSG:32633"``.
+    path : Path
+        Of the file, for the message.
+
+    Raises
+    ------
+    InputError
+        If they mean other places.
+    """
+    if crs is not None and not same_place(lattice.crs, wkt_of(crs), lattice.bounds, max(lattice.spacing)):
+        raise InputError(
+            f"crs: {path.name} is in {label_of(lattice.crs)}, crs says {crs}; crs is for files that name none, leave "
+            "it out"
+        )
 
 
 def utm_code(longitude: float, latitude: float) -> str:

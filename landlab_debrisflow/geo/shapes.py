@@ -157,7 +157,7 @@ def _changed(geometries, own: str | None, crs: str | None, name: str, bounds: Bo
             found = tuple(float(value) for value in shapely.total_bounds(geometries))
             raise InputError(
                 f"{name} is in {label_of(own)}, {extent(found)}; the DEM names no coordinate reference system and "
-                f"covers {extent(bounds)}; give terrain: crs"
+                f"covers {extent(bounds)}; give terrain: crs (`new`: --crs) the code of the system of the DEM"
             )
         said(notes, f"{name}: in {label_of(own)}, the DEM names none; coordinates are taken as they are")
     if own is None or crs is None or own == wkt_of(crs):

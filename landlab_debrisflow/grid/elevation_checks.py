@@ -118,7 +118,7 @@ def _check_cliffs(grid, elevation, used):
     values, count = np.unique(z[suspects], return_counts=True)
     value = values[count.argmax()]
     nodes = np.flatnonzero(z == value)
-    close = closing_call(Z, value)
+    close = f"{closing_call(Z, value)}; in a scene file terrain: nodata: {code_of(value)}"
     if nodes.size == 1 < values.size:  # no one number: the rim of a void that was smoothed into its surroundings
         sign, limit = ("<", values.max()) if value < middle else (">", values.min())
         close = f"grid.status_at_node[grid.at_node['{Z}'] {sign}= {code_of(limit)}] = grid.BC_NODE_IS_CLOSED"
@@ -155,7 +155,7 @@ def _check_holes(grid, elevation, used, value, deep):
     nodes = np.flatnonzero(hole[patches])
     if nodes.size == 0:
         return
-    close = closing_call(Z, value)
+    close = f"{closing_call(Z, value)}; in a scene file terrain: nodata: {code_of(value)}"
     if nodes.size < np.count_nonzero(filled):  # elsewhere it is ground
         close = f"grid.status_at_node[{nodes.tolist()}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(

@@ -8,6 +8,8 @@ from numbers import Real
 import numpy as np
 from scipy.ndimage import binary_dilation, minimum_filter
 
+from ..physics.erosion import NoErosion
+from ..scene.terrain import SOIL
 from .scene import Scene
 
 LEAST_ANGLE = 2.0
@@ -23,6 +25,12 @@ COARSEST, FINEST = 3.0, 0.2
 def scene_doubts(scene: Scene) -> Iterator[str]:
     """Yield doubts about angles, releases and resolution of a scene."""
     yield from _angle_doubts(scene.setup)
+    erosion = scene.setup.erosion
+    if SOIL not in scene.terrain and not isinstance(erosion, NoErosion):
+        yield (
+            f"nothing erodes, though the law of erosion is {type(erosion).__name__}: terrain: soil_depth is not set; "
+            "set it, or erosion: none"
+        )
     lattice_area = _cell_area(scene)
     for number, release in enumerate(scene.releases, 1):
         if not np.any(release.depth > 0.0):

@@ -88,7 +88,10 @@ def _place(path: Path, name: str, header: list[str] | None) -> int:
     found = [k for k, word in enumerate(words) if word in COLUMNS[name]]
     if len(found) != 1:
         number = "no column" if not found else "more than one column"
-        raise InputError(f"{path} has {number} {name}; its columns are {', '.join(header)}")
+        raise InputError(
+            f"{path} has {number} {name}; its columns are {', '.join(header)}; name those of time [s] "
+            "and discharge [m3 s-1] so"
+        )
     return found[0]
 
 

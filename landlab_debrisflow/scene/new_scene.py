@@ -8,7 +8,7 @@ from ..core.errors import InputError
 from ..geo.lattice import Lattice, extent
 from ..geo.names import find_file
 from ..geo.rasters import open_raster
-from ..geo.references import label_of
+from ..geo.references import check_reference, label_of
 from ..geo.shapes import read_shapes
 from ..record.files import write_atomically
 from .gully import LATTICE
@@ -26,7 +26,10 @@ EXAMPLE_SETTINGS: dict[str, dict[str, Any]] = {
 RASTERS = (".tif", ".tiff", ".asc", ".nc", ".vrt", ".img")
 
 
-def new_scene(path: str | Path, dem: str | Path | None = None, release: str | Path | None = None) -> Path:
+def new_scene(
+    path: str | Path, dem: str | Path | None = None, release: str | Path | None = None, *, crs: str | None = None,
+    full: bool = False,
+) -> Path:  # fmt: skip
     """Write a commented scene that runs: an example, or one with the files of a user.
 
     Parameters
@@ -37,6 +40,10 @@ def new_scene(path: str | Path, dem: str | Path | None = None, release: str | Pa
         Raster of the elevation; by default the ground is a built-in gully.
     release : str or Path, optional
         Polygons, a raster of depths, or points; needed with `dem`.
+    crs : str, optional
+        Coordinate reference system of a DEM that names none, such as ``"EPSG:32633"``.
+    full : bool
+        Whether every key of every law is there, as a comment if not set; by default the usual ones.
 
     Returns
     -------
@@ -56,29 +63,34 @@ def new_scene(path: str | Path, dem: str | Path | None = None, release: str | Pa
     if (dem is None) != (release is None):
         missing = "the release" if release is None else "the DEM"
         raise InputError(f"{missing} is missing; give a DEM and a release, such as --from dem.tif release.gpkg")
-    text = _example(path) if dem is None or release is None else _own(path, str(dem), str(release))
+    if dem is None or release is None:
+        if crs is not None:
+            raise InputError(f"crs: {crs} is for a DEM; give one and a release, such as --from dem.asc release.gpkg")
+        text = _example(path, full)
+    else:
+        text = _own(path, str(dem), str(release), crs, full)
     return write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
 
 
-def _example(path: Path) -> str:
+def _example(path: Path, full: bool) -> str:
     x0, y0 = LATTICE.lower_left
     outline = [[int(x0) + x, int(y0) + y] for x, y in EXAMPLE_RELEASE]
     remarks = ["", "The ground is a built-in gully above a fan; replace example by the file of a DEM (elevation)."]
-    return scene_text(
-        path.name, {"example": "gully"}, {"polygons": outline, "depth": 1.5}, remarks, settings=EXAMPLE_SETTINGS
-    )
+    keys = {"polygons": outline, "depth": 1.5}
+    return scene_text(path.name, {"example": "gully"}, keys, remarks, settings=EXAMPLE_SETTINGS, full=full)
 
 
-def _own(path: Path, dem: str, release: str) -> str:
+def _own(path: Path, dem: str, release: str, crs: str | None, full: bool) -> str:
     """Return the scene of a DEM and a release of a user."""
     notes: list[str] = []
-    source = open_raster(dem, notes=notes)
+    source = open_raster(dem, crs, notes)
     lattice = source.lattice
+    check_reference(lattice, crs, source.path)
     remarks = [
         "", f"{source.path.name}: {lattice.shape[0]} x {lattice.shape[1]} nodes (rows x columns), spacing "
         f"{lattice.spacing[0]:g} x {lattice.spacing[1]:g} m, {extent(lattice.bounds)}, {_reference(lattice)}.",
     ]  # fmt: skip
-    terrain = {"elevation": _relative(dem, path), "soil_depth": 1.0}
+    terrain = {"elevation": _relative(dem, path)} | ({} if crs is None else {"crs": crs}) | {"soil_depth": 1.0}
     comments = {"soil_depth": f"{GUESS}depth of erodible soil [m], a number or a raster; 0: nothing erodes"}
     keys, words = _release_keys(release, path, lattice, remarks, notes)
     remarks += notes
@@ -89,6 +101,7 @@ def _own(path: Path, dem: str, release: str) -> str:
         remarks,
         comments | words,
         {"output": {"interval": 10.0}, "numerics": {"particle_count": 2000}},
+        full,
     )
 
 

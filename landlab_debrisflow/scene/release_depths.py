@@ -182,8 +182,8 @@ def _amount(keys: ReleaseKeys, shape: Shape) -> dict[str, float]:
         near = "".join(did_you_mean(name, AMOUNTS) for name in names)
         told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attributes"
         raise InputError(
-            f"{shape.label} has neither an attribute depth [m] nor volume [m3]; {told}; add one, or the key depth or "
-            "volume to the release"
+            f"{shape.label} has neither an attribute depth [m] nor volume [m3] with a value; {told}; add one, or the "
+            "key depth or volume to the release"
         )
     (name, value), *_ = found.items()
     if name != "volume" and value > MOST_DEPTH:

@@ -109,6 +109,10 @@ def _start_velocity(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> np.
     return -keys.speed * slope / (steepness * np.hypot(1.0, steepness))
 
 
+NEGLIGIBLE = 0.01
+"""Depth below the soil that is not worth a note: a mean depth as deep as the soil is met to less [m]."""
+
+
 def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
     """Return doubts about a release as sentences."""
     lattice, count, notes = ground.lattice, int(np.count_nonzero(depth)), []
@@ -120,7 +124,7 @@ def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
     if depth.max() > 100.0:
         notes.append(f"the release is up to {depth.max():.4g} m deep; depths are in m, volumes in m3")
     if keys.from_ == "ground" and ground.soil is not None:
-        deeper = depth > ground.soil
+        deeper = depth > ground.soil + NEGLIGIBLE
         if deeper.any():
             notes.append(
                 f"the release is deeper than the soil at {np.count_nonzero(deeper)} nodes, by up to "

@@ -1,4 +1,4 @@
-"""Commented scene files, made of the declarations: every key with unit, default, bounds and meaning."""
+"""Commented scene files, made of the declarations: keys with unit, default, bounds and meaning."""
 
 import json
 import re
@@ -28,9 +28,21 @@ HEAD = f"""\
 #   landlab-debrisflow resume {{name}}
 # Editors complete and check it after: landlab-debrisflow schema > {SCHEMA_FILE}
 #
-# Lines with # in front show the other keys with their defaults; null: not set. Units are SI, angles are in degrees.
+# Lines with # in front show other keys with their defaults; null: not set. Units are SI, angles are in degrees.
 # Names of files are relative to this file. Several releases or inflows are a list: each begins with a dash.
 """
+SHORT = """\
+# These are the usual keys; all of them, with their meaning: landlab-debrisflow new --full, docs/scenes.md, docs/laws.md
+"""
+USUAL: dict[type, tuple[str, ...]] = {
+    TerrainKeys: ("soil_depth", "spacing", "zones", "edits"),
+    ReleaseKeys: ("time", "from"),
+    Material: ("coefficient_of_consolidation", "bed_pressure_ratio", "initial_pressure_ratio"),
+    Numerics: ("particle_count",),
+    OutputKeys: ("max_duration", "interval", "maps", "gauges", "sections", "exposure"),
+}
+"""Keys that a short scene shows although they are not set; of the laws of `USUAL_LAWS` all keys of the one chosen."""
+USUAL_LAWS = ("friction", "erosion")
 INFLOW = {
     "line_start": [0.0, 0.0], "line_end": [0.0, 20.0], "times": [0.0, 60.0, 300.0], "discharge": [0.0, 20.0, 0.0],
     "velocity": 3.0,
@@ -41,8 +53,9 @@ INFLOW = {
 def scene_text(
     name: str, terrain: Mapping[str, Any], release: Mapping[str, Any], remarks: Iterable[str] = (),
     notes: Mapping[str, str] | None = None, settings: Mapping[str, Mapping[str, Any]] | None = None,
+    full: bool = False,
 ) -> str:  # fmt: skip
-    """Return the text of a scene file with some keys set and every other key as a comment.
+    """Return the text of a scene file with some keys set and others as comments.
 
     Parameters
     ----------
@@ -56,22 +69,26 @@ def scene_text(
         Remark on the value of a key of terrain or release, instead of its meaning.
     settings : mapping of str to mapping, optional
         Values of keys that are set in other parts, such as ``{"friction": {"law": "voellmy"}}``.
+    full : bool
+        Whether every key of every law is there; by default the usual ones.
 
     Returns
     -------
     str
     """
     settings, notes = settings or {}, notes or {}
-    lines = HEAD.format(name=name).splitlines()
+    lines = (HEAD + ("" if full else SHORT)).format(name=name).splitlines()
     lines += [f"# {line}" for remark in remarks for line in textwrap.wrap(remark, WIDTH - 2) or [""]]
-    lines += ["", "terrain:", *_keys(TerrainKeys, terrain, notes)]
-    lines += ["", "release:", *_keys(ReleaseKeys, release, notes)]
+    lines += ["", "terrain:", *_keys(TerrainKeys, terrain, notes, full)]
+    lines += ["", "release:", *_keys(ReleaseKeys, release, notes, full)]
     for kind, laws in LAWS.items():
-        lines += ["", *_laws(kind, laws, settings.get(kind, {}))]
+        if full or kind in USUAL_LAWS or kind in settings:
+            lines += ["", *_laws(kind, laws, settings.get(kind, {}), full)]
     for key, cls in (("material", Material), ("numerics", Numerics), ("output", OutputKeys)):
-        lines += _mapping(key, _keys(cls, settings.get(key, {}), {}))
-    lines += ["", "# Flow across a line, instead of a release or besides:", "# inflow:"]
-    lines += _commented(_keys(Hydrograph, INFLOW, {}))
+        lines += _mapping(key, _keys(cls, settings.get(key, {}), {}, full))
+    if full:
+        lines += ["", "# Flow across a line, instead of a release or besides:", "# inflow:"]
+        lines += _commented(_keys(Hydrograph, INFLOW, {}))
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
@@ -95,11 +112,12 @@ def yaml_text(value: Any) -> str:
     return json.dumps(value)
 
 
-def _keys(cls: type, given: Mapping[str, Any], notes: Mapping[str, str]) -> list[str]:
-    """Return a line, or some, for every key of a declared class: first the given keys, then other keys as comments."""
+def _keys(cls: type, given: Mapping[str, Any], notes: Mapping[str, str], full: bool = True) -> list[str]:
+    """Return a line, or some, for keys of a declared class: first the given keys, then other keys as comments."""
     lines = []
     fields = keys_of(cls)
-    for key in [*given, *(key for key in fields if key not in given)]:
+    shown = fields if full else USUAL.get(cls, fields)
+    for key in [*given, *(key for key in fields if key in shown and key not in given)]:
         field, mark = fields[key], "  " if key in given else "  # "
         value = given.get(key, field.default)
         lines += _line(f"{mark}{key}: {yaml_text(value)}", notes.get(key, _meaning(field.metadata)))
@@ -127,13 +145,13 @@ def _mapping(key: str, lines: list[str]) -> list[str]:
     return ["", f"{'# ' if empty else ''}{key}:", *lines]
 
 
-def _laws(kind: str, laws: Mapping[str, type], given: Mapping[str, Any]) -> list[str]:
-    """Return the lines of a kind of law: the chosen law, then every other law as a comment."""
+def _laws(kind: str, laws: Mapping[str, type], given: Mapping[str, Any], full: bool) -> list[str]:
+    """Return the lines of a kind of law: the chosen law, then, if wanted, every other law as a comment."""
     chosen = given.get("law", next(iter(laws)))
     values = {key: value for key, value in given.items() if key != "law"}
     lines = [f"{kind}:", *_line(f"  law: {chosen}", ", ".join(laws)), *_keys(laws[chosen], values, {})]
     for name, law in laws.items():
-        if name != chosen and keys_of(law):
+        if full and name != chosen and keys_of(law):
             lines += [f"# or {kind}:", f"#   law: {name}"]
             lines += _commented(_keys(law, {}, {}))
     return lines

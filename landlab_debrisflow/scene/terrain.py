@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.ndimage import label
+from scipy.ndimage import binary_dilation, label
 
 from ..core.checks import in_range
 from ..core.errors import InputError
@@ -15,9 +15,10 @@ from ..geo.cover import nodes_inside
 from ..geo.lattice import Lattice, Window, extent
 from ..geo.names import said
 from ..geo.rasters import MOST_NODES, checksum_of, open_raster, read_window
-from ..geo.references import label_of, same_place, wkt_of
+from ..geo.references import check_reference
 from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
+from ..grid.elevation_checks import HOLE, SUSPECT
 from ..model.inflow.hydrograph import Hydrograph
 from .edits import Ground, edit_ground
 from .gully import gully
@@ -31,6 +32,10 @@ FEW_NODES = 250_000
 """DEMs of at most so many nodes are taken whole unless a window is asked for: a part would save nothing."""
 SMALLEST = 5
 """Least number of rows and of columns of a terrain."""
+NO_RATIO = (
+    "bed_pressure_ratio: 0 outside the zones that give it, whatever that of the material is: give terrain: "
+    "bed_pressure_ratio as well"
+)
 
 
 def build_terrain(
@@ -99,12 +104,7 @@ def lattice_of(terrain: xr.Dataset) -> Lattice:
 
 def _dem(keys: TerrainKeys, folder: Path, notes: list[str]) -> tuple[RasterSource, str]:
     source = open_raster(folder / str(keys.elevation), keys.crs, notes)
-    lattice = source.lattice
-    if keys.crs is not None and not same_place(lattice.crs, wkt_of(keys.crs), lattice.bounds, max(lattice.spacing)):
-        raise InputError(
-            f"crs: {source.path.name} is in {label_of(lattice.crs)}, crs says {keys.crs}; crs is for files that name "
-            "none, leave it out"
-        )
+    check_reference(source.lattice, keys.crs, source.path)
     return source, checksum_of(source.path)
 
 
@@ -175,6 +175,8 @@ def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: l
 
 
 def _note_missing(elevation: np.ndarray, notes: list[str]) -> None:
+    for value in SUSPECT:
+        _note_filled(elevation, value, notes)
     missing = np.isnan(elevation)
     if missing.all():
         raise InputError("elevation: there are no data in the window, all is NODATA; choose another window or DEM")
@@ -193,6 +195,21 @@ def _note_missing(elevation: np.ndarray, notes: list[str]) -> None:
     if missing.sum() > sum(np.isin(areas, holes).reshape(-1)):
         outside = int(missing.sum() - np.isin(areas, holes).sum())
         said(notes, f"elevation: {outside} nodes at the edge are without data and closed")
+
+
+def _note_filled(elevation: np.ndarray, value: float, notes: list[str]) -> None:
+    """Note nodes of an elevation [m] by which voids are filled, at the edge too, if all ground beside is far higher."""
+    filled = elevation == value
+    if not filled.any():
+        return
+    beside = elevation[binary_dilation(filled) & ~filled & ~np.isnan(elevation)]
+    if beside.size and beside.min() - value >= HOLE:
+        said(
+            notes,
+            f"elevation: exactly {value:g} m at {np.count_nonzero(filled)} nodes, and the ground beside them is "
+            f"{beside.min() - value:.4g} m higher and more: if {value:g} marks missing data, give terrain: nodata: "
+            f"{value:g}; as it is, a flow that comes there falls",
+        )
 
 
 def _soil(keys: TerrainKeys, lattice: Lattice, source: RasterSource, folder: Path, zones, notes: list[str]):
@@ -226,7 +243,9 @@ def _pressure_ratio(keys: TerrainKeys, lattice: Lattice, folder: Path, zones, no
         ratio = _number_or_raster("bed_pressure_ratio", value, lattice, folder, keys.crs, notes, (0.0, 1.0), "-")
     for zone, nodes in zip(keys.zones, zones, strict=True):
         if zone.bed_pressure_ratio is not None:
-            ratio = np.zeros(lattice.shape) if ratio is None else ratio
+            if ratio is None:
+                said(notes, NO_RATIO)
+                ratio = np.zeros(lattice.shape)
             ratio.reshape(-1)[nodes] = zone.bed_pressure_ratio
     return ratio
 

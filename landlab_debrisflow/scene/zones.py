@@ -95,7 +95,7 @@ def varying_parameters(setup: Setup, zones: Iterable[Zone]) -> tuple[VaryingPara
         for k, values in enumerate(given):
             for name in values:
                 if name not in varies:
-                    reason = "may not vary in space" if name in fields else f"is none of {type(law).__name__}"
+                    reason = "may not vary in space" if name in fields else f"is no parameter of {type(law).__name__}"
                     raise ParameterError(
                         f"zones[{k}]: {kind}: {name} {reason}{did_you_mean(name, varies)}; allowed: "
                         f"{', '.join(varies) or 'none'}"

@@ -242,3 +242,11 @@ def test_a_grid_closed_everywhere_has_no_ground_to_refuse():
     grid.add_full(Z, -9999.0, at="node")
     grid.status_at_node[:] = grid.BC_NODE_IS_CLOSED
     DebrisFlow(grid).run_one_step(1.0)
+
+
+def test_the_remedy_in_a_scene_file_is_told():
+    z = np.full((20, 30), 400.0)
+    z[8:12, 10:14] = 0.0
+    grid = RasterModelGrid(z.shape, xy_spacing=5.0)
+    grid.add_field("topographic__elevation", z.ravel(), at="node")
+    assert "; in a scene file terrain: nodata: 0; or" in refusal(grid)

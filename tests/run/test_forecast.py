@@ -8,11 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from landlab_debrisflow import Scene
+from landlab_debrisflow import InputError, Scene
 from landlab_debrisflow.run import pilot as pilots
 from landlab_debrisflow.run.doubts import below_lip, scene_doubts
 from landlab_debrisflow.run.forecast import Forecast, forecast
 from landlab_debrisflow.run.pilot import Pilot, run_pilot, run_start
+from tests.scene.dems import square, write_slope
 
 from .running import FIRST, MAPPING
 
@@ -45,6 +46,31 @@ def test_costs_of_steps_are_those_of_the_whole_run_over_those_of_the_start():
         steps.follow(still, 0.1 * k, 0.1 * (k + 1))
     assert steps.cost_ratio == pytest.approx((20 + 3.0 * 75) / 95)
     assert steps.erosion_time == math.inf
+
+
+def test_gauges_off_the_map_are_refused_before_anything_is_computed():
+    with pytest.raises(InputError, match=r"gauges: .*outside the DEM"):
+        forecast(scene(output={"gauges": {"bridge": [0.0, 0.0]}}))
+
+
+def test_times_of_pilot_runs_that_compiled_do_not_count(monkeypatch):
+    """Kernels that compile in the first steps of a pilot run make its later steps look cheap."""
+    starts, runs = [], []
+    first_start, first_pilot = run_start(scene()), run_pilot(scene(output={"max_duration": 1.0}))
+
+    def start(_):
+        starts.append(first_start._replace(seconds=0.1 if starts else 15.0, seconds_per_step=1e-3))
+        return starts[-1]
+
+    def pilot(_):
+        runs.append(first_pilot._replace(cost_ratio=1.0 if runs else 0.1))
+        return runs[-1]
+
+    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_start", start)
+    monkeypatch.setattr("landlab_debrisflow.run.forecast.run_pilot", pilot)
+    found = forecast(scene())
+    assert (len(starts), len(runs)) == (2, 2)
+    assert found.seconds == pytest.approx(0.1 + found.steps * 1e-3, rel=1e-12)  # a cost ratio of 1
 
 
 @pytest.mark.slow
@@ -89,6 +115,20 @@ def test_a_usual_scene_has_no_doubts():
 )
 def test_doubts(changes, words):
     assert [doubt for doubt in doubts(**changes) if words in doubt]
+
+
+def test_erosion_without_soil_is_doubted(tmp_path):
+    write_slope(tmp_path / "dem.tif")
+    mapping = {
+        "terrain": {"elevation": str(tmp_path / "dem.tif")},
+        "release": {"polygons": square(100.0, 50.0, 40.0), "depth": 1.0},
+        "numerics": {"particle_count": 60},
+    }
+    (doubt,) = scene_doubts(Scene.from_mapping(mapping))
+    assert "nothing erodes, though the law of erosion is Growth" in doubt
+    assert list(scene_doubts(Scene.from_mapping(mapping | {"erosion": "none"}))) == []
+    mapping["terrain"]["soil_depth"] = 2.0
+    assert list(scene_doubts(Scene.from_mapping(mapping))) == []
 
 
 def test_pits_of_the_ground_are_not_those_of_a_release():

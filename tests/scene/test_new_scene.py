@@ -1,4 +1,4 @@
-"""New scenes run as they are, show every key with its default, and never replace a file."""
+"""New scenes run as they are, show the usual keys or every one with its default, and never replace a file."""
 
 import dataclasses
 import os
@@ -15,7 +15,7 @@ from landlab_debrisflow.scene.gully import gully
 from landlab_debrisflow.scene.keys import OutputKeys, ReleaseKeys, TerrainKeys
 from landlab_debrisflow.scene.new_scene import new_scene
 from landlab_debrisflow.scene.read_yaml import read_yaml
-from landlab_debrisflow.scene.template import yaml_text
+from landlab_debrisflow.scene.template import USUAL, yaml_text
 from tests.scene.test_scheduled_releases import HEAD, LATTICE, raster, vector
 
 
@@ -31,7 +31,7 @@ def uncommented(text):
 
 
 def test_the_example_runs_and_shows_defaults(tmp_path):
-    path = new_scene(tmp_path / "scene.yaml")
+    path = new_scene(tmp_path / "scene.yaml", full=True)
     scene = Scene.from_file(path)
     assert scene.notes == [] and scene.flow().grid.at_node["debris_flow__release_depth"].max() > 1.0
     other = tmp_path / "all.yaml"
@@ -41,7 +41,7 @@ def test_the_example_runs_and_shows_defaults(tmp_path):
 
 
 def test_every_key_is_there_with_unit_and_meaning(tmp_path):
-    text = new_scene(tmp_path / "scene.yaml").read_text()
+    text = new_scene(tmp_path / "scene.yaml", full=True).read_text()
     classes = [TerrainKeys, ReleaseKeys, OutputKeys, Material, Numerics, Hydrograph]
     for cls in [*classes, *(law for laws in LAWS.values() for law in laws.values())]:
         for key, field in keys_of(cls).items():
@@ -51,13 +51,54 @@ def test_every_key_is_there_with_unit_and_meaning(tmp_path):
 
 
 def test_laws_in_comments_are_those_of_the_declarations(tmp_path):
-    blocks = re.split(r"(?m)^# or (\w+):$", new_scene(tmp_path / "scene.yaml").read_text())[1:]
+    blocks = re.split(r"(?m)^# or (\w+):$", new_scene(tmp_path / "scene.yaml", full=True).read_text())[1:]
     for kind, block in zip(blocks[::2], blocks[1::2], strict=True):
         lines = [line[2:] for line in block.split("\n\n")[0].splitlines() if line]
         path = tmp_path / "law.yaml"
         path.write_text("terrain: {example: gully}\n" + f"{kind}:\n" + "\n".join(lines) + "\n")
         law = getattr(Scene.from_file(path).setup, kind)
         assert law == type(law)() and dataclasses.fields(law)
+
+
+def test_by_default_the_usual_keys_are_there_and_the_scene_is_the_same(tmp_path):
+    short, full = new_scene(tmp_path / "short.yaml"), new_scene(tmp_path / "full.yaml", full=True)
+    assert Scene.from_file(short).to_mapping() == Scene.from_file(full).to_mapping()
+    example = short.read_text()
+    assert "new --full" in example and "new --full" not in full.read_text()
+    assert len(example.splitlines()) < 90 < 200 < len(full.read_text().splitlines())  # two screens, or a long list
+    own = new_scene(tmp_path / "own.yaml", dem(tmp_path), tmp_path / vector(tmp_path, [HEAD], name=["a"])).read_text()
+    for text in (example, own):
+        assert max(map(len, text.splitlines())) <= 120
+        for key in [*keys_of(LAWS["erosion"]["growth"]), *(key for keys in USUAL.values() for key in keys)]:
+            assert re.search(rf"(?m)^(  |  # ){key}: ", text), key
+        assert "or friction:" not in text and "# inflow:" not in text and "courant_number" not in text
+    other = tmp_path / "all.yaml"
+    other.write_text(uncommented(short.read_text()))
+    assert Scene.from_file(other).to_mapping() == Scene.from_file(short).to_mapping()
+    assert all(
+        key in {field.name.rstrip("_") for field in dataclasses.fields(cls)} for cls in USUAL for key in USUAL[cls]
+    )
+
+
+def test_a_reference_system_for_a_dem_without(tmp_path):
+    """The polygons of a GIS have one, a grid of text has none: without `crs` no scene could be begun."""
+    values, lattice = gully()[0], LATTICE
+    rows = "\n".join(" ".join(f"{value:.3f}" for value in row) for row in values[::-1])
+    west, south = lattice.bounds[:2]
+    (tmp_path / "dem.asc").write_text(
+        f"ncols {values.shape[1]}\nnrows {values.shape[0]}\nxllcorner {west}\nyllcorner {south}\n"
+        f"cellsize {lattice.spacing[0]}\nNODATA_value -9999\n{rows}\n"
+    )
+    drawn = tmp_path / vector(tmp_path, [HEAD], "EPSG:4326", "scar.geojson", name=["a"])
+    with pytest.raises(InputError, match="--crs"):
+        new_scene(tmp_path / "a.yaml", tmp_path / "dem.asc", drawn)
+    path = new_scene(tmp_path / "a.yaml", tmp_path / "dem.asc", drawn, crs="EPSG:32632")
+    assert "EPSG:32632" in path.read_text() and "names none" not in path.read_text()
+    assert "EPSG" in "".join(Scene.from_file(path).terrain.crs_wkt.replace('"', " "))
+    with pytest.raises(InputError, match=r"dem.tif is in EPSG:32632 .*crs says EPSG:32633"):
+        new_scene(tmp_path / "b.yaml", dem(tmp_path), drawn, crs="EPSG:32633")
+    with pytest.raises(InputError, match="crs: EPSG:32632 is for a DEM"):
+        new_scene(tmp_path / "b.yaml", crs="EPSG:32632")
 
 
 @pytest.mark.parametrize("schema", ["scene.schema.json"])

@@ -111,6 +111,9 @@ def test_doubts():
     assert any("covers 4 nodes" in note for note in only({"polygons": box(28.0, 148.0, 7, 7), "depth": 0.5}).notes)
     deep = only({"polygons": HEAD, "depth": 3.0}).notes
     assert any("deeper than the soil at" in note for note in deep)
+    level = {"polygons": HEAD, "depth": 1.0, "failure_surface": "uniform"}
+    same = Scene.from_mapping({"terrain": {"example": "gully", "soil_depth": 0.9999}, "release": level}).notes
+    assert not any("deeper than the soil" in note for note in same)
     assert any("up to 150 m deep" in note for note in only({"polygons": HEAD, "depth": 150.0, "from": "above"}).notes)
     assert scene(friction="voellmy").notes == ["nothing is released and nothing flows in; give release or inflow"]
 

@@ -35,6 +35,18 @@ def test_a_small_dem_is_taken_whole(tmp_path):
     assert terrain.attrs["dem"] == "dem.tif" and len(terrain.attrs["dem_sha256"]) == 64 and terrain.attrs["notes"] == []
 
 
+def test_voids_at_the_edge_that_are_filled_with_a_number_are_told(tmp_path):
+    """A DEM that was turned and saved as integers has zeros round it; a plain at the sea has them, too."""
+    corner = [(row, column, 0.0) for row in range(6) for column in range(6 - row)]
+    write_slope(tmp_path / "dem.tif", holes=corner)
+    (told,) = scene(tmp_path).terrain.attrs["notes"]
+    assert "exactly 0 m at 21 nodes" in told and "terrain: nodata: 0" in told
+    assert np.isnan(scene(tmp_path, nodata=0).terrain[Z].values).sum() == 21
+    beach = [(row, column, 40.0) for row in range(7) for column in range(7)]
+    write_slope(tmp_path / "dem.tif", holes=[*beach, *corner])
+    assert scene(tmp_path).terrain.attrs["notes"] == []
+
+
 def test_nodes_without_data_are_closed_and_holes_said(tmp_path):
     write_slope(tmp_path / "dem.tif", holes=[(0, 0, -9999.0), (10, 10, -9999.0), (10, 11, -9999.0)], nodata=-9999.0)
     made = scene(tmp_path)
@@ -222,6 +234,9 @@ def test_zones_change_soil_pressure_and_parameters(tmp_path):
     assert [at(terrain, "soil__depth", *xy) for xy in ((20.0, 20.0), (140.0, 20.0))] == [0.5, 1.0]
     ratio = terrain["bed__excess_pore_pressure_ratio"]
     assert np.count_nonzero(ratio) == 400 and ratio.max() == 0.3
+    assert sum("bed_pressure_ratio: 0 outside the zones" in note for note in terrain.attrs["notes"]) == 1
+    told = scene(tmp_path, soil_depth=1.0, bed_pressure_ratio=0.65, zones=zones).terrain
+    assert at(told, "bed__excess_pore_pressure_ratio", 20.0, 20.0) == 0.65 and told.attrs["notes"] == []
     assert (
         at(terrain, "erosion__growth_rate", 60.0, 20.0) == 0.0
         and at(terrain, "erosion__growth_rate", 20.0, 20.0) == 3e-3
