@@ -56,7 +56,13 @@ class Series:
         flow : DebrisFlow
             The component after a step.
         """
-        now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in self._measure(flow).items()}
+        measured = self._measure(flow)
+        if not isinstance(measured, Mapping):
+            raise InputError(
+                "Series: measure must return a mapping of names to numbers, such as {'eroded': flow.budget['eroded']}, "
+                f"got {measured!r:.80}"
+            )
+        now, values = flow.elapsed_time, {k: np.asarray(v, float) for k, v in measured.items()}
         then, earlier = self._before or (now, values)
         if {k: v.shape for k, v in values.items()} != {k: v.shape for k, v in earlier.items()}:
             raise InputError(

@@ -238,6 +238,12 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
         )
     if depth.max() > MOST_DEPTH:
         raise InputError(f"{path.name}: depths must be at most {MOST_DEPTH:g} m, got {depth.max():g}; give metres")
+    fails = depth > 0.0
+    if np.count_nonzero(fails) > 1 and (depth[fails] == 1.0).all():
+        notes.append(
+            f"{path.name}: every depth is exactly 1 m; if the raster marks what fails, rather than how deep, multiply "
+            "it by the depth, or turn it into polygons"
+        )
     usable = np.where(ground.core, depth, 0.0)
     if usable.max() <= 0.0:
         raise InputError(f"{path.name} has no depth > 0 where the terrain may hold mass; look at values and place")

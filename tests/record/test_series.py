@@ -1,5 +1,7 @@
 """Measures at given times are interpolated between the two steps around, and nothing is made up beyond."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -102,3 +104,9 @@ def test_a_measure_must_be_one():
     flow = build("eroding", [Series([1.0], lambda flow: {"some": np.zeros(next(sizes))})])
     with pytest.raises(InputError, match=r"same names and shapes every time, got some \(1,\) after some \(0,\)"):
         flow.run_until_rest()
+
+
+def test_a_measure_without_a_name_is_refused():
+    flow = SimpleNamespace(elapsed_time=0.0, budget={"eroded": 46.0})
+    with pytest.raises(InputError, match=r"mapping of names to numbers, .* got 46.0"):
+        Series([0.0], lambda flow: flow.budget["eroded"]).observe(flow)

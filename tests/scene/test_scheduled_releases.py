@@ -136,6 +136,9 @@ def test_rasters(tmp_path):
     assert np.array_equal(release.depth, depth) and any("75 m3 on the edge" in note for note in release.notes)
     losses = only({"raster": raster(tmp_path, -depth)}, folder=tmp_path)
     assert np.array_equal(losses.depth, depth) and any("losses of elevation, up to 1.25 m" in x for x in losses.notes)
+    mask = only({"raster": raster(tmp_path, 1.0 * (depth > 0.0))}, folder=tmp_path)
+    assert any("every depth is exactly 1 m" in note for note in mask.notes)
+    assert not any("exactly 1 m" in note for note in release.notes)
     both = depth - 0.5 * (depth[:, ::-1] > 0.0)
     refused = (both, "got -0.5 to 1.25 m; cut out"), (0.0 * depth, "no depth > 0"), (1e3 * depth, "at most")
     for values, words in refused:
