@@ -62,7 +62,10 @@ def _run(console: Console, cases, arguments) -> int:
     counts, failures, refusals, began, cpu = Counter(), [], [], time.monotonic(), 0.0
     if arguments.keep is not None:
         arguments.keep.mkdir(exist_ok=True)
-    for one, (outcome, seconds, _) in zip(cases, try_cases(cases, arguments.workers, arguments.keep), strict=True):
+    tried = zip(cases, try_cases(cases, arguments.workers, arguments.keep), strict=True)
+    for number, (one, (outcome, seconds, _)) in enumerate(tried, 1):
+        if number % 1000 == 0:
+            console.print(f"{number} files in {time.monotonic() - began:.0f} s")
         cpu += seconds
         counts[one.kind, one.form, outcome.name] += 1
         if outcome.name not in (*GOOD[:4],):

@@ -80,7 +80,7 @@ def read(case: Case, folder: Path) -> Outcome:
             elif case.kind == "record":
                 notes = records.read(folder)
             else:
-                notes = _read_scene(folder, case.sampled)
+                notes = read_scene(folder, case.sampled)
         finally:
             written = [path.name for path in sorted(folder.rglob("*")) if path not in before]
     except REFUSALS as error:
@@ -99,7 +99,7 @@ def read(case: Case, folder: Path) -> Outcome:
     return Outcome("warned" if notes else "accepted", "; ".join(notes), done)
 
 
-def _read_scene(folder: Path, run: bool) -> list[str]:
+def read_scene(folder: Path, run: bool) -> list[str]:
     """Read a scene and all its files; run a flow for some steps."""
     scene = Scene.from_file(folder / "scene.yaml")
     notes = list(scene.notes)

@@ -1,4 +1,4 @@
-"""Refusals of checkpoints whose contents cannot be those of a flow: kernels read no number of them unchecked."""
+"""Refusals of checkpoints with contents that no flow has: kernels read no number of them unchecked."""
 
 from collections import ChainMap
 

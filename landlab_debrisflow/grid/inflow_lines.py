@@ -18,7 +18,8 @@ def check_lines(terrain, inflow: Inflow) -> None:
 def check_strips(terrain, inflow: Inflow) -> None:
     """Refuse strips of prescribed flow that are not on core nodes of a `Terrain`; their direction must be known."""
     for source, direction in () if inflow.over else zip(inflow.sources, inflow.directions, strict=True):
-        steps = np.append(np.arange(0.0, source.strip, 0.25 * min(terrain.spacing)), source.strip)
+        length = min(source.strip, _farthest(terrain))
+        steps = np.append(np.arange(0.0, length, 0.25 * min(terrain.spacing)), length)
         strip = _line(terrain, source)[:, :, None] + direction[:, None, None] * steps
         name = f"the strip of {source.strip:.3g} m behind it, in which the flow is prescribed,"
         remedy = "; more particles make it shorter"
@@ -31,8 +32,14 @@ def _line(terrain, source):
     `terrain` is a `Terrain`, `source` the source of an inflow.
     """
     along = source.end - source.start
-    count = 2 + int(4.0 * np.hypot(*along) / min(terrain.spacing))
+    count = 2 + int(4.0 * min(np.hypot(*along), _farthest(terrain)) / min(terrain.spacing))
     return source.start[:, None] + np.linspace(0.0, 1.0, count) * along[:, None]
+
+
+def _farthest(terrain) -> float:
+    """Return a length beyond which one end of every line lies outside of a `Terrain` [m]: no finer look is needed."""
+    rows, columns = terrain.shape
+    return 2.0 * float(np.hypot(columns * terrain.spacing[0], rows * terrain.spacing[1]))
 
 
 def _check_points(terrain, hydrograph, points, name, remedy):

@@ -106,7 +106,7 @@ class RunRecord:
 
     @property
     def results(self) -> list[str]:
-        """Names of `files` that runs write; a record is a file as others are, and may list anything."""
+        """Names in `files` that runs write; a record is a file, too, and may list anything."""
         return [name for name in self.files if is_result(name)]
 
     def write(self, path: Path) -> None:

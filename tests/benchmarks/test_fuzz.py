@@ -44,7 +44,7 @@ def test_a_reader_that_fails_is_told(tmp_path, monkeypatch):
         return []
 
     for k, (reader, name) in enumerate([(fail, "error"), (litter, "written"), (lambda *_: [], "accepted")]):
-        monkeypatch.setattr("benchmarks.fuzz.readers._read_scene", reader)
+        monkeypatch.setattr("benchmarks.fuzz.readers.read_scene", reader)
         (tmp_path / str(k)).mkdir()
         outcome = read(one, tmp_path / str(k))
         assert isinstance(outcome, Outcome) and outcome.name == name, outcome

@@ -142,3 +142,11 @@ def test_where_nothing_more_flows_in_the_nodes_may_close():
 def test_a_hydrograph_takes_numbers_of_any_kind():
     other = {"times": np.array([0, 5, 10]), "discharge": np.array([0, 20, 0], np.float32), "velocity": np.float64(4.0)}
     assert Hydrograph(**GOOD) == Hydrograph(**(GOOD | other))
+
+
+@pytest.mark.parametrize("change", [{"times": [0.0, 5.0, 1e19]}, {"line_end": (20.0, 1e17)}])
+def test_lengths_beyond_any_memory_are_refused(change):
+    """A strip or line is looked at as far as the terrain reaches: looked at whole, it would not fit into memory."""
+    grid = inclined((20, 60), 5.0, 0.5)
+    with pytest.raises(InputError, match="the line"):
+        DebrisFlow(grid, inflow=GOOD | change, numerics={"particle_count": 60}).run_one_step(1.0)
