@@ -166,7 +166,12 @@ class Scene:
         """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
         with located(self._file, "terrain"):
             return build_terrain(
-                self.terrain_keys, self.folder, self.release_keys, self._content.setup.inflow, self._varying
+                self.terrain_keys,
+                self.folder,
+                self.release_keys,
+                self._content.setup.inflow,
+                self._varying,
+                self._content.setup.material.bed_pressure_ratio,
             )
 
     @property

@@ -32,15 +32,11 @@ FEW_NODES = 250_000
 """DEMs of at most so many nodes are taken whole unless a window is asked for: a part would save nothing."""
 SMALLEST = 5
 """Least number of rows and of columns of a terrain."""
-NO_RATIO = (
-    "bed_pressure_ratio: 0 outside the zones that give it, whatever that of the material is: give terrain: "
-    "bed_pressure_ratio as well"
-)
 
 
 def build_terrain(
     keys: TerrainKeys, folder: Path, releases: Sequence[ReleaseKeys] = (), inflow: Sequence[Hydrograph] = (),
-    parameters: Sequence[VaryingParameter] = (),
+    parameters: Sequence[VaryingParameter] = (), bed_pressure_ratio: float = 0.0,
 ) -> xr.Dataset:  # fmt: skip
     """Return elevation, soil and varying parameters over ``y`` and ``x``, named as fields of the grid.
 
@@ -55,6 +51,9 @@ def build_terrain(
         From which it starts, too.
     parameters : sequence of VaryingParameter
         As `varying_parameters` returns them.
+
+    bed_pressure_ratio : float
+        Of the material, which holds outside the zones that give another one, unless the terrain gives it [-].
 
     Returns
     -------
@@ -76,7 +75,7 @@ def build_terrain(
     _note_missing(elevation, notes)
     zones = zone_nodes(keys.zones, lattice, source.lattice, folder, notes)
     soil = _soil(keys, lattice, source, folder, zones, notes)
-    ratio = _pressure_ratio(keys, lattice, folder, zones, notes)
+    ratio = _pressure_ratio(keys, lattice, folder, zones, bed_pressure_ratio, notes)
     ground = Ground(elevation, soil, np.zeros(lattice.shape, bool), lattice)
     edit_ground(keys.edits, ground, source.lattice, folder, notes)
     fields: dict[str, Any] = {ELEVATION: elevation, SOIL: soil, RATIO: ratio}
@@ -235,17 +234,18 @@ def _soil(keys: TerrainKeys, lattice: Lattice, source: RasterSource, folder: Pat
     return soil
 
 
-def _pressure_ratio(keys: TerrainKeys, lattice: Lattice, folder: Path, zones, notes: list[str]):
-    """Return the excess pore pressure of the bed over its liquefaction value, or None if it is not given."""
+def _pressure_ratio(keys: TerrainKeys, lattice: Lattice, folder: Path, zones, elsewhere: float, notes: list[str]):
+    """Return the excess pore pressure of the bed over its liquefaction value, or None if it is not given.
+
+    `elsewhere` is that of the material, which holds outside the zones if the terrain gives none [-].
+    """
     ratio = None
     if keys.bed_pressure_ratio is not None:
         value = keys.bed_pressure_ratio
         ratio = _number_or_raster("bed_pressure_ratio", value, lattice, folder, keys.crs, notes, (0.0, 1.0), "-")
     for zone, nodes in zip(keys.zones, zones, strict=True):
         if zone.bed_pressure_ratio is not None:
-            if ratio is None:
-                said(notes, NO_RATIO)
-                ratio = np.zeros(lattice.shape)
+            ratio = np.full(lattice.shape, elsewhere) if ratio is None else ratio
             ratio.reshape(-1)[nodes] = zone.bed_pressure_ratio
     return ratio
 
