@@ -102,6 +102,10 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
             _refuse(f"{prefix}{name} is outside the grid somewhere")
     if not np.isfinite(read["time"]) or read["time"] < 0.0:
         _refuse(f"time is {read['time']} s")
+    if "bed_pressure_start" in read:
+        start, age = read["bed_pressure_start"], read["bed_pressure_age"]
+        if not (0.0 <= start <= read["time"] and np.all((age >= 0.0) & (age <= read["time"] - start))):
+            _refuse("bed_pressure_start or bed_pressure_age is later than time")
 
 
 def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
