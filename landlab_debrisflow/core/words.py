@@ -1,5 +1,6 @@
 """Text for people: names and messages from files are shown, and never obeyed by a terminal."""
 
+import math
 import unicodedata
 
 
@@ -58,7 +59,7 @@ def grouped(number: float) -> str:
 
     Examples
     --------
-    >>> grouped(1234567.8), grouped(-1e-9)
-    ('1 234 568', '0')
+    >>> grouped(1234567.8), grouped(-1e-9), grouped(float("inf"))
+    ('1 234 568', '0', 'inf')
     """
-    return f"{round(number):,}".replace(",", " ")
+    return f"{round(number):,}".replace(",", " ") if math.isfinite(number) else f"{number:g}"

@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from .identities import places_of
+
 
 def crossings(start: np.ndarray, end: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find where straight paths cross a line.
@@ -102,9 +104,6 @@ class Paths:
         """
         if np.array_equal(particles.identity, self.identity):
             return np.arange(self.identity.size), self.position
-        numbers = np.concatenate([particles.identity, self.identity])
-        place = np.full(int(numbers.max(initial=-1)) + 1, -1)
-        place[self.identity] = np.arange(self.identity.size)
-        before = place[particles.identity]
+        before = places_of(particles.identity, self.identity)
         known = np.flatnonzero(before >= 0)
         return known, self.position[:, before[known]]

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from ..core.errors import InputError
 from ..physics.contracts import WATER
 from .attributes import file_attributes, variable_attributes
 from .crossings import Paths, crossings, near
@@ -204,9 +205,15 @@ class Sections:
         Raises
         ------
         InputError
-            If it is of other sections.
+            If it is of other sections, or its arrays do not fit each other.
         """
         check_same_names("Sections", state, self.lines)
+        sizes = {name: np.size(state[name]) for name in ("crossings", "signs", "identity", "position")}
+        if (
+            sizes["crossings"] % len(COLUMNS) or sizes["signs"] != len(self.lines)
+            or sizes["position"] != 2 * sizes["identity"] or np.unique(state["identity"]).size != sizes["identity"]
+        ):  # fmt: skip
+            raise InputError(f"Sections: the memory in the checkpoint has arrays that do not fit each other: {sizes}")
         events = np.reshape(np.asarray(state["crossings"], float), (-1, len(COLUMNS)))
         self._events = [events[k : k + 1] for k in range(len(events))]
         self._signs, self._time = np.array(state["signs"], float), float(state["time"])

@@ -10,6 +10,7 @@ import xarray as xr
 from ..core.errors import InputError
 from .attributes import file_attributes, variable_attributes
 from .follower import Follower, TimeRows
+from .identities import places_of
 from .observers import check_interval
 
 TRACKED = {
@@ -67,9 +68,7 @@ class Tracks(Follower):
             present = np.sort(identity)
             count = min(self._count or 1, present.size)
             self._chosen = present[((np.arange(count) + 0.5) * present.size / count).astype(int)]
-        place = np.full(max(p.ever, int(self._chosen.max()) + 1), -1)
-        place[identity] = np.arange(identity.size)
-        at = place[self._chosen]
+        at = places_of(self._chosen, identity)
         x0, y0 = self._lower_left
         now = {"x": p.x + x0, "y": p.y + y0, "speed": np.sqrt(np.sum(p.velocity**2, axis=0))}
         now |= {name: getattr(p, name) for name in TRACKED if name not in now}

@@ -123,7 +123,9 @@ def failure_surface(
         width = high - family.least
         number = brentq(lambda x: size(family.depth(x)) - value, family.least, high, xtol=1e-13 * width)
         depth = family.depth(number)
-    return depth * outline.fraction * (value / size(depth))
+    if (found := size(depth)) <= 0.0:
+        raise InputError(f"{CALLER}{asked} is {value:g}, too small for a body; ask for more")
+    return depth * outline.fraction * (value / found)
 
 
 def _size_asked(**sizes: float | None) -> tuple[str, float]:

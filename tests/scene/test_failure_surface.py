@@ -317,3 +317,9 @@ def test_nothing_leaves_over_closed_nodes():
     assert failing_depth(grid, inside.reshape(grid.shape), largest_depth=1.0).sum() < 0.9 * free.sum()
     with pytest.raises(InputError, match="inside must have a value for each of 1500 nodes, got 3"):
         failing_depth(grid, inside[:3], largest_depth=1.0)
+
+
+def test_a_depth_too_small_for_a_number_is_refused():
+    grid, inside = slope_grid()
+    with pytest.raises(InputError, match="e-321, too small for a body; ask for more"):
+        failing_depth(grid, inside, largest_depth=1e-320)
