@@ -68,16 +68,15 @@ def run(program: Program, folder: Path, moment: Moment | None):
     written : list of float
         When checkpoints were there, since the first one [s].
     """
-    path, known, seen, since = folder / program.checkpoint, None, [], None
-    if path.exists():
-        known = path.stat().st_ino, path.stat().st_mtime_ns
+    path, seen, since = folder / program.checkpoint, [], None
+    known = state_of(path)
     for name in temporary(folder, program):
         (folder / name).unlink()
     command = [word.format(folder) for word in (program.resume if path.exists() else program.start)]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         while process.poll() is None:
             now = time.perf_counter()
-            if path.exists() and (found := (path.stat().st_ino, path.stat().st_mtime_ns)) != known:
+            if (found := state_of(path)) not in (known, None):
                 known, _ = found, seen.append(now)
             if moment is not None and len(seen) >= moment.checkpoint:
                 due = since is not None or not moment.writing or temporary(folder, program)
@@ -90,6 +89,15 @@ def run(program: Program, folder: Path, moment: Moment | None):
         if process.returncode > 0:
             raise SystemExit(f"{' '.join(command)} failed:\n{words}")
     return process.returncode < 0, bool(temporary(folder, program)), [when - seen[0] for when in seen]
+
+
+def state_of(path: Path):
+    """Return what changes when a file is written anew, or None if it is not there: a run that ends removes it."""
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        return None
+    return found.st_ino, found.st_mtime_ns
 
 
 def draw(rng, count: int, gap: float, writing: bool) -> Moment:
