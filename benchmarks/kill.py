@@ -151,7 +151,7 @@ def main() -> int:
             if (found := result(program, folder)) == expected:
                 counts["equal"] += 1
             else:
-                different = [key for key in expected if found.get(key) != expected[key]]
+                different = sorted(key for key in {**expected, **found} if found.get(key) != expected.get(key))
                 print(f"different: {', '.join(different)}", flush=True)
             print(", ".join(f"{key} {value}" for key, value in counts.items()), flush=True)
     print("kills by fifth of the event, as the last checkpoint tells: " + ", ".join(str(places[k]) for k in range(5)))
