@@ -391,6 +391,17 @@ def test_the_one_before_is_kept(tmp_path):
     assert times == [3.0, 2.0]
 
 
+def test_a_process_killed_between_keeping_and_writing_leaves_nothing_beside(tmp_path):
+    flow = build("eroding")
+    path, previous = tmp_path / "flow.nc", tmp_path / "flow.previous.nc"
+    flow.save(path)
+    os.link(path, previous)  # the one that is there has been kept, the new one is not there yet
+    flow.run_one_step(0.5)
+    flow.save(path)
+    assert sorted(os.listdir(tmp_path)) == ["flow.nc", "flow.previous.nc"]
+    assert [DebrisFlow.load(each).elapsed_time for each in (previous, path)] == [0.0, 0.5]
+
+
 @pytest.mark.skipif(os.name != "posix", reason="asks the system for processes")
 def test_what_a_killed_process_left_is_removed(tmp_path):
     process = subprocess.Popen([sys.executable, "-c", ""])

@@ -176,8 +176,10 @@ def _keep(path: Path, previous: Path) -> None:
         beside.unlink(missing_ok=True)
         os.link(path, beside)
     except OSError:
-        beside = path
+        os.replace(path, previous)
+        return
     os.replace(beside, previous)
+    beside.unlink(missing_ok=True)  # it stays where both are one file: after a process that was killed in between
 
 
 def _to_bytes(dataset: xr.Dataset) -> bytes:

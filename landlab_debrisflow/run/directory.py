@@ -16,7 +16,7 @@ from ..record.files import check_directory
 from .files import CHECKPOINT, LOCK, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
-TEMPORARY = re.compile(r"\.(run|checkpoint|maps_\d+)\.\d+\.(json|nc)")
+TEMPORARY = re.compile(r"\.(run|checkpoint|checkpoint\.previous|maps_\d+)\.\d+\.(json|nc)")
 """Names of files that are being written (record/files.py)."""
 
 

@@ -59,7 +59,14 @@ def test_only_recorded_files_inside_are_removed(tmp_path):
 
 
 def test_files_that_a_killed_process_was_writing_are_removed(tmp_path):
-    for name in (".checkpoint.123.nc", ".run.9.json", "series/.maps_000002.77.nc", ".hidden.nc", "checkpoint.nc"):
+    for name in (
+        ".checkpoint.123.nc",
+        ".checkpoint.previous.5.nc",
+        ".run.9.json",
+        "series/.maps_000002.77.nc",
+        ".hidden.nc",
+        "checkpoint.nc",
+    ):
         (tmp_path / "out" / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "out" / name).write_text("")
     with OutputDirectory.claimed(tmp_path / "out"):
