@@ -1,5 +1,6 @@
 """Observers that follow the particles step by step and have no need of the fields of the grid."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any
 
@@ -60,7 +61,7 @@ class TimeRows:
         self._rows = [{name: stacked[name][k] for name in names} for k in range(len(self._times))]
 
 
-class Follower:
+class Follower(ABC):
     """Base of observers that follow the particles; looks at the grid neither cost time nor are needed.
 
     A subclass has a method ``sample(particles, time)``, called at the beginning, after every step that crosses a
@@ -128,6 +129,7 @@ class Follower:
         if self._particles is not None and self._particles.count and self._rows.last_time < flow.elapsed_time:
             self.sample(self._particles, flow.elapsed_time)
 
+    @abstractmethod
     def sample(self, particles: Any, time: float) -> None:
         """Add a row of values.
 
@@ -138,7 +140,6 @@ class Follower:
         time : float
             Elapsed time [s].
         """
-        raise NotImplementedError
 
     def state(self) -> dict[str, Any]:
         """Return the rows so far by name, for a checkpoint."""

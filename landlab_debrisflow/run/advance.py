@@ -1,10 +1,12 @@
 """Advance a flow through the releases of a scene."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from ..component import DebrisFlow
 from ..core.errors import InputError
-from ..scene.releases import set_release
+from ..scene.releases import ScheduledRelease, set_release
+from ..scene.setup import Setup
 
 
 def check_mass(scene: Any) -> None:
@@ -18,20 +20,43 @@ def check_mass(scene: Any) -> None:
         raise InputError(f"{scene.name}: nothing is released and nothing flows in; give release or inflow")
 
 
-def advance(flow: DebrisFlow, scene: Any) -> None:
-    """Advance a new flow, or one from a checkpoint, to rest or the longest time, with the releases still to come.
+def start(grid: Any, setup: Setup, releases: Sequence[ScheduledRelease], observers: Any = ()) -> DebrisFlow:
+    """Return a flow on a grid, on which the releases at time 0 are set.
+
+    Parameters
+    ----------
+    grid : RasterModelGrid
+        With the fields of the terrain; it is changed.
+    setup : Setup
+    releases : sequence of ScheduledRelease
+    observers : observer or sequence of them
+        As of `DebrisFlow`.
+
+    Returns
+    -------
+    DebrisFlow
+    """
+    for release in releases:
+        if release.time == 0.0:
+            set_release(grid, release)
+    return DebrisFlow(grid, observers=observers, **vars(setup))
+
+
+def advance(flow: DebrisFlow, releases: Sequence[ScheduledRelease], end: float) -> None:
+    """Advance a flow that was started, or loaded, to rest or the longest time, with the releases still to come.
 
     A release at the time at which an unfinished call was to end is still to come; one at its beginning is in the flow.
 
     Parameters
     ----------
     flow : DebrisFlow
-        Of `Scene.flow`, or loaded.
-    scene : Scene
+    releases : sequence of ScheduledRelease
+        In the order of their times; those at time 0 are in the flow.
+    end : float
+        Longest elapsed time [s].
     """
     reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
-    end = scene.output_keys.max_duration
-    for release in scene.releases:
+    for release in releases:
         if release.time == 0.0 or not reached * (1.0 - 1e-12) <= release.time < end:
             continue
         if (left := release.time - flow.elapsed_time) > 1e-12 * release.time:

@@ -13,8 +13,7 @@ import numpy as np
 from ..component import DebrisFlow
 from ..model.time_step import TERRAIN_FRACTION
 from ..record.measures import measures
-from ..scene.releases import set_release
-from .advance import advance
+from .advance import advance, start
 from .scene import Scene
 
 PARTICLES = 150
@@ -238,16 +237,13 @@ def run_start(scene: Scene) -> Start:
 
 
 def _flow(scene: Scene, grid: Any, observer: Any, **changes: Any) -> DebrisFlow:
-    for release in scene.releases:
-        if release.time == 0.0:
-            set_release(grid, release)
-    return DebrisFlow(grid, observers=[observer], **(vars(scene.setup) | changes))
+    return start(grid, dataclasses.replace(scene.setup, **changes), scene.releases, [observer])
 
 
 def _runs_through(flow: DebrisFlow, scene: Scene) -> bool:
     """Advance a flow through its scene; return whether it came to the end."""
     try:
-        advance(flow, scene)
+        advance(flow, scene.releases, scene.output_keys.max_duration)
     except PilotOverError:
         return False
     return True

@@ -9,9 +9,11 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..core.version import __version__
+from ..geo.rasters import checksum_of
 from ..record.files import write_atomically
+from ..scene.content import named_files
 from ..scene.digest import digest
-from .files import input_digests, is_result
+from .files import is_result
 
 FORMAT = 1
 """Version of the record."""
@@ -71,7 +73,7 @@ class RunRecord:
     def of(cls, scene: Any, scene_file: str | None = None) -> "RunRecord":
         """Return the record of a `Scene` that is about to run."""
         mapping = json.loads(json.dumps(scene.to_mapping()))
-        inputs = input_digests(mapping, scene.folder)
+        inputs = {name: checksum_of(path) for name, path in named_files(mapping, scene.folder).items()}
         return cls(scene=mapping, inputs=inputs, digest=digest([mapping, inputs]), scene_file=scene_file)
 
     @classmethod

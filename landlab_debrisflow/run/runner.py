@@ -129,7 +129,7 @@ def _compute(
         observers = Observers(scene, directory)
         with compilations(lambda: monitor.say(COMPILING)):
             flow = build(observers=[monitor, *observers.all])
-            advance(flow, scene)
+            advance(flow, scene.releases, scene.output_keys.max_duration)
         monitor.finish()
         directory.publish(lambda folder: _write(folder, flow, scene, observers))
         if not flow.at_rest:

@@ -11,16 +11,18 @@ from landlab import RasterModelGrid
 
 from ..component import DebrisFlow
 from ..geo.lattice import Lattice
+from ..geo.rasters import checksum_of
 from ..scene.content import named_files, read_content, to_mapping
-from ..scene.digest import digest, file_digest
+from ..scene.digest import digest
 from ..scene.location import located
 from ..scene.outputs import OutputPlaces, output_places
 from ..scene.point_inflow import point_hydrographs
 from ..scene.read_yaml import YamlFile, read_yaml
-from ..scene.releases import ScheduledRelease, schedule_releases, set_release
+from ..scene.releases import ScheduledRelease, schedule_releases
 from ..scene.setup import Setup
 from ..scene.terrain import build_terrain, lattice_of
 from ..scene.zones import VaryingParameter, varying_parameters, with_fields
+from .advance import start
 from .grids import build_grid
 from .results import Results
 
@@ -156,7 +158,7 @@ class Scene:
         str
         """
         content = {key: value for key, value in self.to_mapping().items() if key != "output"}
-        files = [file_digest(path) for path in named_files(self._content, self.folder)]
+        files = {name: checksum_of(path) for name, path in named_files(content, self.folder).items()}
         return digest([content, files])
 
     # ---- what the keys stand for ----
@@ -230,11 +232,7 @@ class Scene:
         -------
         DebrisFlow
         """
-        grid = self.grid() if grid is None else grid
-        for release in self.releases:
-            if release.time == 0.0:
-                set_release(grid, release)
-        return DebrisFlow(grid, observers=observers, **vars(self.setup))
+        return start(self.grid() if grid is None else grid, self.setup, self.releases, observers)
 
     def run(self, *, overwrite: bool = False) -> Results:
         """Run the scene to rest and write its results; a line shows how it gets on.

@@ -6,11 +6,11 @@ from typing import Any
 import xarray as xr
 from landlab import RasterModelGrid
 
-from ..component import DebrisFlow
 from ..core.checks import in_range
 from ..core.errors import InputError
-from ..scene.releases import ScheduledRelease, set_release
+from ..scene.releases import ScheduledRelease
 from ..scene.setup import Setup
+from .advance import advance, start
 from .grids import build_grid, copy_grid
 from .scene import Scene
 
@@ -75,35 +75,6 @@ def simulate(
     max_duration = 3600.0 if max_duration is None else max_duration
     in_range("simulate: max_duration", max_duration, 0.0, unit="s", error=InputError)
     setup = setup if isinstance(setup, Setup) else Setup.from_mapping({} if setup is None else setup)
-    flow = run_event(grid, setup, releases, max_duration)
+    flow = start(grid, setup, releases)
+    advance(flow, releases, max_duration)
     return flow.maps.assign_attrs(at_rest=int(flow.at_rest))
-
-
-def run_event(
-    grid: RasterModelGrid, setup: Setup, releases: Sequence[ScheduledRelease], max_duration: float
-) -> DebrisFlow:
-    """Run releases at their times, and on to rest, on a grid, which is changed; return the flow.
-
-    Parameters
-    ----------
-    grid : RasterModelGrid
-    setup : Setup
-    releases : sequence of ScheduledRelease
-        In the order of their times.
-    max_duration : float
-        Longest time to simulate [s].
-
-    Returns
-    -------
-    DebrisFlow
-    """
-    waiting = [release for release in releases if release.time < max_duration]
-    while waiting and waiting[0].time == 0.0:
-        set_release(grid, waiting.pop(0))
-    flow = DebrisFlow(grid, **vars(setup))
-    for release in waiting:
-        if release.time > flow.elapsed_time:
-            flow.run_one_step(release.time - flow.elapsed_time)
-        set_release(grid, release)
-    flow.run_until_rest(max_duration - flow.elapsed_time)
-    return flow

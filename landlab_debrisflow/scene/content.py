@@ -16,6 +16,9 @@ from .zones import varying_parameters
 SETUP_KEYS = tuple(keys_of(Setup))
 SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS)
 
+BESIDE = (".shx", ".dbf", ".prj", ".cpg", ".aux.xml")
+"""Endings of files that belong to a Shapefile or an ESRI ASCII grid of the same name."""
+
 
 class SceneContent(NamedTuple):
     """Checked values of a scene.
@@ -98,29 +101,31 @@ def to_mapping(content: SceneContent) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def named_files(content: SceneContent, folder: Path) -> list[Path]:
-    """Return the existing files that terrain, releases and laws of a scene name, each once, in the order of the keys.
-
-    With a Shapefile come its siblings.
+def named_files(mapping: Mapping[str, Any], folder: Path) -> dict[str, Path]:
+    """Return the existing files that the values of a scene name, in their order, with files that belong to them.
 
     Parameters
     ----------
-    content : SceneContent
+    mapping : mapping
+        Scene, or a part of it, as plain values.
     folder : Path
         Directory to which names of files are relative.
 
     Returns
     -------
-    list of Path
+    dict of str to Path
+        Files by their names as they stand in the scene.
     """
-    files: dict[Path, None] = {}
-    for text in _texts({**to_mapping(content), "output": {}}):
-        for name in (text, text.rpartition(":")[0]):
-            path = folder / name
-            if name and _is_file(path):
-                siblings = path.parent.glob(f"{path.stem}.*") if path.suffix.lower() == ".shp" else (path,)
-                files |= dict.fromkeys(sorted(siblings))
-    return list(files)
+    files: dict[str, Path] = {}
+    for text in _texts(mapping):
+        name = next((n for n in (text, text.rpartition(":")[0]) if n and _is_file(folder / n)), None)
+        if name is None:
+            continue
+        named = folder / name
+        beside = BESIDE if named.suffix.lower() in (".shp", ".asc") else ()
+        found = (named, *filter(_is_file, (named.with_suffix(end) for end in beside)))
+        files |= {f"{Path(name).parent / path.name}": path for path in found}
+    return files
 
 
 def _is_file(path: Path) -> bool:
@@ -133,8 +138,11 @@ def _is_file(path: Path) -> bool:
 def _texts(value):
     if isinstance(value, str):
         yield value
-    elif isinstance(value, Mapping | list):
-        for inner in value.values() if isinstance(value, Mapping) else value:
+    elif isinstance(value, Mapping):
+        for inner in value.values():
+            yield from _texts(inner)
+    elif isinstance(value, list | tuple) and not (value and isinstance(value[0], int | float)):  # long rows of numbers
+        for inner in value:
             yield from _texts(inner)
 
 

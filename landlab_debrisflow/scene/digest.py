@@ -1,11 +1,9 @@
 """Digest of values, equal in every process, whatever the seed of hashes and the addresses of objects."""
 
 import dataclasses
-import hashlib
 import re
 from collections.abc import Mapping
 from hashlib import blake2b
-from pathlib import Path
 from types import CodeType, FunctionType, MethodType
 from typing import Any
 
@@ -23,12 +21,6 @@ def digest(value: Any) -> str:
     (True, False)
     """
     return blake2b(_token(value, ()).encode(), digest_size=16).hexdigest()
-
-
-def file_digest(path: Path) -> str:
-    """Return 32 hexadecimal digits of the name and the bytes of a file."""
-    with path.open("rb") as file:
-        return digest([path.name, hashlib.file_digest(file, lambda: blake2b(digest_size=16)).hexdigest()])
 
 
 def text_of(obj: Any) -> str:
