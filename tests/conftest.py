@@ -26,6 +26,7 @@ from landlab_debrisflow.model.simulation import Simulation  # noqa: E402
 from validation.grids import inclined, release_slab  # noqa: E402
 
 from .suspicions import BuiltError, suspicions  # noqa: E402
+from .twins import build, outcome, state  # noqa: E402
 
 
 @pytest.fixture
@@ -85,3 +86,18 @@ def no_doubts():
     with suspicions() as said:
         yield said
     assert said == []
+
+
+@pytest.fixture(scope="session")
+def twin():
+    """The outcome and the state of flows that nobody interrupted, and the number of their steps."""
+    known = {}
+
+    def find(name):
+        if name not in known:
+            flow = build(name)
+            flow.run_until_rest()
+            known[name] = outcome(flow), state(flow), flow.diagnostics.steps
+        return known[name]
+
+    return find

@@ -44,21 +44,6 @@ def differences(flow, expected):
     return [(place, str(one.get(place))[:90], str(other.get(place))[:90]) for place in places]
 
 
-@pytest.fixture(scope="module")
-def twin():
-    """The outcome and the state of flows that nobody interrupted, and the number of their steps."""
-    known = {}
-
-    def find(name):
-        if name not in known:
-            flow = build(name)
-            flow.run_until_rest()
-            known[name] = outcome(flow), state(flow), flow.diagnostics.steps
-        return known[name]
-
-    return find
-
-
 def assert_goes_on(path, expected, observers=(), **others):
     flow = DebrisFlow.load(path, observers=observers, **others)
     assert flow.run_until_rest()

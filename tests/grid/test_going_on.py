@@ -14,21 +14,6 @@ from ..twins import SCENES, Failed, Fails, build, different, failing, outcome, r
 STAGES = ("advance", "friction_and_kick", "entrain", "move", "sample_bed", "interact", "consolidate", "find_limits")
 
 
-@pytest.fixture(scope="module")
-def twin():
-    """The outcome and the state of flows that nobody interrupted, and the number of their steps."""
-    known = {}
-
-    def find(name):
-        if name not in known:
-            flow = build(name)
-            flow.run_until_rest()
-            known[name] = outcome(flow), state(flow), flow.diagnostics.steps
-        return known[name]
-
-    return find
-
-
 # ---- interrupted ----
 
 
