@@ -156,8 +156,8 @@ class Simulation:
         state.outdated = False
 
     def _find_limits(self) -> None:
-        near = self.surroundings
-        self.state.limits = step.find_limits(self.particles, self.phases, near.courant_number, near.friction, self.time)
+        rule, gravity = self.surroundings.step_rule, self.setup.material.gravity
+        self.state.limits = step.find_limits(self.particles, self.phases, rule, gravity, self.time)
 
     def _consolidate(self, dt: float) -> None:
         prescribed = self.inflow.prescribed(self.particles)

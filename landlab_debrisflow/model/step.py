@@ -17,7 +17,7 @@ from .basal import BasalLaw, ColumnPhysics, basal_resistance, column_forcing, co
 from .bed_load import load_bed
 from .entrainment import entrain
 from .kinematics import NOWHERE, count_still_steps, disturb, drift, follow_bed, stop_at_walls
-from .time_step import StepLimits, reduce_particles
+from .time_step import StepLimits, StepRule, reduce_particles
 from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
@@ -32,7 +32,7 @@ def advance(simulation, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     state, phases, setup = simulation.state, simulation.phases, simulation.setup
     p, exchange, inflow, end = state.particles, state.exchange, state.inflow, state.time + dt
-    bed, walls, friction, erosion, columns, courant_number = simulation.surroundings
+    bed, walls, friction, erosion, columns, rule = simulation.surroundings
     material = setup.material
     clock = state.counters.clock()
     friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
@@ -54,7 +54,7 @@ def advance(simulation, dt: float) -> None:
     friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, courant_number, friction, state.time, dt)
+    state.limits = find_limits(p, phases, rule, material.gravity, state.time, dt)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)
@@ -225,11 +225,11 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
     phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, slice(p.count), columns), dt)
 
 
-def find_limits(p, phases, courant_number: float, friction: BasalLaw, time: float, dt: float = 0.0) -> StepLimits:
+def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: float = 0.0) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
-    `p` are the particles, `phases` gives the stiffness beside weight; the Courant number has no unit; `dt` is 0 before
-    the first step.
+    `p` are the particles, `phases` gives the stiffness beside weight, `rule` what bounds a step; `gravity` is in m s-2;
+    `dt` is 0 before the first step.
 
     Raises
     ------
@@ -237,7 +237,7 @@ def find_limits(p, phases, courant_number: float, friction: BasalLaw, time: floa
         If anything that moves is not finite.
     """
     stiff = phases.celerity_squared(p, dt)
-    limits = reduce_particles(p, friction.material.gravity, courant_number, friction.spacing, stiff)
+    limits = reduce_particles(p, gravity, rule, stiff)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

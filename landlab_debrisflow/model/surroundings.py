@@ -8,7 +8,7 @@ import numpy as np
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
 from .basal import BasalLaw, ColumnPhysics
-from .time_step import viscous_share
+from .time_step import StepRule, viscous_share
 
 
 class Surroundings(NamedTuple):
@@ -26,8 +26,8 @@ class Surroundings(NamedTuple):
         Law of erosion.
     columns : ColumnPhysics
         Law of the columns.
-    courant_number : float
-        Part of the longest stable step that is taken [-].
+    step_rule : StepRule
+        What bounds a step.
     """
 
     bed: Bed
@@ -35,7 +35,7 @@ class Surroundings(NamedTuple):
     friction: BasalLaw
     erosion: BasalLaw
     columns: ColumnPhysics
-    courant_number: float
+    step_rule: StepRule
 
 
 def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surroundings:
@@ -71,5 +71,8 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         friction=friction,
         erosion=erosion,
         columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant),
-        courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
+        step_rule=StepRule(
+            courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
+            way=numerics.advective_courant_number * raster.spacing,
+        ),
     )

@@ -8,10 +8,6 @@ from ..core.arrays import value_at
 from ..core.jit import kernel
 from ..core.structs import struct
 
-TERRAIN_FRACTION = 0.5
-"""Largest part of a node spacing a particle may cross in a step: the terrain must not be jumped over."""
-
-
 GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
@@ -40,6 +36,21 @@ def viscous_share(viscosity: float) -> float:
 
 NOT_STIFF = np.zeros(1)
 """Nothing but weight drives waves [m2 s-2]."""
+
+
+class StepRule(NamedTuple):
+    """Rule for the longest step, by the choices of `Numerics` on one raster.
+
+    Attributes
+    ----------
+    courant_number : float
+        Time step over smoothing length / celerity, with what the shock viscosity takes of it [-].
+    way : float
+        Longest way of a particle in a step, because the terrain must not be jumped over [m].
+    """
+
+    courant_number: float
+    way: float
 
 
 class StepLimits(NamedTuple):
@@ -132,11 +143,11 @@ class Growth(NamedTuple):
     depth: np.ndarray
 
 
-def reduce_particles(particles, gravity: float, courant_number: float, node_spacing: float, stiff=NOT_STIFF):
+def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF):
     """Return the `StepLimits` of all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
-    against the smoothing length (the speed itself does not count), and the speed against the node spacing.
+    against the smoothing length (the speed itself does not count), and the way of a step against the node spacing.
 
     Parameters
     ----------
@@ -144,10 +155,8 @@ def reduce_particles(particles, gravity: float, courant_number: float, node_spac
         Those not `summed` can wait for any time: nothing near them moves.
     gravity : float
         Acceleration by gravity [m s-2].
-    courant_number : float
-        Time step over smoothing length / celerity.
-    node_spacing : float
-        Smaller one of the raster's [m].
+    rule : StepRule
+        Courant number and longest way of a step.
     stiff : ndarray, shape (n,) or (1,)
         What else but weight adds to the square of the celerity [m2 s-2].
     """
@@ -159,9 +168,9 @@ def reduce_particles(particles, gravity: float, courant_number: float, node_spac
     motion = Motion(velocity=p.velocity, thrust=p.thrust, volume=p.volume)
     growth = Growth(rate=p.entrainment_rate, depth=p.depth)
     wave_rate, growth_rate, across, energy, fastest, broken = _reduce(
-        p.awake, waves, motion, growth, p.basal_excess_pore_pressure, gravity, TERRAIN_FRACTION * node_spacing
+        p.awake, waves, motion, growth, p.basal_excess_pore_pressure, gravity, rule.way
     )
-    longest = min(courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300), across)
+    longest = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300), across)
     return StepLimits(longest, energy, fastest, broken)
 
 

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..component import DebrisFlow
-from ..model.time_step import TERRAIN_FRACTION
 from ..record.measures import measures
 from .advance import advance, start
 from .scene import Scene
@@ -117,9 +116,9 @@ class _Steps:
 
     interval = math.inf
 
-    def __init__(self, node_spacing: float, longest: float, clock: Callable[[], float] = process_time):
+    def __init__(self, way: float, longest: float, clock: Callable[[], float] = process_time):
         self._cpu = clock
-        self._way, self._longest, self._began = TERRAIN_FRACTION * node_spacing, longest, perf_counter()
+        self._way, self._longest, self._began = way, longest, perf_counter()
         self.steps: list[tuple[float, float]] = []
         self._clock: list[float] = []
         self._erosion_times: list[tuple[float, float]] = []
@@ -195,7 +194,7 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     """
     numerics = dataclasses.replace(scene.setup.numerics, particle_count=particles, particle_spacing=None)
     grid = scene.grid()
-    steps = _Steps(min(grid.dx, grid.dy), longest)
+    steps = _Steps(numerics.advective_courant_number * min(grid.dx, grid.dy), longest)
     flow = _flow(scene, grid, steps, numerics=numerics)
     with collected_warnings():
         complete = _runs_through(flow, scene)

@@ -15,8 +15,11 @@ from .raster import CORE, Raster
 WIDEST = 4.0
 """Largest half-width of a hat function in node spacings."""
 
-REACH = 6
-"""Nodes within which a particle writes, also after a step (model/time_step.py)."""
+MOST_NODES_PER_STEP = 2.0
+"""Largest part of a node spacing that a particle may cross in a step (model/numerics.py)."""
+
+REACH = int(WIDEST + MOST_NODES_PER_STEP) + 1
+"""Nodes within which a particle writes, also after a step."""
 
 MOST_NODES = 100
 """Room for the nodes under one hat function; there are at most (2 `WIDEST` + 1)^2."""

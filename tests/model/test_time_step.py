@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.step_control import FASTER, FIRST, SLOWEST, TO_STOP, StepControl
-from landlab_debrisflow.model.time_step import GROWTH, TERRAIN_FRACTION, reduce_particles, viscous_share
+from landlab_debrisflow.model.time_step import GROWTH, StepRule, reduce_particles, viscous_share
 
-G, COURANT, SPACING = 9.81, 0.6, 5.0
+G, COURANT, WAY = 9.81, 0.6, 2.5
 
 
 def paced(energies, stable=1.0, restart=False):
@@ -91,7 +91,7 @@ def particles():
 def look(particles, computed=None):
     computed = np.ones(6, bool) if computed is None else computed
     particles.summed, particles.cos_slope = computed, np.full(6, 0.8)
-    return reduce_particles(particles, G, COURANT, SPACING)
+    return reduce_particles(particles, G, StepRule(COURANT, WAY))
 
 
 CELERITY = math.sqrt(G * 0.8 * 2.0)
@@ -120,7 +120,7 @@ def test_no_step_crosses_more_than_a_part_of_a_node(particles, computed):
     particles.velocity[:, 1], particles.thrust[:, 1] = (30.0, 0.0, -40.0), (3.0, 4.0, 0.0)
     found = look(particles, np.full(6, computed))
     step = found.longest_step
-    assert 50.0 * step + 0.5 * (G + 5.0) * step**2 == pytest.approx(TERRAIN_FRACTION * SPACING)
+    assert 50.0 * step + 0.5 * (G + 5.0) * step**2 == pytest.approx(WAY)
     assert found.energy == pytest.approx(7.0 * 2500.0) and found.fastest == pytest.approx(50.0 + CELERITY)
 
 

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model.time_step import TERRAIN_FRACTION
+from landlab_debrisflow import DebrisFlow, Numerics
 from validation.grids import dry_block, inclined, place, release_slab
 
 G, DEGREES, SPACING = 9.81, 25.0, 5.0
@@ -80,4 +79,4 @@ def test_a_body_of_many_particles_slides_as_one():
 
 def test_the_first_step_knows_the_speed():
     flow = place(block(80.0, 0.3))
-    assert flow._simulation.state.limits.longest_step * 80.0 <= TERRAIN_FRACTION * SPACING
+    assert flow._simulation.state.limits.longest_step * 80.0 <= Numerics().advective_courant_number * SPACING
