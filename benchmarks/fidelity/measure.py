@@ -1,0 +1,88 @@
+"""Measure a run: its quantities at the end and while it creeps, and what it cost."""
+
+import importlib.util
+import logging
+import math
+import time
+from pathlib import Path
+
+from landlab_debrisflow import DebrisFlow
+
+from .variations import vary
+
+QUANTITIES = Path(__file__).parents[2] / "landlab_debrisflow" / "fidelity" / "quantities.py"
+DIGITS = 6  # significant ones that are kept
+
+
+def load_quantities():
+    """Return the module of the checkout, which measures an older package that is installed, too."""
+    name = "landlab_debrisflow.fidelity.quantities"
+    spec = importlib.util.spec_from_file_location(name, QUANTITIES)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+quantities = load_quantities()
+
+
+def rounded(value):
+    """Return a number with the digits that are kept, None instead of NaN."""
+    return None if not math.isfinite(value) else float(f"{value:.{DIGITS}g}")
+
+
+def build(scene, particles: int, variation: str, observers=()):
+    """Return the flow of a `Scene`, and its longest time [s].
+
+    Parameters
+    ----------
+    scene : Scene
+    particles : int
+        Their number, before the variation.
+    variation : str
+        Words of `variations`.
+    """
+    grid, keywords, numerics = vary(scene, particles, variation)
+    return DebrisFlow(grid, **keywords, numerics=numerics | {"settle": False}, observers=observers), scene.max_duration
+
+
+def warm_up(make, variation: str) -> None:
+    """Load the kernels that a run needs, so that its cost is that of the run; `make` returns a new `Scene`."""
+    flow, _ = build(make(), 50, variation)
+    flow.run_one_step(3.0)
+
+
+def measure(make, particles: int, variation: str = "") -> dict:
+    """Run a scene and return its quantities, those at the levels of creep, and its cost.
+
+    Parameters
+    ----------
+    make : callable
+        Returns a new `Scene`.
+    particles : int
+    variation : str
+
+    Returns
+    -------
+    dict
+        Quantities by name; "creep": quantities by level; "at_rest", "steps", "seconds" (CPU of the run), "made":
+        particles that were made, "outflow": volume that left over what there was [-].
+    """
+    logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)
+    warm_up(make, variation)
+    scene = make()
+    decay = quantities.Decay()
+    flow, duration = build(scene, particles, variation, observers=(decay,))
+    began = time.process_time()
+    rest = flow.run_until_rest(duration)
+    seconds = time.process_time() - began
+    budget = flow.budget
+    whole = budget["released"] + budget["inflow"] + budget["eroded"]
+    return {name: rounded(value) for name, value in quantities.quantities(flow, decay.origin).items()} | {
+        "creep": {
+            f"{level:g}": {name: rounded(value) for name, value in found.items()}
+            for level, found in decay.found.items()
+        },
+        "at_rest": bool(rest), "steps": flow.diagnostics.steps, "seconds": round(seconds, 3),
+        "made": flow.particles.sizes["particle"], "outflow": rounded(budget["outflow"] / whole),
+    }  # fmt: skip
