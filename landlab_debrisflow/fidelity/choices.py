@@ -23,6 +23,8 @@ from .constants import (
 )
 from .event import Event
 
+BED_RATIO = "bed__excess_pore_pressure_ratio"
+
 
 class Choice(NamedTuple):
     """A choice and its reason.
@@ -57,10 +59,7 @@ def choose_steps(numerics: Numerics, tolerance: float) -> Choice:
     Choice
         Of a `Numerics`.
     """
-    words = (
-        "Courant number {courant_number:g}, at most {advective_courant_number:g} nodes per step, at rest below "
-        "{rest_energy:g} of the peak energy"
-    )
+    words = "Courant numbers {courant_number:g} and {advective_courant_number:g}, rest energy {rest_energy:g}"
     own = {name for name, value in PRESETS["standard"].items() if getattr(numerics, name) != value}
     if own:
         rule = f"your own {', '.join(name for name in PRESETS['standard'] if name in own)} in numerics"
@@ -81,7 +80,7 @@ def has_pressure(event: Event) -> bool:
     released = event.release_depth.any() or any(line.pressure_ratio is None for line in setup.inflow)
     body = material.initial_pressure_ratio > 0.0 and released
     inflow = any(line.pressure_ratio is not None and any(line.pressure_ratio) for line in setup.inflow)
-    ratio = at["bed__excess_pore_pressure_ratio"] if "bed__excess_pore_pressure_ratio" in at else None
+    ratio = at[BED_RATIO] if BED_RATIO in at else None  # noqa: SIM401  (Landlab's get finds nothing)
     wet = material.bed_pressure_ratio > 0.0 if ratio is None else bool(np.any(np.asarray(ratio) > 0.0))
     return bool(body or inflow or (erodes(event) and (wet or material.bed_loading_coefficient > 0.0)))
 

@@ -99,8 +99,7 @@ RASTER_PILOTS = (1000, 500)
 """Numbers of particles with which every second node may be examined, the better first."""
 
 NEVER_HELD = {
-    "time_to_rest": "the end of a flow is a creep whose duration changes by a fifth from one number of particles to the "
-    "next",
+    "time_to_rest": "a flow ends in a creep whose duration changes by a fifth from one number of particles to the next",
     "deposit_area": "it is the area of what lies there, which changes by a sixth; hold area, where the flow came",
     "max_pressure": "it is that of one node; pressure is the 99 % quantile, which is stated",
     "deposit_thickness": "it changes by a fifth at one node; deposit is its mean by volume, which is stated",

@@ -3,6 +3,7 @@
 Nothing here runs a flow: runs are mappings of the number of particles to quantities, as `quantities` returns them.
 """
 
+import itertools
 import math
 from collections.abc import Collection, Mapping
 
@@ -39,7 +40,7 @@ def error_base(runs: Runs, related: Collection[str]) -> float:
         values = [runs[count][name] for count in finest]
         if not all(math.isfinite(value) for value in values):
             return math.nan
-        changes = [abs(after - before) for before, after in zip(values[:-1], values[1:], strict=True)]
+        changes = [abs(after - before) for before, after in itertools.pairwise(values)]
         change = max(changes[-1], *(0.5 * one for one in changes[:-1]))
         bases.append(_relative(change, values[-1]))
     return max(bases)
@@ -140,6 +141,8 @@ def next_count(asked: float, finest: int, most: int) -> int:
     >>> next_count(2378.0, 1000, 8000), next_count(2378.0, 1000, 3000), next_count(990.0, 1000, 8000)
     (4000, 3000, 1000)
     """
+    if not math.isfinite(asked):
+        return max(most, finest)
     doublings = max(0, math.ceil(math.log2(asked / finest) - 1e-9))
     return min(finest * 2**doublings, max(most, finest))
 

@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.errors import InputError
 from ..core.values import NodeValues
 from ..grid.fields import fields_in_use
 from ..grid.release import RELEASE_DEPTH
@@ -97,15 +96,11 @@ class Event(NamedTuple):
         """Return 32 hexadecimal digits that differ where fields, statuses or place of the grid differ."""
         grid = self.grid
         laws = {kind: getattr(self.setup, kind) for kind in ("friction", "erosion")}
-        fields = {name: values for name, values in fields_in_use(grid, laws).items() if name not in _WRITTEN}
+        fields = fields_in_use(grid, laws)
         frame = [tuple(grid.shape), float(grid.dx), float(grid.dy), [float(axis) for axis in grid.xy_of_lower_left]]
         later = [[one.time, one.depth, one.source, one.velocity] for one in self.releases if one.time > 0.0]
         values = {name: np.asarray(field, float) for name, field in fields.items() if np.any(field)}
         return digest([frame, np.array(grid.status_at_node), values, later])
-
-
-_WRITTEN = frozenset({"bed__excess_pore_pressure"})
-"""Fields that a component adds to its grid."""
 
 
 def event_of_grid(
@@ -132,34 +127,39 @@ def event_of_grid(
     Raises
     ------
     InputError
-        If nothing is released and nothing flows in, or a field is not usable.
+        If a field is not usable.
     """
     copied = copy_grid(grid)
     write_release(copied)
-    event = Event(copied, setup, max_duration, make, tuple(releases))
-    if event.volume == 0.0:
-        raise InputError(
-            "plan: nothing is released and nothing flows in, so there is nothing to plan; set "
-            f"{RELEASE_DEPTH} > 0 where ground fails, or give inflow, before plan()"
-        )
-    return event
+    return Event(copied, setup, max_duration, make, tuple(releases))
 
 
 def origin(event: Event) -> tuple[float, float]:
     """Return the place from where run-out is counted, x and y on the map [m]: the centre of what is released first."""
     later = sorted((one for one in event.releases if one.time > 0.0), key=lambda one: one.time)
     if event.grid.at_node[RELEASE_DEPTH].any() or event.setup.inflow or not later:
-        return origin_of(event)
+        return origin_of(event.grid, event.setup)
     grid, weights = event.grid, later[0].depth.ravel()
     return tuple(float(np.average(axis, weights=weights)) for axis in (grid.x_of_node, grid.y_of_node))
 
 
-def with_count(setup: Setup, count: int) -> Setup:
-    """Return a setup with another number of particles, found by nobody."""
-    chosen = dataclasses.replace(
-        setup.numerics, particle_count=count, particle_spacing=None, tolerance=None, hold=None
-    )
-    return dataclasses.replace(setup, numerics=chosen)
+def with_count(setup: Setup, count: int, **others: Any) -> Setup:
+    """Return a setup with a number of particles, and other values of its numerics.
+
+    Parameters
+    ----------
+    setup : Setup
+    count : int
+        Number of particles, in place of a spacing or of one to be found.
+    **others
+        Of `Numerics`.
+
+    Returns
+    -------
+    Setup
+    """
+    found = {"particle_count": count, "particle_spacing": None, "tolerance": None, "hold": None}
+    return dataclasses.replace(setup, numerics=dataclasses.replace(setup.numerics, **found | others))
 
 
 def _coarse_release(grid, release: ScheduledRelease) -> ScheduledRelease:

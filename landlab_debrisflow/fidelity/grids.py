@@ -62,7 +62,7 @@ def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
         raise InputError(f"every second node of {rows} x {columns} nodes makes no grid; {FEWEST} x {FEWEST} are needed")
     shape = tuple((count + 1) // 2 for count in grid.shape)
     coarse = _new_grid(grid, shape, 2)
-    status = grid.status_at_node.reshape(grid.shape)
+    status = np.array(grid.status_at_node).reshape(grid.shape)
     kept = status[::2, ::2].copy()
     kept[-1, :], kept[:, -1] = status[-1, ::2], status[::2, -1]  # the edge, if the number of rows or columns is even
     coarse.status_at_node[:] = kept.ravel()
@@ -98,7 +98,7 @@ def depth_on(coarse: RasterModelGrid, depth: np.ndarray) -> np.ndarray:
         If no core node is left to lie on.
     """
     spread = every_second(depth)
-    spread[coarse.status_at_node.reshape(coarse.shape) != 0] = 0.0
+    spread[np.array(coarse.status_at_node).reshape(coarse.shape) != 0] = 0.0
     if depth.any() and not spread.any():
         raise InputError("none of the nodes of a release stays where it may flow")
     return spread * (depth.sum() / (4.0 * spread.sum())) if depth.any() else spread

@@ -1,9 +1,8 @@
 """Pilot runs: an event with few particles, on copies of its grid, and what is measured in them."""
 
-import dataclasses
 import logging
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from time import process_time
 from typing import Any, NamedTuple
@@ -98,7 +97,7 @@ def run_pilot(event: Event, setup: Setup, count: int) -> Pilot:
     start = origin(event)
     decay, drainage, compiled = Decay(start), Drainage(), []
     with collected_warnings(), compilations(lambda: compiled.append(True)):
-        flow = drainage.flow = event.flow(with_count(setup, count), [decay, drainage])
+        flow = drainage.flow = event.flow(with_count(setup, count, settle=False), [decay, drainage])
         began = process_time()
         try:
             event.run(flow)
@@ -110,7 +109,7 @@ def run_pilot(event: Event, setup: Setup, count: int) -> Pilot:
     return Pilot(
         quantities=found, creep=_creep(decay, found, setup.numerics.rest_energy),
         cost=Cost(flow.diagnostics.steps, math.nan if compiled else seconds), at_rest=flow.at_rest,
-        coefficient_of_consolidation=drainage.coefficient,
+        coefficient_of_consolidation=0.0 if math.isnan(drainage.coefficient) else drainage.coefficient,
     )  # fmt: skip
 
 
