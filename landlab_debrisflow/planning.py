@@ -1,20 +1,23 @@
-"""Plans of a flow: made by pilot runs, adopted before an event, and reported after it."""
+"""Plans of a flow: made by pilot runs, adopted before an event, and reported after it.
+
+What makes them is imported when it is first used: most flows have no plan.
+"""
 
 import dataclasses
 import json
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .core.errors import InputError
-from .fidelity.event import Event, event_of_grid
-from .fidelity.plan import Plan
-from .fidelity.planner import Wishes, make_plan, setup_digest
-from .fidelity.quantities import quantities
-from .fidelity.report import Report, make_report
 from .grid.call import GridCall
 from .grid.checks import check_duration
 from .model.inflow.inflow import Inflow
 from .model.simulation import Simulation
+
+if TYPE_CHECKING:
+    from .fidelity.event import Event
+    from .fidelity.plan import Plan
+    from .fidelity.report import Report
 
 
 class Planning:
@@ -23,14 +26,14 @@ class Planning:
     _call: Any
     _simulation: Simulation
     _setup: Any
-    _plan: Plan | None = None
+    _plan: "Plan | None" = None
     _measured: dict[str, float] | None = None
     grid: Any
 
     def plan(
         self, tolerance: float = 0.05, hold: Collection[str] = ("run_out", "speed"), *, max_particles: int = 8000,
         max_cost: float | None = None, max_duration: float = 3600.0, raster: bool | None = None,
-    ) -> Plan:  # fmt: skip
+    ) -> "Plan":  # fmt: skip
         """Find the number of particles, column and steps that an error asks for, by pilot runs on copies of the grid.
 
         Pilot runs have 250, 500 and 1000 particles. Grid and flow stay as they are, and observers are not called;
@@ -68,10 +71,12 @@ class Planning:
         -----
         The rules are those of docs/choosing.md, with the constants of `fidelity/constants.py`.
         """
+        from .fidelity.planner import Wishes, make_plan
+
         wishes = Wishes(tolerance=tolerance, hold=hold, max_particles=max_particles, max_cost=max_cost, raster=raster)
         return make_plan(self._event(check_duration(max_duration, "max_duration")), wishes)
 
-    def adopt(self, plan: Plan) -> None:
+    def adopt(self, plan: "Plan") -> None:
         """Put numerics and column of a plan in the place of those of the flow, before the event begins.
 
         Observers are prepared anew.
@@ -86,6 +91,9 @@ class Planning:
         InputError
             If the flow moves already, or the plan is for another setup, terrain or release.
         """
+        from .fidelity.plan import Plan
+        from .fidelity.planner import setup_digest
+
         if not isinstance(plan, Plan):
             raise InputError(f"adopt: a Plan is needed, as plan() returns it, got {plan!r:.60}")
         event = self._event(plan.max_duration)
@@ -100,7 +108,7 @@ class Planning:
             )
         self._take(plan)
 
-    def report(self) -> Report:
+    def report(self) -> "Report":
         """Return what the run was made with, what it cost, and how exact it is.
 
         Returns
@@ -108,15 +116,14 @@ class Planning:
         Report
             It prints itself. Without a plan the error is not known.
         """
-        return make_report(self, self._plan, self._measured)
+        from .fidelity.report import make_report
 
-    @property
-    def particles_ever(self) -> int:
-        """Number of particles that there have been so far."""
-        return int(self._simulation.particles.ever)
+        return make_report(self, int(self._simulation.particles.ever), self._plan, self._measured)
 
-    def _event(self, max_duration: float) -> Event:
+    def _event(self, max_duration: float) -> "Event":
         """Return the event that is about to begin; refuse one that has begun."""
+        from .fidelity.event import event_of_grid
+
         simulation = self._simulation
         if self._call.interruption.running or self.unfinished_until is not None:
             raise InputError("plan: a call runs, or was interrupted; finish it, and plan before the event begins")
@@ -140,14 +147,11 @@ class Planning:
 
     def _find_count(self, max_duration: float) -> None:
         """Plan and adopt if numerics leave the number of particles open and something is about to move."""
-        numerics = self._setup.numerics
-        if not numerics.automatic:
+        if not self._setup.numerics.automatic:
             return
-        chosen = {"tolerance": numerics.tolerance, "hold": numerics.hold}
-        wishes, event = (
-            Wishes(**{name: one for name, one in chosen.items() if one is not None}),
-            self._event(max_duration),
-        )
+        from .fidelity.planner import make_plan, wishes_of
+
+        wishes, event = wishes_of(self._setup), self._event(max_duration)
         if event.volume > 0.0:  # else the call says that nothing is to be done
             self._take(make_plan(event, wishes))
 
@@ -159,7 +163,7 @@ class Planning:
                 "run_until_rest(), or flow.adopt(flow.plan()) before, or give a number"
             )
 
-    def _take(self, plan: Plan) -> None:
+    def _take(self, plan: "Plan") -> None:
         """Make simulation and border anew with numerics and column of a plan; clock and accounts go on."""
         simulation, call, setup = self._simulation, self._call, self._setup
         planned = dataclasses.replace(setup, numerics=plan.numerics, column=plan.column)
@@ -174,13 +178,15 @@ class Planning:
         self._simulation.state.counters = simulation.state.counters.copy()
         self._keep_plan(plan)
 
-    def _keep_plan(self, plan: Plan) -> None:
+    def _keep_plan(self, plan: "Plan") -> None:
         """Keep a plan, by which the flow was made, for its report."""
         self._plan, self._measured = plan, None
         self._call.before_settling = self._measure
 
     def _measure(self) -> None:
         """Measure the planned event when it has come to its end, and nothing else did come."""
+        from .fidelity.quantities import quantities
+
         plan, budget = self._plan, self.budget
         alone = abs(budget["released"] + budget["inflow"] - plan.volume) <= 1e-6 * plan.volume
         ended = self.at_rest or (plan.still_moving and self.elapsed_time >= plan.max_duration * (1.0 - 1e-9))
@@ -195,6 +201,8 @@ class Planning:
         """Take up the plan of a checkpoint."""
         if "plan" not in attributes:
             return
+        from .fidelity.plan import Plan
+
         try:
             mapping = json.loads(attributes["plan"])
         except (TypeError, ValueError, RecursionError) as error:

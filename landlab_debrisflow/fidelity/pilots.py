@@ -2,7 +2,7 @@
 
 import logging
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from time import process_time
 from typing import Any, NamedTuple
@@ -20,8 +20,8 @@ class PilotOverError(Exception):
     """End of a pilot run before its time."""
 
 
-class Pilot(NamedTuple):
-    """Outcome of a pilot run.
+class MeasuredPilot(NamedTuple):
+    """Quantities and cost of a pilot run.
 
     Attributes
     ----------
@@ -35,7 +35,7 @@ class Pilot(NamedTuple):
     at_rest : bool
         Whether it came to rest.
     coefficient_of_consolidation : float
-        Median over the particles at the start [m2 s-1]; 0 if nothing drains.
+        Median over the particles [m2 s-1].
     """
 
     quantities: dict[str, float]
@@ -45,34 +45,28 @@ class Pilot(NamedTuple):
     coefficient_of_consolidation: float
 
 
-class Drainage:
-    """Observer that notes the coefficient of consolidation when particles are seen first.
+class EventRun(NamedTuple):
+    """Run of an event on a copy of its grid.
 
     Attributes
     ----------
-    coefficient : float
-        Median over the particles [m2 s-1].
+    flow : DebrisFlow
+        At its end.
+    complete : bool
+        Whether that is the end of the event.
+    seconds : float
+        CPU time [s].
+    doubts : list of str
+        Warnings of the component, which were not logged.
     """
 
-    interval = math.inf
-
-    def __init__(self) -> None:
-        self.coefficient = math.nan
-        self.flow: Any = None
-
-    def follow(self, particles: Any, began: float, time: float) -> None:
-        """Note the coefficient of `particles` after a step from `began` to `time` [s], once."""
-        if math.isnan(self.coefficient) and particles.volume.size and self.flow is not None:
-            columns, thickness = self.flow.columns, particles.thickness
-            times = columns.consolidation_time.values
-            known = np.isfinite(times) & (times > 0.0)
-            self.coefficient = float(np.median(thickness[known] ** 2 / times[known])) if known.any() else 0.0
-
-    def observe(self, flow: Any) -> None:
-        """Let the flow be."""
+    flow: Any
+    complete: bool
+    seconds: float
+    doubts: list[str]
 
 
-def run_pilot(event: Event, setup: Setup, count: int) -> Pilot:
+def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
     """Run an event with few particles on a copy of its grid, and measure it.
 
     Parameters
@@ -85,7 +79,7 @@ def run_pilot(event: Event, setup: Setup, count: int) -> Pilot:
 
     Returns
     -------
-    Pilot
+    MeasuredPilot
 
     Raises
     ------
@@ -94,23 +88,54 @@ def run_pilot(event: Event, setup: Setup, count: int) -> Pilot:
     KeyboardInterrupt
         After the step.
     """
-    start = origin(event)
-    decay, drainage, compiled = Decay(start), Drainage(), []
-    with collected_warnings(), compilations(lambda: compiled.append(True)):
-        flow = drainage.flow = event.flow(with_count(setup, count, settle=False), [decay, drainage])
-        began = process_time()
+    start, compiled = origin(event), []
+    decay = Decay(start)
+    with compilations(lambda: compiled.append(True)):
         try:
-            event.run(flow)
+            run = run_event(event, with_count(setup, count, settle=False), [decay])
         except BaseException as failure:
             failure.__notes__ = [f"in a pilot run with {count} particles; grid and flow are as they were"]
             raise
-        seconds = process_time() - began
-    found = quantities(flow, start)
-    return Pilot(
+    found, steps = quantities(run.flow, start), run.flow.diagnostics.steps
+    return MeasuredPilot(
         quantities=found, creep=_creep(decay, found, setup.numerics.rest_energy),
-        cost=Cost(flow.diagnostics.steps, math.nan if compiled else seconds), at_rest=flow.at_rest,
-        coefficient_of_consolidation=0.0 if math.isnan(drainage.coefficient) else drainage.coefficient,
+        cost=Cost(steps, math.nan if compiled else run.seconds), at_rest=run.flow.at_rest,
+        coefficient_of_consolidation=_coefficient(run.flow),
     )  # fmt: skip
+
+
+def _coefficient(flow: Any) -> float:
+    """Return the median coefficient of consolidation of the particles, or that of the material if all left [m2 s-1]."""
+    times, thickness = flow.columns.consolidation_time.values, flow.particles.thickness.values
+    known = np.isfinite(times) & (times > 0.0)
+    if not known.any():
+        return float(flow.setup.material.coefficient_of_consolidation)
+    return float(np.median(thickness[known] ** 2 / times[known]))
+
+
+def run_event(event: Event, setup: Setup, observers: Sequence[Any]) -> EventRun:
+    """Run an event on a copy of its grid to its end, or until an observer ends it.
+
+    Parameters
+    ----------
+    event : Event
+    setup : Setup
+        Laws, material, numerics and inflow in place of those of the event.
+    observers : sequence of observers
+        One that raises `PilotOverError` ends the run.
+
+    Returns
+    -------
+    EventRun
+    """
+    complete = True
+    with collected_warnings() as doubts:
+        flow, began = event.flow(setup, observers), process_time()
+        try:
+            event.run(flow)
+        except PilotOverError:
+            complete = False
+    return EventRun(flow, complete, process_time() - began, doubts)
 
 
 def _creep(decay: Decay, end: dict[str, float], rest_energy: float) -> dict[str, float]:

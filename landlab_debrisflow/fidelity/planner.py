@@ -19,7 +19,7 @@ from .constants import HOLD, MOST_PARTICLES, NEVER_HELD, PILOTS, TOLERANCE
 from .cost import Cost, forecast_cost
 from .errors import count_asked, errors_with, next_count, stated_errors
 from .event import Event, origin, with_count
-from .pilots import Pilot, run_pilot
+from .pilots import MeasuredPilot, measure_pilot
 from .plan import Plan
 from .raster import examine_raster
 from .table import WORDS, percent
@@ -77,6 +77,24 @@ class Wishes:
             in_range("plan: max_cost", self.max_cost, 0.0, unit="s", open_ends=(True, False), error=InputError)
 
 
+def wishes_of(setup: Setup, **others: Any) -> Wishes:
+    """Return the wishes that numerics of a setup name, and others.
+
+    Parameters
+    ----------
+    setup : Setup
+    **others
+        As of `Wishes`, in place of those of the setup; None: not given.
+
+    Returns
+    -------
+    Wishes
+    """
+    chosen = {"tolerance": setup.numerics.tolerance, "hold": setup.numerics.hold}
+    chosen |= {name: value for name, value in others.items() if value is not None}
+    return Wishes(**{name: value for name, value in chosen.items() if value is not None})
+
+
 def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.info) -> Plan:
     """Run pilots of an event on copies of its grid, and return a plan.
 
@@ -104,7 +122,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
             f"{RELEASE_DEPTH} > 0 where ground fails, or give inflow, before plan()"
         )
     steps = choose_steps(event.setup.numerics, wishes.tolerance)
-    column, pilots = _run_pilots(event, wishes, steps, notify)
+    column, pilots = _measure_pilots(event, wishes, steps, notify)
     setup = dataclasses.replace(event.setup, numerics=steps.value, column=column.value)
     runs = {count: pilot.quantities for count, pilot in pilots.items()}
     costs = {count: pilot.cost for count, pilot in pilots.items()}
@@ -135,7 +153,7 @@ def setup_digest(setup: Setup) -> str:
     return with_count(dataclasses.replace(setup, numerics=choose_steps(setup.numerics, 1.0).value), 1).digest()
 
 
-def _run_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, Pilot]]:
+def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:
     """Return the choice of the column, and pilot runs by number of particles."""
     first, *others = PILOTS
     guess = choose_column(event, _guessed_ratio(event), wishes.hold)
@@ -143,7 +161,7 @@ def _run_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, Pilot]]
 
     def run(count, setup):
         notify(f"plan: pilot run with {count} particles")
-        return run_pilot(event, setup, count)
+        return measure_pilot(event, setup, count)
 
     pilot = run(first, setup)
     column = choose_column(event, _measured_ratio(pilot), wishes.hold)
@@ -164,7 +182,7 @@ def _guessed_ratio(event: Event) -> float:
     return consolidation_ratio(thickness, material.coefficient_of_consolidation, duration)
 
 
-def _measured_ratio(pilot: Pilot) -> float:
+def _measured_ratio(pilot: MeasuredPilot) -> float:
     found = pilot.quantities
     return consolidation_ratio(found["mean_depth"], pilot.coefficient_of_consolidation, found["duration"])
 
@@ -189,7 +207,7 @@ def _choose_count(errors, costs: dict[int, Cost], wishes: Wishes) -> tuple[int, 
     return count, rule
 
 
-def _phases(event: Event, pilot: Pilot) -> tuple[tuple[str, str], str]:
+def _phases(event: Event, pilot: MeasuredPilot) -> tuple[tuple[str, str], str]:
     """Return the phases with the number that tells whether they matter, in words, and a warning or nothing."""
     thickness = pilot.quantities["mean_depth"]
     ratio, warning = phase_warning(event, thickness, pilot.coefficient_of_consolidation)

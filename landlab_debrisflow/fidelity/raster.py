@@ -8,7 +8,7 @@ from ..core.errors import InputError, SimulationError
 from ..scene.setup import Setup
 from .constants import ERROR_LAWS, RASTER_COST, RASTER_COST_RATIO, RASTER_PILOTS
 from .event import Event
-from .pilots import Pilot, run_pilot
+from .pilots import MeasuredPilot, measure_pilot
 
 HALF = 0.5
 """Part of the change from twice the spacing that an error of first order leaves [-]."""
@@ -59,7 +59,7 @@ def raster_errors(fine: Mapping[str, float], coarse: Mapping[str, float]) -> dic
 
 
 def examine_raster(
-    event: Event, setup: Setup, pilots: Mapping[int, Pilot], cost: float, wanted: bool | None,
+    event: Event, setup: Setup, pilots: Mapping[int, MeasuredPilot], cost: float, wanted: bool | None,
     notify: Callable[[str], None],
 ) -> RasterErrors:  # fmt: skip
     """Run a pilot with every second node, if it is wanted or cheap, and return the errors of the raster.
@@ -69,7 +69,7 @@ def examine_raster(
     event : Event
     setup : Setup
         That of the pilot runs.
-    pilots : mapping of int to Pilot
+    pilots : mapping of int to MeasuredPilot
         Pilot runs with all nodes by number of particles.
     cost : float
         CPU time of pilot runs and of the run to come [s].
@@ -92,7 +92,7 @@ def examine_raster(
     try:
         coarse = event.coarse()
         notify(f"plan: pilot run with {count} particles and every second node")
-        run = run_pilot(coarse, setup if coarse.setup is event.setup else _with_laws(setup, coarse.setup), count)
+        run = measure_pilot(coarse, setup if coarse.setup is event.setup else _with_laws(setup, coarse.setup), count)
     except (InputError, SimulationError) as error:
         return RasterErrors({}, f"raster not examined: {error}")
     errors = raster_errors(pilots[count].quantities, run.quantities)

@@ -94,12 +94,14 @@ class Report:
         )  # fmt: skip
 
 
-def make_report(flow: Any, plan: Plan | None, measured: Mapping[str, float] | None) -> Report:
+def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[str, float] | None) -> Report:
     """Return the report of a flow.
 
     Parameters
     ----------
     flow : DebrisFlow
+    particles : int
+        Number of particles that there were in all.
     plan : Plan or None
         That was adopted.
     measured : mapping of str to float, or None
@@ -111,7 +113,7 @@ def make_report(flow: Any, plan: Plan | None, measured: Mapping[str, float] | No
     """
     diagnostics = flow.diagnostics
     values = {
-        "setup": flow.setup, "particles": flow.particles_ever, "steps": diagnostics.steps,
+        "setup": flow.setup, "particles": particles, "steps": diagnostics.steps,
         "seconds": float(sum(diagnostics.cpu.values())),
         "state": "not run yet" if not diagnostics.steps
         else f"{'at rest' if flow.at_rest else 'still moving'} at {flow.elapsed_time:.6g} s",
