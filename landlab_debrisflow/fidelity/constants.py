@@ -105,3 +105,6 @@ NEVER_HELD = {
     "deposit_thickness": "it changes by a fifth at one node; deposit is its mean by volume, which is stated",
 }  # fmt: skip
 """Why quantities that users ask for are refused."""
+
+NOTABLE_OUTFLOW = 0.01
+"""Least outflow of which a plan tells, over the volume that an event released, took in and eroded [-]."""

@@ -2,7 +2,7 @@
 
 import logging
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from time import process_time
 from typing import Any, NamedTuple
@@ -36,6 +36,8 @@ class MeasuredPilot(NamedTuple):
         Whether it came to rest.
     coefficient_of_consolidation : float
         Median over the particles [m2 s-1].
+    outflow : float
+        Volume that left the grid over all that there was [-].
     """
 
     quantities: dict[str, float]
@@ -43,6 +45,7 @@ class MeasuredPilot(NamedTuple):
     cost: Cost
     at_rest: bool
     coefficient_of_consolidation: float
+    outflow: float
 
 
 class EventRun(NamedTuple):
@@ -100,7 +103,7 @@ def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
     return MeasuredPilot(
         quantities=found, creep=_creep(decay, found, setup.numerics.rest_energy),
         cost=Cost(steps, math.nan if compiled else run.seconds), at_rest=run.flow.at_rest,
-        coefficient_of_consolidation=_coefficient(run.flow),
+        coefficient_of_consolidation=_coefficient(run.flow), outflow=_outflow(run.flow.budget),
     )  # fmt: skip
 
 
@@ -111,6 +114,11 @@ def _coefficient(flow: Any) -> float:
     if not known.any():
         return float(flow.setup.material.coefficient_of_consolidation)
     return float(np.median(thickness[known] ** 2 / times[known]))
+
+
+def _outflow(budget: Mapping[str, float]) -> float:
+    supply = budget["released"] + budget["inflow"] + budget["eroded"]
+    return budget["outflow"] / supply if supply else 0.0
 
 
 def run_event(event: Event, setup: Setup, observers: Sequence[Any]) -> EventRun:

@@ -15,7 +15,7 @@ from ..grid.release import RELEASE_DEPTH
 from ..model.numerics import QUANTITIES
 from ..scene.setup import Setup
 from .choices import Choice, choose_column, choose_steps, consolidation_ratio, phase_warning
-from .constants import HOLD, MOST_PARTICLES, NEVER_HELD, PILOTS, TOLERANCE
+from .constants import HOLD, MOST_PARTICLES, NEVER_HELD, NOTABLE_OUTFLOW, PILOTS, TOLERANCE
 from .cost import Cost, forecast_cost
 from .errors import count_asked, errors_with, next_count, stated_errors
 from .event import Event, origin, with_count
@@ -131,7 +131,9 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     cost, last = forecast_cost(costs, count), pilots[finest]
     known = [one.seconds for one in costs.values() if math.isfinite(one.seconds)]
     raster = examine_raster(event, setup, pilots, sum(known) + cost.seconds, wishes.raster, notify)
-    phases, warning = _phases(event, last)
+    phases, warnings = _phases(event, last)
+    if last.outflow > NOTABLE_OUTFLOW:
+        warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
     errors = errors_with(errors, count, finest) if count > finest else errors
     return Plan(
         particles=count, setup=with_count(setup, count), tolerance=wishes.tolerance, hold=tuple(wishes.hold),
@@ -143,7 +145,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
         still_moving=not last.at_rest, cost=cost,
         pilot_seconds=sum(known) + (raster.seconds if math.isfinite(raster.seconds) else 0.0),
         max_particles=int(wishes.max_particles), max_cost=wishes.max_cost, max_duration=event.max_duration, runs=runs,
-        origin=origin(event), volume=event.volume, warnings=(warning,) if warning else (),
+        origin=origin(event), volume=event.volume, warnings=warnings,
         digests={"setup": setup_digest(event.setup), "ground": event.ground_digest()},
     )  # fmt: skip
 
@@ -207,9 +209,9 @@ def _choose_count(errors, costs: dict[int, Cost], wishes: Wishes) -> tuple[int, 
     return count, rule
 
 
-def _phases(event: Event, pilot: MeasuredPilot) -> tuple[tuple[str, str], str]:
-    """Return the phases with the number that tells whether they matter, in words, and a warning or nothing."""
+def _phases(event: Event, pilot: MeasuredPilot) -> tuple[tuple[str, str], tuple[str, ...]]:
+    """Return the phases with the number that tells whether they matter, in words, and a warning if they do."""
     thickness = pilot.quantities["mean_depth"]
     ratio, warning = phase_warning(event, thickness, pilot.coefficient_of_consolidation)
-    chosen: Any = "two" if event.setup.two_phases else "one"
-    return (chosen, f"your choice; tau (g/h)^(1/2) = {ratio:.2g}"), warning
+    chosen = "two" if event.setup.two_phases else "one"
+    return (chosen, f"your choice; tau (g/h)^(1/2) = {ratio:.2g}"), (warning,) if warning else ()

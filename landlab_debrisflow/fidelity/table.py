@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -114,5 +115,8 @@ def percent(value: float | None) -> str:
 
 
 def _wrapped(name: str, words: str, width: int) -> list[str]:
+    """Return words after a name in lines, none of which ends between a number and what belongs to it."""
+    joined = re.sub(r"(?<=\d) (?=[%\d]|m?s\b)", "\xa0", words)
     indent = " " * (width + 4)
-    return textwrap.wrap(f"  {name:{width}}  {words}", WIDTH, subsequent_indent=indent, break_long_words=False)
+    lines = textwrap.wrap(f"  {name:{width}}  {joined}", WIDTH, subsequent_indent=indent, break_long_words=False)
+    return [line.replace("\xa0", " ") for line in lines]

@@ -242,36 +242,20 @@ class Scene:
         return flow
 
     def plan(self, **wishes: Any) -> Plan:
-        """Find particles, column and steps by pilot runs with all releases.
+        """Find particles, column and steps by pilot runs with all releases; `with_plan` uses the plan.
 
         Parameters
         ----------
         **wishes
-            As of `DebrisFlow.plan`, but for the longest duration, which is that of the scene; tolerance and hold are
-            by default those of its numerics.
-
-        Returns
-        -------
-        Plan
-            `with_plan` uses it.
+            As of `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
         """
         from .planning import plan_scene
 
         return plan_scene(self, **wishes)
 
     def with_plan(self, plan: Plan) -> "Scene":
-        """Return the scene with numerics and column of one of its plans.
-
-        Parameters
-        ----------
-        plan : Plan
-
-        Returns
-        -------
-        Scene
-            Its keys are those of this scene.
-        """
-        planned = object.__new__(type(self))  # with all that was read from files
+        """Return the scene with numerics and column of one of its plans; keys and files stay."""
+        planned = object.__new__(type(self))
         vars(planned).update(vars(self) | {"setup": plan.setup, "_plan": plan})
         return planned
 
