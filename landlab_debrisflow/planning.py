@@ -6,6 +6,7 @@ What makes them is imported when it is first used: most flows have no plan.
 import dataclasses
 import json
 from collections.abc import Collection, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .core.errors import InputError
@@ -77,7 +78,7 @@ class Planning:
         return make_plan(self._event(check_duration(max_duration, "max_duration")), wishes)
 
     def adopt(self, plan: "Plan") -> None:
-        """Put numerics and column of a plan in the place of those of the flow, before the event begins.
+        """Put numerics and column of a plan into the flow, before the event begins.
 
         Observers are prepared anew.
 
@@ -109,7 +110,7 @@ class Planning:
         self._take(plan)
 
     def report(self) -> "Report":
-        """Return what the run was made with, what it cost, and how exact it is.
+        """Return a report of the run: particles, column and steps, cost, and stated errors.
 
         Returns
         -------
@@ -120,7 +121,7 @@ class Planning:
 
         return make_report(self, int(self._simulation.particles.ever), self._plan, self._measured)
 
-    def _event(self, max_duration: float) -> "Event":
+    def _event(self: Any, max_duration: float) -> "Event":
         """Return the event that is about to begin; refuse one that has begun."""
         from .fidelity.event import event_of_grid
 
@@ -181,13 +182,13 @@ class Planning:
     def _keep_plan(self, plan: "Plan") -> None:
         """Keep a plan, by which the flow was made, for its report."""
         self._plan, self._measured = plan, None
-        self._call.before_settling = self._measure
+        self._call.before_settling = partial(self._measure, plan)
 
-    def _measure(self) -> None:
-        """Measure the planned event when it has come to its end, and nothing else did come."""
+    def _measure(self: Any, plan: "Plan") -> None:
+        """Measure the event of a plan at its end, if no other mass did come."""
         from .fidelity.quantities import quantities
 
-        plan, budget = self._plan, self.budget
+        budget = self.budget
         alone = abs(budget["released"] + budget["inflow"] - plan.volume) <= 1e-6 * plan.volume
         ended = self.at_rest or (plan.still_moving and self.elapsed_time >= plan.max_duration * (1.0 - 1e-9))
         if alone and ended and self._measured is None:

@@ -66,7 +66,8 @@ def choose_steps(numerics: Numerics, tolerance: float) -> Choice:
         return Choice(numerics, f"{numerics.preset}: {words.format(**vars(numerics))}", rule)
     preset = "fast" if tolerance >= FAST_TOLERANCE else "standard"
     sign = ">=" if preset == "fast" else "<"
-    chosen = dataclasses.replace(numerics, preset=preset, **PRESETS[preset])
+    values: dict[str, Any] = {"preset": preset} | PRESETS[preset]
+    chosen = dataclasses.replace(numerics, **values)
     rule = f"tolerance {100.0 * tolerance:g} % {sign} {100.0 * FAST_TOLERANCE:g} %"
     return Choice(chosen, f"{preset}: {words.format(**vars(chosen))}", rule)
 

@@ -1,4 +1,4 @@
-"""Cost of a run with more particles: steps and CPU time, from those of pilot runs. Nothing here runs a flow."""
+"""Cost of a run with more particles: steps and CPU time, from pilot runs that have been made."""
 
 import math
 from collections.abc import Mapping
@@ -72,15 +72,16 @@ def forecast_cost(costs: Mapping[int, Cost], count: int) -> Cost:
 def _power(costs: Mapping[int, Cost]) -> float:
     """Return the power of the number of particles by which the number of steps grows."""
     known = [(math.log(count), math.log(cost.steps)) for count, cost in costs.items() if cost.steps > 0.0]
-    return float(np.polyfit(*np.transpose(known), 1)[0]) if len(known) > 1 else 0.0
+    counts, steps = np.transpose(known) if known else (np.zeros(0), np.zeros(0))
+    return float(np.polyfit(counts, steps, 1)[0]) if len(known) > 1 else 0.0
 
 
 def _step_seconds(costs: Mapping[int, Cost], count: int) -> float:
-    """Return the CPU time of a step [s] on a line through those of the pilot runs that does not fall."""
+    """Return the CPU time of a step [s] on a line, which does not fall, through pilot runs."""
     known = {number: cost.seconds / cost.steps for number, cost in costs.items() if cost.steps and cost.seconds >= 0.0}
     if not known:
         return math.nan
     finest = max(known)
-    slope = float(np.polyfit(list(known), list(known.values()), 1)[0]) if len(known) > 1 else 0.0
+    slope = float(np.polyfit(np.array(list(known)), np.array(list(known.values())), 1)[0]) if len(known) > 1 else 0.0
     steepest = known[finest] / finest  # no time at all without particles
     return known[finest] + min(max(slope, 0.0), steepest) * (count - finest)

@@ -1,4 +1,4 @@
-"""An event: all that a pilot run needs to repeat it on a copy of its grid."""
+"""An event: grid, setup and releases, which a pilot run repeats on a copy."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -88,7 +88,7 @@ class Event(NamedTuple):
 
     @property
     def release_depth(self) -> np.ndarray:
-        """Depth of what is released at some time at each node, shape (nodes,) [m]."""
+        """Depth of all releases at each node, shape (nodes,) [m]."""
         later = [one.depth.ravel() for one in self.releases if one.time > 0.0]
         return np.sum([self.grid.at_node[RELEASE_DEPTH], *later], axis=0)
 
@@ -135,12 +135,12 @@ def event_of_grid(
 
 
 def origin(event: Event) -> tuple[float, float]:
-    """Return the place from where run-out is counted, x and y on the map [m]: the centre of what is released first."""
+    """Return the place from where run-out is counted, x and y on the map [m]: the centre of the first release."""
     later = sorted((one for one in event.releases if one.time > 0.0), key=lambda one: one.time)
     if event.grid.at_node[RELEASE_DEPTH].any() or event.setup.inflow or not later:
         return origin_of(event.grid, event.setup)
     grid, weights = event.grid, later[0].depth.ravel()
-    return tuple(float(np.average(axis, weights=weights)) for axis in (grid.x_of_node, grid.y_of_node))
+    return float(np.average(grid.x_of_node, weights=weights)), float(np.average(grid.y_of_node, weights=weights))
 
 
 def with_count(setup: Setup, count: int, **others: Any) -> Setup:
@@ -170,7 +170,7 @@ def _coarse_release(grid, release: ScheduledRelease) -> ScheduledRelease:
 
 
 def _coarse_setup(setup: Setup, shape: tuple[int, int]) -> Setup:
-    """Return a setup whose parameters at nodes are those of every second row and column."""
+    """Return a setup with parameters at nodes for every second row and column."""
     laws = {}
     for kind in LAWS:
         law = getattr(setup, kind)

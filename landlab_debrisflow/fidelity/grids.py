@@ -134,7 +134,7 @@ def every_second(values: np.ndarray) -> np.ndarray:
 
 
 def write_release(grid: RasterModelGrid) -> None:
-    """Write the depth of what fails into the release field of a grid, also if ids of mass wasting say it.
+    """Write depths into the release field of a grid, also where ids of mass wasting ask for a release [m].
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def write_release(grid: RasterModelGrid) -> None:
 
 
 def _release(grid) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return depth [m] and momentum per mass and area, (2, rows, columns) [m2 s-1], of what fails on a grid."""
+    """Return depth [m] and momentum per mass and area, (2, rows, columns) [m2 s-1], of the release on a grid."""
     soil = np.asarray(grid.at_node[SOIL]) if SOIL in grid.at_node else None
     depth, momentum = np.zeros(grid.number_of_nodes), None
     if RELEASE_DEPTH in grid.at_node:

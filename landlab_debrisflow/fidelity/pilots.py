@@ -1,4 +1,4 @@
-"""Pilot runs: an event with few particles, on copies of its grid, and what is measured in them."""
+"""Pilot runs: an event with few particles, on copies of its grid, and its quantities and cost."""
 
 import logging
 import math
@@ -108,7 +108,7 @@ def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
 
 
 def _coefficient(flow: Any) -> float:
-    """Return the median coefficient of consolidation of the particles, or that of the material if all left [m2 s-1]."""
+    """Return the median coefficient of consolidation of the particles, or of the material if all left [m2 s-1]."""
     times, thickness = flow.columns.consolidation_time.values, flow.particles.thickness.values
     known = np.isfinite(times) & (times > 0.0)
     if not known.any():

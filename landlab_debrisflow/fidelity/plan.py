@@ -1,4 +1,4 @@
-"""A plan: particles, column and steps of a run, what it will cost, and how exact it will be."""
+"""A plan: particles, column and steps of a run, its cost, and its errors."""
 
 import dataclasses
 import math
@@ -7,7 +7,8 @@ from typing import Any
 
 from ..core.errors import InputError, ParameterError
 from ..core.words import duration_text, grouped
-from ..physics.registry import build_law
+from ..model.numerics import Numerics
+from ..physics.registry import build_declared, build_law
 from ..scene.setup import Setup
 from .constants import ERROR_LAWS
 from .cost import Cost
@@ -95,7 +96,7 @@ class Plan:
         return self.not_held_with(self.errors)
 
     def not_held_with(self, errors: Mapping[str, float]) -> dict[str, str]:
-        """Return why quantities are not held: those that no plan holds, and those to be held that err too much.
+        """Return quantities that are not held by name, with the reasons.
 
         Parameters
         ----------
@@ -150,7 +151,8 @@ class Plan:
         try:
             if mapping["format"] != FORMAT:
                 raise InputError(f"plan: format {mapping['format']!r} is not {FORMAT}, that of this version; plan anew")
-            planned = dataclasses.replace(setup, numerics=dict(mapping["numerics"]), column=_column(mapping, setup))
+            numerics = build_declared(Numerics, dict(mapping["numerics"]), "numerics")
+            planned = dataclasses.replace(setup, numerics=numerics, column=_column(mapping, setup))
             values = {field.name: mapping[field.name] for field in dataclasses.fields(cls) if field.name != "setup"}
             values["runs"] = {int(count): _numbers(run) for count, run in values["runs"].items()}
             values |= {name: _numbers(values[name]) for name in ("errors", "raster_errors")}

@@ -78,7 +78,7 @@ class Wishes:
 
 
 def wishes_of(setup: Setup, **others: Any) -> Wishes:
-    """Return the wishes that numerics of a setup name, and others.
+    """Return the wishes in the numerics of a setup, with further ones.
 
     Parameters
     ----------

@@ -48,11 +48,12 @@ def origin_of(grid: Any, setup: Any) -> tuple[float, float]:
             volumes.append(line.volume)
     if not centres:
         return float("nan"), float("nan")
-    return tuple(float(axis) for axis in np.average(centres, axis=0, weights=volumes))
+    x, y = np.average(centres, axis=0, weights=volumes)
+    return float(x), float(y)
 
 
 def quantities(flow: Any, origin: tuple[float, float]) -> dict[str, float]:
-    """Measure what a run says, over the whole event.
+    """Measure run-out, area, peaks, erosion and deposit over the whole event.
 
     Parameters
     ----------

@@ -101,5 +101,5 @@ def examine_raster(
 
 
 def _with_laws(setup: Setup, coarse: Setup) -> Setup:
-    """Return a setup with the laws of another one whose parameters are those of every second node."""
+    """Return a setup with the laws of another one, which has parameters for every second node."""
     return Setup(**vars(setup) | {kind: getattr(coarse, kind) for kind in ("flow", "friction", "erosion")})

@@ -1,4 +1,4 @@
-"""Report of a run: what was used, what it cost, and how exact it is."""
+"""Report of a run: particles, column and steps, cost, and stated errors."""
 
 import dataclasses
 import math
@@ -18,7 +18,7 @@ NO_PLAN = "no plan: the error is not known; flow.plan(), before a run, tells it"
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Report:
-    """What a run was made with, what it cost, and how exact it is; it prints itself.
+    """Particles, column and steps of a run, its cost, and its errors; printed as a table.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What is shown of a plan or a report: rows, stated errors and notes, as text and as a table for notebooks."""
+"""Rows, stated errors and notes of a plan or a report, as text and as a table for notebooks."""
 
 import dataclasses
 import math
@@ -89,7 +89,7 @@ class Table:
         return [*self.rows, *self._endings()]
 
     def _endings(self) -> list[tuple[str, str]]:
-        """Return names and words of what follows the errors."""
+        """Return names and words of the rows after the errors."""
         found = [("raster", self.raster)] if self.raster else []
         found += [("not held", f"{WORDS[name]}: {reason}") for name, reason in self.not_held.items()]
         if self.creep >= LEAST_CREEP:
@@ -115,7 +115,7 @@ def percent(value: float | None) -> str:
 
 
 def _wrapped(name: str, words: str, width: int) -> list[str]:
-    """Return words after a name in lines, none of which ends between a number and what belongs to it."""
+    """Return words after a name in lines that do not end between a number and its unit."""
     joined = re.sub(r"(?<=\d) (?=[%\d]|m?s\b)", "\xa0", words)
     indent = " " * (width + 4)
     lines = textwrap.wrap(f"  {name:{width}}  {joined}", WIDTH, subsequent_indent=indent, break_long_words=False)

@@ -31,7 +31,7 @@ class PlannedRun:
 
 
 def check(scene: Any, notify: Callable[[str], None] | None = None) -> Forecast | PlannedRun:
-    """Check a scene and return what its run will be; nothing is written.
+    """Check a scene and forecast or plan its run; no file is written.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ class Forecast:
 
 
 def sentences(notes: Sequence[str], doubts: Sequence[str]) -> list[str]:
-    """Return remarks on files, and what is odd, as lines under headings."""
+    """Return notes and doubts as lines under headings."""
     lines: list[str] = []
     for heading, found in (("notes", notes), ("odd", doubts)):
         lines += [f"{heading}:", *(f"  - {sentence}" for sentence in found)] if found else []

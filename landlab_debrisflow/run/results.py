@@ -83,7 +83,7 @@ class Results:
 
     @property
     def report(self) -> str:
-        """What the run was made with, and how exact it is, as text; empty before its end."""
+        """Particles, column, steps and stated errors of the run, as text; empty before its end."""
         path = self.directory / REPORT
         return path.read_text(encoding="utf-8").rstrip() if path.is_file() else ""
 
