@@ -63,7 +63,7 @@ class Planning:
 
         Raises
         ------
-        InputError
+        InputError, ParameterError
             If an argument is not usable, if the flow moves already, or if nothing is released and nothing flows in.
         SimulationError, KeyboardInterrupt
             In a pilot run; grid and flow are as they were.
@@ -72,10 +72,15 @@ class Planning:
         -----
         The rules are those of docs/choosing.md, with the constants of `fidelity/constants.py`.
         """
-        from .fidelity.planner import Wishes, make_plan
+        from .fidelity.planner import make_plan
+        from .fidelity.wishes import wishes_of
 
-        wishes = Wishes(tolerance=tolerance, hold=hold, max_particles=max_particles, max_cost=max_cost, raster=raster)
-        return make_plan(self._event(check_duration(max_duration, "max_duration")), wishes)
+        wishes = wishes_of(
+            self._setup, tolerance=tolerance, hold=hold, max_particles=max_particles, max_cost=max_cost, raster=raster
+        )
+        if (duration := check_duration(max_duration, "max_duration")) == 0.0:
+            raise InputError("plan: max_duration must be more than 0 s, got 0; give the longest time of the event")
+        return make_plan(self._event(duration), wishes)
 
     def adopt(self, plan: "Plan") -> None:
         """Put numerics and column of a plan into the flow, before the event begins.
@@ -150,7 +155,8 @@ class Planning:
         """Plan and adopt if numerics leave the number of particles open and something is about to move."""
         if not self._setup.numerics.automatic:
             return
-        from .fidelity.planner import make_plan, wishes_of
+        from .fidelity.planner import make_plan
+        from .fidelity.wishes import wishes_of
 
         wishes, event = wishes_of(self._setup), self._event(max_duration)
         if event.volume > 0.0:  # else the call says that nothing is to be done

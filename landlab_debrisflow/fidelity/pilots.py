@@ -92,7 +92,7 @@ def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
         After the step.
     """
     start, compiled = origin(event), []
-    decay = Decay(start)
+    decay = Decay()
     with compilations(lambda: compiled.append(True)):
         try:
             run = run_event(event, with_count(setup, count, settle=False), [decay])

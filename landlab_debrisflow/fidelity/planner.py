@@ -3,19 +3,15 @@
 import dataclasses
 import logging
 import math
-from collections.abc import Callable, Collection
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
-from ..core.checks import in_range
 from ..core.errors import InputError
-from ..core.hints import did_you_mean
 from ..grid.release import RELEASE_DEPTH
-from ..model.numerics import QUANTITIES
 from ..scene.setup import Setup
 from .choices import Choice, choose_column, choose_steps, consolidation_ratio, phase_warning
-from .constants import HOLD, MOST_PARTICLES, NEVER_HELD, NOTABLE_OUTFLOW, PILOTS, TOLERANCE
+from .constants import NOTABLE_OUTFLOW, PILOTS
 from .cost import Cost, forecast_cost
 from .errors import count_asked, errors_with, next_count, stated_errors
 from .event import Event, origin, with_count
@@ -23,76 +19,9 @@ from .pilots import MeasuredPilot, measure_pilot
 from .plan import Plan
 from .raster import examine_raster
 from .table import WORDS, percent
+from .wishes import Wishes
 
 log = logging.getLogger("landlab_debrisflow.progress")
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Wishes:
-    """Wishes for a plan, checked.
-
-    Attributes
-    ----------
-    tolerance : float
-        Error that quantities to be held may have [-].
-    hold : collection of str
-        Quantities to be held, of `QUANTITIES`.
-    max_particles : int
-        Most particles.
-    max_cost : float or None
-        Longest CPU time of the run [s].
-    raster : bool or None
-        Whether to run a pilot with every second node; None: if that is cheap.
-
-    Raises
-    ------
-    InputError
-        If a value is not usable.
-    """
-
-    tolerance: float = TOLERANCE
-    hold: Collection[str] = HOLD
-    max_particles: int = MOST_PARTICLES
-    max_cost: float | None = None
-    raster: bool | None = None
-
-    def __post_init__(self):
-        in_range("plan: tolerance", self.tolerance, 1e-3, 0.5, remedy="0.05 are 5 %", error=InputError)
-        names = (self.hold,) if isinstance(self.hold, str) else tuple(self.hold)
-        for name in names:
-            if name in NEVER_HELD:
-                raise InputError(f"plan: hold: {name} cannot be held: {NEVER_HELD[name]}")
-            if name not in QUANTITIES:
-                hint = did_you_mean(name, QUANTITIES)
-                raise InputError(f"plan: hold must be of {', '.join(QUANTITIES)}; got {name!r}{hint}")
-        if not names:
-            raise InputError(f"plan: hold is empty; name at least one of {', '.join(QUANTITIES)}")
-        object.__setattr__(self, "hold", tuple(dict.fromkeys(names)))
-        if not isinstance(self.max_particles, int | np.integer) or self.max_particles < PILOTS[-1]:
-            raise InputError(
-                f"plan: max_particles must be an integer >= {PILOTS[-1]}, the particles of the last pilot run, got "
-                f"{self.max_particles!r}; with fewer, set particle_count and run"
-            )
-        if self.max_cost is not None:
-            in_range("plan: max_cost", self.max_cost, 0.0, unit="s", open_ends=(True, False), error=InputError)
-
-
-def wishes_of(setup: Setup, **others: Any) -> Wishes:
-    """Return the wishes in the numerics of a setup, with further ones.
-
-    Parameters
-    ----------
-    setup : Setup
-    **others
-        As of `Wishes`, in place of those of the setup; None: not given.
-
-    Returns
-    -------
-    Wishes
-    """
-    chosen = {"tolerance": setup.numerics.tolerance, "hold": setup.numerics.hold}
-    chosen |= {name: value for name, value in others.items() if value is not None}
-    return Wishes(**{name: value for name, value in chosen.items() if value is not None})
 
 
 def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.info) -> Plan:
@@ -136,7 +65,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
         warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
     errors = errors_with(errors, count, finest) if count > finest else errors
     return Plan(
-        particles=count, setup=with_count(setup, count), tolerance=wishes.tolerance, hold=tuple(wishes.hold),
+        particles=count, setup=with_count(setup, count), tolerance=wishes.tolerance, hold=wishes.hold,
         rules={
             "particles": (str(count), rule), "column": column[1:], "steps": steps[1:], "phases": phases,
             "raster": ("", raster.words),
@@ -144,7 +73,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
         errors=errors, raster_errors=raster.errors, creep=last.creep.get("run_out", 0.0),
         still_moving=not last.at_rest, cost=cost,
         pilot_seconds=sum(known) + (raster.seconds if math.isfinite(raster.seconds) else 0.0),
-        max_particles=int(wishes.max_particles), max_cost=wishes.max_cost, max_duration=event.max_duration, runs=runs,
+        max_particles=wishes.max_particles, max_cost=wishes.max_cost, max_duration=event.max_duration, runs=runs,
         origin=origin(event), volume=event.volume, warnings=warnings,
         digests={"setup": setup_digest(event.setup), "ground": event.ground_digest()},
     )  # fmt: skip

@@ -125,8 +125,10 @@ class Decay:
     """A level is measured anew once the energy was above this times the level: noise at a level is no new decay."""
 
     def __init__(self, levels: tuple[float, ...] = CREEP_LEVELS):
-        self.interval, self.found, self.origin = float("inf"), {}, (float("nan"), float("nan"))
-        self._peak, self._below, self._due = 0.0, dict.fromkeys(levels, True), []
+        self.interval, self.origin = float("inf"), (float("nan"), float("nan"))
+        self.found: dict[float, dict[str, float]] = {}
+        self._peak, self._below = 0.0, dict.fromkeys(levels, True)
+        self._due: list[float] = []
 
     def prepare(self, grid: Any, setup: Any) -> None:
         """Take the origin of run-out [m] from a component that is being built.

@@ -121,7 +121,9 @@ def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[
     if plan is None:
         return Report(**values)
     if measured is None:
-        source = "the plan, before the run" + ("" if not diagnostics.steps else ": the event has not come to its end")
+        source = "the plan, before the run"
+        if diagnostics.steps:
+            source += ": the event has not come to its end, or was not the only one"
         return Report(**values, plan=plan, errors=plan.errors, source=source)
     errors = errors_after({**plan.runs, plan.particles: measured}, plan.particles, PILOTS[-1])
     source = "the pilot runs" + ("" if plan.particles == PILOTS[-1] else " and the change since the last of them")

@@ -6,7 +6,8 @@ from typing import Any
 from ..component import DebrisFlow
 from ..fidelity.event import Event, event_of_grid
 from ..fidelity.plan import Plan
-from ..fidelity.planner import make_plan, wishes_of
+from ..fidelity.planner import make_plan
+from ..fidelity.wishes import wishes_of
 from ..scene.releases import ScheduledRelease, set_release
 from ..scene.setup import Setup
 

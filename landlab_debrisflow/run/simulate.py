@@ -9,7 +9,8 @@ from landlab import RasterModelGrid
 from ..core.checks import in_range
 from ..core.errors import InputError
 from ..fidelity.grids import copy_grid
-from ..fidelity.planner import make_plan, wishes_of
+from ..fidelity.planner import make_plan
+from ..fidelity.wishes import wishes_of
 from ..scene.releases import ScheduledRelease, advance
 from ..scene.setup import Setup
 from .advance import start
