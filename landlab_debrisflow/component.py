@@ -17,6 +17,7 @@ from .model.inflow.inflow import Inflow
 from .model.numerics import Numerics
 from .model.simulation import Simulation
 from .physics.material import Material
+from .planning import Planning
 from .record import summary
 from .record.attributes import moment_attributes
 from .record.citation import PAPER
@@ -27,7 +28,7 @@ from .scene.setup import Setup
 log = logging.getLogger("landlab_debrisflow")
 
 
-class DebrisFlow(Restart, Component):
+class DebrisFlow(Planning, Restart, Component):
     """Landslides and debris flows that pick up wet ground on their way.
 
     Depth-integrated SPH on the terrain with a column of pore pressure under every particle, which moves
@@ -169,6 +170,7 @@ class DebrisFlow(Restart, Component):
             nobody changes the grid, the next call goes on as if there had been no interruption: to end at the same
             time, ask for what is left of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
         """
+        self._refuse_open_count()
         if (dt := checks.check_duration(dt)) > 0.0:
             self._call.run(dt, stop_at_rest=False)
 
@@ -192,6 +194,7 @@ class DebrisFlow(Restart, Component):
             After Ctrl-C, or an observer that failed, call again to go on.
         """
         if (duration := checks.check_duration(max_duration, "max_duration")) > 0.0:
+            self._find_count(duration)
             self._call.run(duration, stop_at_rest=True)
         return self.at_rest
 

@@ -27,6 +27,7 @@ class Restart:
     _call: Any
     _setup: Setup
     _observers: tuple[Any, ...]
+    _plan_attributes: Any
     grid: RasterModelGrid
 
     @property
@@ -118,6 +119,7 @@ class Restart:
             flow = make(grid, **vars(setup), observers=observers)
             put_fields()
             _load(flow, dataset)
+            flow._restore_plan(dataset.attrs)
             for observer, memory in zip(observers, memories, strict=True):
                 if memory is not None:
                     _restore(observer, memory)
@@ -129,6 +131,7 @@ class Restart:
         for name, array in self._setup.node_arrays().items():
             dataset[name] = ("y", "x"), np.reshape(array.values, shape), {"units": array.unit}
         attributes = {"law_digests": json.dumps(law_digests(self._setup))} | self._setup.to_attributes()
+        attributes |= self._plan_attributes()
         dataset.attrs |= file_attributes() | date_created() | attributes
         return write_memories(dataset, self._observers)
 

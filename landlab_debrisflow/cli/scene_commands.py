@@ -97,12 +97,12 @@ def _schema(arguments) -> int:
 
 def _check(arguments) -> int:
     from ..core.compilations import compilations
-    from ..run.forecast import forecast
+    from ..run.check import check
     from ..run.scene import Scene
 
     with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
         with compilations(lambda: monitor.say(COMPILING)):
-            found = forecast(Scene.from_file(arguments.scene))
+            found = check(Scene.from_file(arguments.scene), monitor.say)
         monitor.close()
         if not arguments.quiet:
             say(str(found))
@@ -135,6 +135,8 @@ def _tell(results, quiet: bool) -> int:
             f"{state} at {results.elapsed_time:.6g} s: {grouped(released)} m3 released, {grouped(budget['eroded'])} m3 "
             f"eroded, {grouped(budget['deposited'])} m3 deposited, {grouped(budget['outflow'])} m3 left the grid"
         )
+        if results.record.plan is not None:
+            say(results.report)
         say(f"results in {results.directory}")
         if not results.at_rest:
             say("to go on: a longer max_duration in the scene, and landlab-debrisflow resume")

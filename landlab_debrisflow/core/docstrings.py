@@ -40,7 +40,8 @@ def allowed(meta) -> str:
         return ", ".join(meta["choices"])
     if meta["kind"] is bool:
         return "true, false"
-    return {int: "integer, ", tuple: "list, "}.get(meta["kind"], "") + _interval(*meta["bounds"], meta["open_below"])
+    kind = {int: "integer, ", tuple: "list, "}.get(meta["kind"], "")
+    return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *meta["words"]))
 
 
 def _interval(low, high, open_below) -> str:
@@ -66,6 +67,7 @@ def _entry(field) -> str:
     kind = {tuple: "float or list of float"}.get(meta["kind"], meta["kind"].__name__)
     if meta["choices"]:
         kind = "{" + ", ".join(f'"{word}"' for word in meta["choices"]) + "}"
+    kind += "".join(f' or "{word}"' for word in meta["words"])
     if meta["varies"]:
         kind += ", array over nodes or name of a field"
     words = default(value) if number else f'"{value}"' if meta["choices"] else str(value)

@@ -36,7 +36,7 @@ def parameter(
     unit: str, meaning: str, default: Any, bounds: tuple[float | None, float | None] = (None, None),
     choices: Collection[str] | None = None, kind: type = float, varies: bool = False, *,
     open_below: bool = False, timed: bool = False, remedy: str = "", file: bool = False, items: type | None = None,
-    coordinates: str | None = None, named: bool = False, length: int | None = None,
+    coordinates: str | None = None, named: bool = False, length: int | None = None, words: Collection[str] = (),
 ) -> Any:  # fmt: skip
     """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
@@ -74,6 +74,8 @@ def parameter(
     length : int, optional
         Number of values of a list, of the kind tuple; with `choices` one of these words will do for the list. Without
         `length`, a list with `choices` holds words, any number of them.
+    words : tuple of str
+        Words that will do for a number.
 
     Returns
     -------
@@ -88,7 +90,7 @@ def parameter(
         "numbers": choices if isinstance(choices, Mapping) else None, "varies": varies, "timed": timed,
         "bounds": (-math.inf if low is None else low, math.inf if high is None else high),
         "open_below": open_below, "remedy": remedy, "file": file, "items": items, "coordinates": coordinates,
-        "named": named, "length": length,
+        "named": named, "length": length, "words": tuple(words),
     }  # fmt: skip
     return dataclasses.field(default=default, metadata=metadata)
 

@@ -94,6 +94,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return value
     if meta["varies"] and not isinstance(value, Real):
         return _checked_on_nodes(name, value, meta)
+    if (word := same_word(value, meta["words"])) is not None:
+        return word
     return _checked_number(name, value, meta)
 
 
@@ -187,7 +189,9 @@ def _checked_number(name: str, value: Any, meta):
     expected: Any = Integral if kind is int else Real
     if isinstance(value, bool) or not isinstance(value, expected):
         word, hint = "an integer" if kind is int else "a number", give_number(value, kind is int)
-        raise ParameterError(f"{name} must be {word} [{unit}], got {value!r}{hint}")
+        others = "".join(f" or {other!r}" for other in meta["words"])
+        hint = hint or did_you_mean(value, meta["words"])
+        raise ParameterError(f"{name} must be {word} [{unit}]{others}, got {value!r}{hint}")
     try:
         number = float(value)
     except OverflowError:  # of an integer

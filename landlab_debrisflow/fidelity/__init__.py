@@ -1,1 +1,1 @@
-"""Fidelity: how exact a run is, and what the cheapest run is that is exact enough."""
+"""Fidelity: the error of a run, and the cheapest run within an error."""

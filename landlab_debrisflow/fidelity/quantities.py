@@ -48,11 +48,12 @@ def origin_of(grid: Any, setup: Any) -> tuple[float, float]:
             volumes.append(line.volume)
     if not centres:
         return float("nan"), float("nan")
-    return tuple(float(axis) for axis in np.average(centres, axis=0, weights=volumes))
+    x, y = np.average(centres, axis=0, weights=volumes)
+    return float(x), float(y)
 
 
 def quantities(flow: Any, origin: tuple[float, float]) -> dict[str, float]:
-    """Measure what a run says, over the whole event.
+    """Measure run-out, area, peaks, erosion and deposit over the whole event.
 
     Parameters
     ----------
@@ -124,8 +125,10 @@ class Decay:
     """A level is measured anew once the energy was above this times the level: noise at a level is no new decay."""
 
     def __init__(self, levels: tuple[float, ...] = CREEP_LEVELS):
-        self.interval, self.found, self.origin = float("inf"), {}, (float("nan"), float("nan"))
-        self._peak, self._below, self._due = 0.0, dict.fromkeys(levels, True), []
+        self.interval, self.origin = float("inf"), (float("nan"), float("nan"))
+        self.found: dict[float, dict[str, float]] = {}
+        self._peak, self._below = 0.0, dict.fromkeys(levels, True)
+        self._due: list[float] = []
 
     def prepare(self, grid: Any, setup: Any) -> None:
         """Take the origin of run-out [m] from a component that is being built.

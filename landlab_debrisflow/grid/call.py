@@ -1,5 +1,6 @@
 """A call of the component: read the grid, run the model, write the results; or leave everything as it was."""
 
+from collections.abc import Callable
 from functools import partial
 from threading import get_ident
 
@@ -27,6 +28,11 @@ class GridCall:
         Component under construction: its grid gets fields that are missing, its observers get it to look at.
     continues : GridCall, optional
         Calls of the component before on the same grid.
+
+    Attributes
+    ----------
+    before_settling : callable or None
+        Looks at the flow at the end of a call, as an observer does, before mass at rest settles.
     """
 
     def __init__(self, flow, continues: "GridCall | None" = None):
@@ -41,6 +47,7 @@ class GridCall:
         # last, because a component that is refused changes nothing
         before = None if continues is None else continues._outputs
         two_phases = self._simulation.setup.two_phases
+        self.before_settling: Callable[[], None] | None = None
         self._outputs = Outputs(grid, two_phases, self._writer.carried_volume, before)
         self.rollback = Rollback(grid, self._reader.laws, self._writer, self.interruption, self._outputs)
 
@@ -61,7 +68,7 @@ class GridCall:
                     end = self.interruption.end = interrupted.end  # the rest of the duration was computed with rounding
                 done = sim.advance(end, stop_at_rest, self._listener)
             if done:
-                self._listener.ended(stop_at_rest)
+                self._listener.ended(stop_at_rest, self.before_settling)
             else:
                 self._listener.broken_off()
                 self.rollback.break_off(end)

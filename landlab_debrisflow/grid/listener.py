@@ -1,5 +1,6 @@
 """The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
 
+from collections.abc import Callable
 from threading import get_ident
 
 from ..model.schedule import due_after_step, due_at_start
@@ -71,9 +72,12 @@ class CallListener:
         """Let observers keep the state of a run that ends before its time."""
         self._pause(broken_off=True)
 
-    def ended(self, stop_at_rest: bool) -> None:
-        """Write results, settle mass at rest, log messages at the end of a run."""
+    def ended(self, stop_at_rest: bool, before_settling: Callable[[], None] | None = None) -> None:
+        """Show the end of a run `before_settling`, write results, settle mass at rest, log messages."""
         sim = self._writer.simulation
+        if before_settling is not None:
+            with self._writer.present():
+                before_settling()
         with self._interruption.deferred():
             self._writer.close(settle=sim.at_rest and sim.setup.numerics.settle)
             self.reports.log_messages(stop_at_rest)

@@ -1,5 +1,7 @@
 """Numerical choices: resolution and tolerances, no physics."""
 
+from typing import Any
+
 from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter
 from ..spatial.transfer import MOST_NODES_PER_STEP
@@ -12,6 +14,13 @@ PRESETS = {
 (`python -m benchmarks.fidelity`)."""
 
 
+AUTO = "auto"
+"""Word for a number of particles that a plan finds (`DebrisFlow.plan`)."""
+
+QUANTITIES = ("run_out", "speed", "depth", "area", "eroded", "pressure", "deposit")
+"""Quantities of an event whose errors a plan states."""
+
+
 @declared
 class Numerics:
     """Numerical choices; the defaults are meant to be left alone.
@@ -19,7 +28,18 @@ class Numerics:
     Exactly one of `particle_count` and `particle_spacing` rules; the released volume is exact with both.
     """
 
-    particle_count: int | None = parameter("-", "target number of particles of a release", None, (1, None), kind=int)
+    particle_count: Any = parameter(
+        "-", "target number of particles of a release; auto: found by pilot runs in run_until_rest", None, (1, None),
+        kind=int, words=(AUTO,),
+    )  # fmt: skip
+    tolerance: float | None = parameter(
+        "-", "error that a number of particles found by pilot runs may leave in what hold names; 0.05 if not set",
+        None, (1e-3, 0.5), remedy="0.05 are 5 %",
+    )  # fmt: skip
+    hold: Any = parameter(
+        "-", "quantities whose error is to stay within the tolerance; run_out and speed if not set", None,
+        choices=QUANTITIES, kind=tuple,
+    )  # fmt: skip
     particle_spacing: float | None = parameter("m", "mean distance of particles at release", None, (1e-6, None))
     threads: int = parameter("-", "threads for the sums over neighbours", 1, (1, 256), kind=int)
     settle: bool = parameter("-", "lay the mass into the terrain when all is at rest", True, kind=bool)
@@ -42,9 +62,20 @@ class Numerics:
     def _agree(self):
         if self.particle_spacing is not None and self.particle_count is not None:
             raise ParameterError("Numerics: give particle_count or particle_spacing, not both")
+        for name in ("tolerance", "hold"):
+            if getattr(self, name) is not None and not self.automatic:
+                raise ParameterError(
+                    f"Numerics: {name} is for a number of particles found by pilot runs, got {getattr(self, name)!r} "
+                    f"with particle_count {self.particle_count!r}; give particle_count: {AUTO}, or leave out {name}"
+                )
         for name, value in PRESETS[self.preset].items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, value)
+
+    @property
+    def automatic(self) -> bool:
+        """Whether the number of particles is still to be found by pilot runs."""
+        return self.particle_count == AUTO
 
     def count_for(self, area: float) -> int:
         """Return the number of particles for a release from some map area.
@@ -57,8 +88,9 @@ class Numerics:
         Returns
         -------
         int
-            By `particle_spacing` if it is set, at least 1; else `particle_count`, or 2000 if neither is set.
+            By `particle_spacing` if it is set, at least 1; else `particle_count`, or 2000 if neither is set, or if the
+            number is still to be found.
         """
         if self.particle_spacing is not None:
             return max(1, round(area / self.particle_spacing**2))
-        return self.particle_count or self.DEFAULT_COUNT
+        return self.DEFAULT_COUNT if self.automatic else self.particle_count or self.DEFAULT_COUNT

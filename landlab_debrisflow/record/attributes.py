@@ -89,6 +89,8 @@ def file_value(value: Any) -> str | int | float | tuple[float, ...] | None:
         return int(value) if abs(int(value)) <= LARGEST_INTEGER else str(value)
     if isinstance(value, Real):
         return float(value)
+    if isinstance(value, tuple | list) and value and all(isinstance(one, str) for one in value):
+        return ", ".join(value)
     if isinstance(value, tuple | list) and value and all(isinstance(one, Real) for one in value):
         return file_value(value[0]) if len(value) == 1 else tuple(float(one) for one in value)
     return None

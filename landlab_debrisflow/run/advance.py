@@ -1,4 +1,4 @@
-"""Advance a flow through the releases of a scene."""
+"""Start of the flow of a scene."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -40,27 +40,3 @@ def start(grid: Any, setup: Setup, releases: Sequence[ScheduledRelease], observe
         if release.time == 0.0:
             set_release(grid, release)
     return DebrisFlow(grid, observers=observers, **vars(setup))
-
-
-def advance(flow: DebrisFlow, releases: Sequence[ScheduledRelease], end: float) -> None:
-    """Advance a flow that was started, or loaded, to rest or the longest time, with the releases still to come.
-
-    A release at the time at which an unfinished call was to end is still to come; one at its beginning is in the flow.
-
-    Parameters
-    ----------
-    flow : DebrisFlow
-    releases : sequence of ScheduledRelease
-        In the order of their times; those at time 0 are in the flow.
-    end : float
-        Longest elapsed time [s].
-    """
-    reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
-    for release in releases:
-        if release.time == 0.0 or not reached * (1.0 - 1e-12) <= release.time < end:
-            continue
-        if (left := release.time - flow.elapsed_time) > 1e-12 * release.time:
-            flow.run_one_step(left)
-        set_release(flow.grid, release)
-    if (left := end - flow.elapsed_time) > 0.0:
-        flow.run_until_rest(left)

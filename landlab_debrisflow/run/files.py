@@ -2,7 +2,7 @@
 
 from typing import Any
 
-RECORD, SCENE, MAPS = "run.json", "scene.yaml", "maps.nc"
+RECORD, SCENE, MAPS, REPORT = "run.json", "scene.yaml", "maps.nc", "report.txt"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"
 SERIES_SUFFIX = {"netcdf": ".nc", "zarr": ".zarr"}
@@ -11,7 +11,7 @@ LOCK = ".lock"
 UNFINISHED = ".unfinished"
 """Directory in that of the results where these are written before they appear."""
 
-SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg")
+SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg", ".txt")
 """Endings of the files that runs write."""
 
 

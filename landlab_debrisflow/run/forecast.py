@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -86,9 +87,7 @@ class Forecast:
         rows = [*self._content(), *self._outcome()]
         width = max(len(name) for name, _ in rows)
         lines = [f"{name:{width}}  {words}" for name, words in rows]
-        for heading, sentences in (("notes", self.notes), ("odd", self.doubts)):
-            lines += [f"{heading}:", *(f"  - {sentence}" for sentence in sentences)] if sentences else []
-        return "\n".join(lines)
+        return "\n".join([*lines, *sentences(self.notes, self.doubts)])
 
     def _content(self) -> list[tuple[str, str]]:
         (rows, columns), (dx, dy) = self.nodes, self.spacing
@@ -118,6 +117,14 @@ class Forecast:
             ("memory", f"{self.memory / 2**20:.0f} MB"),
             ("wall time", f"{at_least}{duration_text(self.seconds)} to a factor of {FACTOR:g}; longer if it creeps"),
         ]
+
+
+def sentences(notes: Sequence[str], doubts: Sequence[str]) -> list[str]:
+    """Return notes and doubts as lines under headings."""
+    lines: list[str] = []
+    for heading, found in (("notes", notes), ("odd", doubts)):
+        lines += [f"{heading}:", *(f"  - {sentence}" for sentence in found)] if found else []
+    return lines
 
 
 def forecast(scene: Scene) -> Forecast:

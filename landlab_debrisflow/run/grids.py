@@ -49,23 +49,3 @@ def build_grid(terrain: xr.Dataset) -> RasterModelGrid:
             grid.add_field(str(name), np.nan_to_num(values.values.reshape(-1).astype(kind)), at="node")
     grid.status_at_node[missing.reshape(-1)] = grid.BC_NODE_IS_CLOSED
     return grid
-
-
-def copy_grid(grid: RasterModelGrid) -> RasterModelGrid:
-    """Return a new grid with the same nodes, statuses and values of fields at nodes.
-
-    Parameters
-    ----------
-    grid : RasterModelGrid
-
-    Returns
-    -------
-    RasterModelGrid
-    """
-    copied = RasterModelGrid(
-        grid.shape, xy_spacing=(float(grid.dx), float(grid.dy)), xy_of_lower_left=grid.xy_of_lower_left
-    )
-    copied.status_at_node[:] = grid.status_at_node
-    for name in grid.at_node:
-        copied.add_field(name, np.array(grid.at_node[name]), at="node")
-    return copied

@@ -1,18 +1,16 @@
 """Pilot runs: a scene with few particles to its end, and its first steps with all of them."""
 
-import dataclasses
-import logging
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..component import DebrisFlow
+from ..fidelity.event import with_count
+from ..fidelity.pilots import PilotOverError, run_event
 from ..record.measures import measures
-from .advance import advance, start
+from .planning import event_of_scene
 from .scene import Scene
 
 PARTICLES = 150
@@ -30,10 +28,6 @@ NEAR_LIMIT = 0.8
 
 FAST = 0.5
 """Part of the peak speed from which on a flow is fast [-]."""
-
-
-class PilotOverError(Exception):
-    """End of a pilot run."""
 
 
 class Pilot(NamedTuple):
@@ -192,15 +186,13 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     -------
     Pilot
     """
-    numerics = dataclasses.replace(scene.setup.numerics, particle_count=particles, particle_spacing=None)
-    grid = scene.grid()
-    steps = _Steps(numerics.advective_courant_number * min(grid.dx, grid.dy), longest)
-    flow = _flow(scene, grid, steps, numerics=numerics)
-    with collected_warnings():
-        complete = _runs_through(flow, scene)
-    found = measures(flow)
+    event, setup = event_of_scene(scene), with_count(scene.setup, particles)
+    way = setup.numerics.advective_courant_number * min(event.grid.dx, event.grid.dy)
+    steps = _Steps(way, longest)
+    run = run_event(event, setup, [steps])
+    flow, found = run.flow, measures(run.flow)
     return Pilot(
-        duration=flow.elapsed_time, complete=complete, at_rest=flow.at_rest, particles=max(1, steps.particles),
+        duration=flow.elapsed_time, complete=run.complete, at_rest=flow.at_rest, particles=max(1, steps.particles),
         steps=steps.steps, erosion_time=steps.erosion_time,
         peclet_number=float(found.median_basal_peclet_number),
         largest_peclet_number=float(found.max_basal_peclet_number), cost_ratio=steps.cost_ratio,
@@ -220,47 +212,14 @@ def run_start(scene: Scene) -> Start:
     -------
     Start
     """
-    clock = _Clock()
-    with collected_warnings() as doubts:
-        flow = _flow(scene, scene.grid(), clock)
-        _runs_through(flow, scene)
-        columns = flow.columns
+    event, clock = event_of_scene(scene), _Clock()
+    run = run_event(event, scene.setup, [clock])
+    flow, columns = run.flow, run.flow.columns
     read = clock.clock or [process_time()]
     timed = np.diff(read[min(FIRST, len(read) - 1) :])
     times = columns.consolidation_time.values
     return Start(
         particles=int(flow.particles.sizes["particle"]),
         consolidation_time=float(np.median(times)) if times.size else 0.0, seconds=read[0] - clock.began,
-        seconds_per_step=float(np.mean(timed)) if timed.size else 0.0, doubts=doubts,
+        seconds_per_step=float(np.mean(timed)) if timed.size else 0.0, doubts=run.doubts,
     )  # fmt: skip
-
-
-def _flow(scene: Scene, grid: Any, observer: Any, **changes: Any) -> DebrisFlow:
-    return start(grid, dataclasses.replace(scene.setup, **changes), scene.releases, [observer])
-
-
-def _runs_through(flow: DebrisFlow, scene: Scene) -> bool:
-    """Advance a flow through its scene; return whether it came to the end."""
-    try:
-        advance(flow, scene.releases, scene.output_keys.max_duration)
-    except PilotOverError:
-        return False
-    return True
-
-
-@contextmanager
-def collected_warnings() -> Iterator[list[str]]:
-    """Collect the warnings of the package in a block, instead of logging them; yield their list."""
-    collected: list[str] = []
-
-    def collect(record: logging.LogRecord) -> bool:
-        if record.levelno >= logging.WARNING and not record.getMessage().startswith(PilotOverError.__name__):
-            collected.append(record.getMessage())
-        return False
-
-    log = logging.getLogger("landlab_debrisflow")
-    log.addFilter(collect)
-    try:
-        yield collected
-    finally:
-        log.removeFilter(collect)

@@ -52,6 +52,8 @@ class RunRecord:
         Files that were written, from the directory; with ``*`` for any name.
     reason : str
         Reason of a failure.
+    plan : dict or None
+        Plan as plain values, if the number of particles was left to one.
     """
 
     scene: dict[str, Any]
@@ -65,6 +67,7 @@ class RunRecord:
     budget: dict[str, float] = dataclasses.field(default_factory=dict)
     files: list[str] = dataclasses.field(default_factory=list)
     reason: str = ""
+    plan: dict[str, Any] | None = None
     started: str = dataclasses.field(default_factory=lambda: _now())
     version: str = __version__
     format: int = FORMAT
@@ -100,6 +103,7 @@ class RunRecord:
             )
         kinds = {"scene": dict, "inputs": dict, "digest": str, "files": list, "state": str, "budget": dict}
         kinds |= {"elapsed_time": float | int, "at_rest": bool, "scene_file": str | None, "version": str}
+        kinds |= {"plan": dict | None}
         if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
             raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
         if not all(isinstance(volume, float | int) for volume in values["budget"].values()):

@@ -8,7 +8,7 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..core.words import grouped
-from .files import MAPS, RECORD
+from .files import MAPS, RECORD, REPORT
 from .record import FINISHED, RunRecord
 
 
@@ -80,6 +80,12 @@ class Results:
             raise InputError(f"{self.directory} holds no maps: the run is {self.record.state}; resume it first")
         with xr.open_dataset(self.directory / MAPS, decode_coords="all") as maps:
             return maps.load()
+
+    @property
+    def report(self) -> str:
+        """Particles, column, steps and stated errors of the run, as text; empty before its end."""
+        path = self.directory / REPORT
+        return path.read_text(encoding="utf-8").rstrip() if path.is_file() else ""
 
     def __repr__(self) -> str:
         return "\n  ".join([f"Results in {self.directory}", *(f"{name}: {words}" for name, words in self._rows())])

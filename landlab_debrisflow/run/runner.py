@@ -1,6 +1,7 @@
 """Run a scene from its first release to rest, or go on with a run, and write its results."""
 
 import contextlib
+import dataclasses
 import logging
 import os
 from collections.abc import Callable
@@ -10,12 +11,15 @@ from typing import Any
 from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
+from ..fidelity.plan import Plan
 from ..record.monitor import COMPILING, Monitor
-from .advance import advance, check_mass
+from ..scene.releases import advance
+from .advance import check_mass
 from .directory import OutputDirectory
-from .files import RECORD, SCENE
+from .files import RECORD, REPORT, SCENE
 from .maps import write_results
 from .observers import Observers
+from .planning import plan_scene
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .results import Results
 
@@ -51,6 +55,7 @@ def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = 
     check_mass(scene)  # before anything is written, and results of before removed
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(_record(scene, directory), overwrite)
+        scene = _planned(scene, directory, monitor)
         return _compute(scene, directory, scene.flow, monitor)
 
 
@@ -93,10 +98,31 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
             return Results(path)
         if not directory.checkpoints:
             log.warning("the run in %s had no checkpoint yet; it begins anew", path)
-            directory.begin(record, overwrite=True)
+            directory.begin(dataclasses.replace(record, plan=directory.record.plan), overwrite=True)
+            scene = _planned(scene, directory, monitor)
             return _compute(scene, directory, scene.flow, monitor)
         directory.note(scene=record.scene, digest=record.digest)
+        scene = _planned(scene, directory, monitor)
         return _compute(scene, directory, lambda observers: _load(directory, observers), monitor)
+
+
+def _planned(scene: Any, directory: OutputDirectory, monitor: Monitor | None) -> Any:
+    """Return the scene with the plan of the run, if its number of particles is left to one; a first one is made."""
+    if not scene.setup.numerics.automatic:
+        return scene
+    if directory.record.plan is not None:
+        return scene.with_plan(Plan.from_mapping(directory.record.plan, scene.setup))
+    monitor = monitor or Monitor()
+    try:
+        with compilations(lambda: monitor.say(COMPILING)):
+            plan = plan_scene(scene, monitor.say)
+    except BaseException as failure:
+        _note_failure(directory, failure, 0.0)
+        raise
+    finally:
+        monitor.close()
+    directory.note(plan=plan.to_mapping())
+    return scene.with_plan(plan)
 
 
 def _record(scene: Any, directory: OutputDirectory) -> RunRecord:
@@ -166,3 +192,4 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
 def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
     write_results(folder, flow.maps, scene)
     observers.write(folder)
+    (folder / REPORT).write_text(f"{flow.report()}\n", encoding="utf-8")

@@ -10,6 +10,7 @@ import xarray as xr
 from landlab import RasterModelGrid
 
 from ..component import DebrisFlow
+from ..fidelity.plan import Plan
 from ..geo.lattice import Lattice
 from ..geo.rasters import checksum_of
 from ..scene.content import named_files, read_content, to_mapping
@@ -63,6 +64,7 @@ class Scene:
     ) -> None:
         self.folder, self.name, self._file = Path(folder), name, file
         self._content = read_content(mapping, file)
+        self._plan: Plan | None = None
 
     @classmethod
     def from_file(cls, path: str | Path) -> "Scene":
@@ -104,7 +106,7 @@ class Scene:
         return f"<Scene {self.name!r} with {len(self._content.release)} releases in {str(self.folder)!r}>"
 
     def __getstate__(self):
-        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content")}
+        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content", "_plan")}
 
     # ---- keys ----
 
@@ -193,6 +195,8 @@ class Scene:
     @cached_property
     def setup(self) -> Setup:
         """Laws, material, numerics and inflow, also the inflow at points."""
+        if self._plan is not None:
+            return self._plan.setup
         setup = with_fields(self._content.setup, self._varying)
         if not any(keys.kind == "points" for keys in self.release_keys):
             return setup
@@ -232,7 +236,28 @@ class Scene:
         -------
         DebrisFlow
         """
-        return start(self.grid() if grid is None else grid, self.setup, self.releases, observers)
+        flow = start(self.grid() if grid is None else grid, self.setup, self.releases, observers)
+        if self._plan is not None:
+            flow._keep_plan(self._plan)
+        return flow
+
+    def plan(self, **wishes: Any) -> Plan:
+        """Find particles, column and steps by pilot runs with all releases; `with_plan` uses the plan.
+
+        Parameters
+        ----------
+        **wishes
+            As of `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
+        """
+        from .planning import plan_scene
+
+        return plan_scene(self, **wishes)
+
+    def with_plan(self, plan: Plan) -> "Scene":
+        """Return the scene with numerics and column of one of its plans; keys and files stay."""
+        planned = object.__new__(type(self))
+        vars(planned).update(vars(self) | {"setup": plan.setup, "_plan": plan})
+        return planned
 
     def run(self, *, overwrite: bool = False) -> Results:
         """Run the scene to rest and write its results; a line shows how it gets on.

@@ -8,10 +8,14 @@ from landlab import RasterModelGrid
 
 from ..core.checks import in_range
 from ..core.errors import InputError
-from ..scene.releases import ScheduledRelease
+from ..fidelity.grids import copy_grid
+from ..fidelity.planner import make_plan
+from ..fidelity.wishes import wishes_of
+from ..scene.releases import ScheduledRelease, advance
 from ..scene.setup import Setup
-from .advance import advance, start
-from .grids import build_grid, copy_grid
+from .advance import start
+from .grids import build_grid
+from .planning import event_of
 from .scene import Scene
 
 
@@ -75,6 +79,13 @@ def simulate(
     max_duration = 3600.0 if max_duration is None else max_duration
     in_range("simulate: max_duration", max_duration, 0.0, unit="s", error=InputError)
     setup = setup if isinstance(setup, Setup) else Setup.from_mapping({} if setup is None else setup)
+    if setup.numerics.automatic:
+        setup = _planned(grid, setup, releases, max_duration)
     flow = start(grid, setup, releases)
     advance(flow, releases, max_duration)
     return flow.maps.assign_attrs(at_rest=int(flow.at_rest))
+
+
+def _planned(grid: RasterModelGrid, setup: Setup, releases: Sequence[ScheduledRelease], max_duration: float) -> Setup:
+    """Return a setup with numerics and column of a plan for the event on a grid, of which a copy is taken."""
+    return make_plan(event_of(copy_grid(grid), setup, releases, max_duration), wishes_of(setup)).setup

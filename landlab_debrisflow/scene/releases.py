@@ -1,6 +1,6 @@
 """Releases of a scene, from their keys and files to depths over nodes."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -157,6 +157,30 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
         asked += depth
     if "soil__depth" in at:
         np.maximum(at["soil__depth"], asked, out=at["soil__depth"])
+
+
+def advance(flow: Any, releases: Sequence[ScheduledRelease], end: float) -> None:
+    """Advance a flow that was started, or loaded, to rest or the longest time, with the releases still to come.
+
+    A release at the time at which an unfinished call was to end is still to come; one at its beginning is in the flow.
+
+    Parameters
+    ----------
+    flow : DebrisFlow
+    releases : sequence of ScheduledRelease
+        In the order of their times; those at time 0 are in the flow.
+    end : float
+        Longest elapsed time [s].
+    """
+    reached = flow.elapsed_time if flow.unfinished_until is None else flow.unfinished_until
+    for release in releases:
+        if release.time == 0.0 or not reached * (1.0 - 1e-12) <= release.time < end:
+            continue
+        if (left := release.time - flow.elapsed_time) > 1e-12 * release.time:
+            flow.run_one_step(left)
+        set_release(flow.grid, release)
+    if (left := end - flow.elapsed_time) > 0.0:
+        flow.run_until_rest(left)
 
 
 def _field(grid: Any, name: str) -> np.ndarray:

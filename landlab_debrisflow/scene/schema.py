@@ -185,6 +185,8 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
     if kind is tuple:
         return [_numbers(meta)] if meta["length"] is not None else [_number(meta), _numbers(meta)]
     forms.insert(0, _number(meta))
+    if meta["words"]:
+        forms.append({"enum": list(meta["words"])})
     if meta["varies"]:
         forms += [
             {"type": "string", "pattern": NO_NUMBER},

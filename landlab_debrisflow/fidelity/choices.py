@@ -1,0 +1,171 @@
+"""Choices that need no pilot run of their own: column, steps, and a warning about phases; each with its rule."""
+
+import dataclasses
+import math
+from collections.abc import Collection
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..model.numerics import PRESETS, Numerics
+from ..physics.column.ale import ALE
+from ..physics.column.none import NoExcessPressure
+from ..physics.erosion import NoErosion
+from ..physics.registry import law_name
+from .constants import (
+    FAST_TOLERANCE,
+    FINE_COLUMN_RATIO,
+    FINE_LEVELS,
+    LEVELS,
+    NO_PRESSURE_RATIO,
+    PHASE_RATIO,
+    STIFFNESS,
+)
+from .event import Event
+
+BED_RATIO = "bed__excess_pore_pressure_ratio"
+
+
+class Choice(NamedTuple):
+    """A choice and its reason.
+
+    Attributes
+    ----------
+    value : object
+        What was chosen.
+    words : str
+        The choice in words.
+    rule : str
+        Number and rule that it follows.
+    """
+
+    value: Any
+    words: str
+    rule: str
+
+
+def choose_steps(numerics: Numerics, tolerance: float) -> Choice:
+    """Choose the length of steps and the energy of rest.
+
+    Parameters
+    ----------
+    numerics : Numerics
+        Values that are not those of the standard preset are the user's, and stay.
+    tolerance : float
+        Tolerance of the plan [-].
+
+    Returns
+    -------
+    Choice
+        Of a `Numerics`.
+    """
+    words = "Courant numbers {courant_number:g} and {advective_courant_number:g}, rest energy {rest_energy:g}"
+    own = {name for name, value in PRESETS["standard"].items() if getattr(numerics, name) != value}
+    if own:
+        rule = f"your own {', '.join(name for name in PRESETS['standard'] if name in own)} in numerics"
+        return Choice(numerics, f"{numerics.preset}: {words.format(**vars(numerics))}", rule)
+    preset = "fast" if tolerance >= FAST_TOLERANCE else "standard"
+    sign = ">=" if preset == "fast" else "<"
+    values: dict[str, Any] = {"preset": preset} | PRESETS[preset]
+    chosen = dataclasses.replace(numerics, **values)
+    rule = f"tolerance {100.0 * tolerance:g} % {sign} {100.0 * FAST_TOLERANCE:g} %"
+    return Choice(chosen, f"{preset}: {words.format(**vars(chosen))}", rule)
+
+
+def has_pressure(event: Event) -> bool:
+    """Return whether body, inflow or a bed that may erode bring excess pore pressure."""
+    setup, at = event.setup, event.grid.at_node
+    material = setup.material
+    if material.bearing_density == 0.0:
+        return False
+    released = event.release_depth.any() or any(line.pressure_ratio is None for line in setup.inflow)
+    body = material.initial_pressure_ratio > 0.0 and released
+    inflow = any(line.pressure_ratio is not None and any(line.pressure_ratio) for line in setup.inflow)
+    ratio = at[BED_RATIO] if BED_RATIO in at else None  # noqa: SIM401  (Landlab's get finds nothing)
+    wet = material.bed_pressure_ratio > 0.0 if ratio is None else bool(np.any(np.asarray(ratio) > 0.0))
+    return bool(body or inflow or (erodes(event) and (wet or material.bed_loading_coefficient > 0.0)))
+
+
+def erodes(event: Event) -> bool:
+    """Return whether a flow may take up soil."""
+    at = event.grid.at_node
+    has_soil = "soil__depth" in at and bool(np.any(np.asarray(at["soil__depth"]) > 0.0))
+    return has_soil and not isinstance(event.setup.erosion, NoErosion)
+
+
+def choose_column(event: Event, time_ratio: float, hold: Collection[str]) -> Choice:
+    """Choose the law of the column and its levels.
+
+    Parameters
+    ----------
+    event : Event
+        A column of its setup that is not the default is the user's, and stays.
+    time_ratio : float
+        T_c/T: consolidation time of the flow over its duration [-].
+    hold : collection of str
+        Quantities to be held.
+
+    Returns
+    -------
+    Choice
+        Of a column law.
+    """
+    setup = event.setup
+    if setup.column != ALE():
+        return Choice(setup.column, column_words(setup.column), "your own choice")
+    number = f"T_c/T = {time_ratio:.3g}"
+    none = NoExcessPressure()
+    if setup.material.bearing_density == 0.0:
+        return Choice(none, column_words(none), "there is no pore water")
+    if not setup.two_phases and time_ratio <= NO_PRESSURE_RATIO and not has_pressure(event):
+        return Choice(none, column_words(none), f"no pore pressure in body or bed, {number} <= {NO_PRESSURE_RATIO:g}")
+    asked = [name for name in ("pressure", "deposit") if name in hold]
+    if asked and time_ratio > FINE_COLUMN_RATIO:
+        fine = ALE(levels=FINE_LEVELS)
+        rule = f"{number} > {FINE_COLUMN_RATIO:g} and {' and '.join(asked)} asked for"
+        return Choice(fine, column_words(fine), rule)
+    usual = ALE(levels=LEVELS)
+    return Choice(usual, column_words(usual), f"pore pressure moves with the grains; {number}")
+
+
+def column_words(law: Any) -> str:
+    """Return the name of a column law with its levels."""
+    name = law_name("column", law).split(".")[-1]
+    return f"{name} with {law.levels} levels" if "levels" in getattr(law, "__dataclass_fields__", {}) else name
+
+
+def consolidation_ratio(thickness: float, coefficient: float, duration: float) -> float:
+    """Return T_c/T: thickness squared [m2] over coefficient of consolidation [m2 s-1] and duration [s], no unit."""
+    return thickness**2 / (coefficient * duration) if coefficient * duration > 0.0 else math.inf
+
+
+def phase_warning(event: Event, thickness: float, coefficient: float) -> tuple[float, str]:
+    """Return how far grains and water move apart, and a warning if one phase and two differ for it.
+
+    Parameters
+    ----------
+    event : Event
+    thickness : float
+        Of the flow [m].
+    coefficient : float
+        Coefficient of consolidation [m2 s-1].
+
+    Returns
+    -------
+    ratio : float
+        tau (g/h)^(1/2), relaxation time of the velocity between grains and water over the time of the flow [-].
+    warning : str
+        Empty if there is none.
+    """
+    setup = event.setup
+    if not thickness > 0.0 or setup.material.bearing_density == 0.0:
+        return 0.0, ""
+    ratio = coefficient / STIFFNESS * math.sqrt(setup.material.gravity / thickness)
+    if ratio <= PHASE_RATIO:
+        return ratio, ""
+    bed = "; with an eroding bed they differ in any case" if erodes(event) else ""
+    now, other = ("two phases", "one") if setup.two_phases else ("one phase", "two")
+    return ratio, (
+        f"the flow has {now}, as you chose: tau (g/h)^(1/2) = {ratio:.2g} > {PHASE_RATIO:g}, so {other} would give "
+        f"another run-out (4 % at 0.11, 39 % at 1.1){bed}; which of them is right is physics, no particle helps"
+    )

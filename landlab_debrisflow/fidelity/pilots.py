@@ -1,0 +1,176 @@
+"""Pilot runs: an event with few particles, on copies of its grid, and its quantities and cost."""
+
+import logging
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from time import process_time
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..core.compilations import compilations
+from ..scene.setup import Setup
+from .cost import Cost
+from .event import Event, origin, with_count
+from .quantities import CREEP_LEVELS, Decay, quantities
+
+
+class PilotOverError(Exception):
+    """End of a pilot run before its time."""
+
+
+class MeasuredPilot(NamedTuple):
+    """Quantities and cost of a pilot run.
+
+    Attributes
+    ----------
+    quantities : dict of str to float
+        As `fidelity.quantities.quantities` returns them.
+    creep : dict of str to float
+        Their changes since the kinetic energy was last above a small part of its peak, over their value at the end [-];
+        empty if it came to rest from above.
+    cost : Cost
+        Steps and CPU time [s]; NaN for the time if kernels were compiled.
+    at_rest : bool
+        Whether it came to rest.
+    coefficient_of_consolidation : float
+        Median over the particles [m2 s-1].
+    outflow : float
+        Volume that left the grid over all that there was [-].
+    """
+
+    quantities: dict[str, float]
+    creep: dict[str, float]
+    cost: Cost
+    at_rest: bool
+    coefficient_of_consolidation: float
+    outflow: float
+
+
+class EventRun(NamedTuple):
+    """Run of an event on a copy of its grid.
+
+    Attributes
+    ----------
+    flow : DebrisFlow
+        At its end.
+    complete : bool
+        Whether that is the end of the event.
+    seconds : float
+        CPU time [s].
+    doubts : list of str
+        Warnings of the component, which were not logged.
+    """
+
+    flow: Any
+    complete: bool
+    seconds: float
+    doubts: list[str]
+
+
+def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
+    """Run an event with few particles on a copy of its grid, and measure it.
+
+    Parameters
+    ----------
+    event : Event
+    setup : Setup
+        Laws, material, numerics and inflow; its number of particles does not count.
+    count : int
+        Number of particles.
+
+    Returns
+    -------
+    MeasuredPilot
+
+    Raises
+    ------
+    SimulationError
+        If the state stopped being finite.
+    KeyboardInterrupt
+        After the step.
+    """
+    start, compiled = origin(event), []
+    decay = Decay()
+    with compilations(lambda: compiled.append(True)):
+        try:
+            run = run_event(event, with_count(setup, count, settle=False), [decay])
+        except BaseException as failure:
+            failure.__notes__ = [f"in a pilot run with {count} particles; grid and flow are as they were"]
+            raise
+    found, steps = quantities(run.flow, start), run.flow.diagnostics.steps
+    return MeasuredPilot(
+        quantities=found, creep=_creep(decay, found, setup.numerics.rest_energy),
+        cost=Cost(steps, math.nan if compiled else run.seconds), at_rest=run.flow.at_rest,
+        coefficient_of_consolidation=_coefficient(run.flow), outflow=_outflow(run.flow.budget),
+    )  # fmt: skip
+
+
+def _coefficient(flow: Any) -> float:
+    """Return the median coefficient of consolidation of the particles, or of the material if all left [m2 s-1]."""
+    times, thickness = flow.columns.consolidation_time.values, flow.particles.thickness.values
+    known = np.isfinite(times) & (times > 0.0)
+    if not known.any():
+        return float(flow.setup.material.coefficient_of_consolidation)
+    return float(np.median(thickness[known] ** 2 / times[known]))
+
+
+def _outflow(budget: Mapping[str, float]) -> float:
+    supply = budget["released"] + budget["inflow"] + budget["eroded"]
+    return budget["outflow"] / supply if supply else 0.0
+
+
+def run_event(event: Event, setup: Setup, observers: Sequence[Any]) -> EventRun:
+    """Run an event on a copy of its grid to its end, or until an observer ends it.
+
+    Parameters
+    ----------
+    event : Event
+    setup : Setup
+        Laws, material, numerics and inflow in place of those of the event.
+    observers : sequence of observers
+        One that raises `PilotOverError` ends the run.
+
+    Returns
+    -------
+    EventRun
+    """
+    complete = True
+    with collected_warnings() as doubts:
+        flow, began = event.flow(setup, observers), process_time()
+        try:
+            event.run(flow)
+        except PilotOverError:
+            complete = False
+    return EventRun(flow, complete, process_time() - began, doubts)
+
+
+def _creep(decay: Decay, end: dict[str, float], rest_energy: float) -> dict[str, float]:
+    """Return relative changes of quantities since the last measured level above that of rest [-]."""
+    levels = [level for level in CREEP_LEVELS if level > rest_energy and level in decay.found]
+    if not levels:
+        return {}
+    before = decay.found[min(levels)]
+    return {
+        name: abs(value - before[name]) / abs(value)
+        for name, value in end.items() if value and math.isfinite(value) and math.isfinite(before[name])
+    }  # fmt: skip
+
+
+@contextmanager
+def collected_warnings() -> Iterator[list[str]]:
+    """Collect the warnings of the package in a block, instead of logging them; yield their list."""
+    collected: list[str] = []
+
+    def collect(record: logging.LogRecord) -> bool:
+        if record.levelno >= logging.WARNING and not record.getMessage().startswith(PilotOverError.__name__):
+            collected.append(record.getMessage())
+        return False
+
+    log = logging.getLogger("landlab_debrisflow")
+    log.addFilter(collect)
+    try:
+        yield collected
+    finally:
+        log.removeFilter(collect)
