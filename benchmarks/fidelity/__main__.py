@@ -7,7 +7,7 @@
     python -m benchmarks.fidelity run --label now --scenes nine --particles 500,1000 --results /tmp/now.jsonl
 
 The first takes hours of CPU time and may be broken off and begun again: a run is a line of JSON in
-results/LABEL.jsonl, and what stands there is not run again. The next two need seconds; `chart` draws docs/fidelity.png
+results/LABEL.jsonl, and what stands there is not run again. The others need seconds; `chart` draws docs/fidelity.png
 and docs/convergence.png, the latter with results/before.jsonl. S-1000 needs the rasters of examples/s1000.py in
 $DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same scenes by its own
 interpreter: run as a file with -P, the harness puts the checkout last.
@@ -26,6 +26,8 @@ if not __package__:  # run as a file: the package that is installed goes before 
 from benchmarks.fidelity.campaign import SETS, campaign
 from benchmarks.fidelity.runs import RESULTS, Run, read, run_all
 from benchmarks.fidelity.seeds import FIT, HELD_OUT, TABLE, take_draws
+
+DOCS = Path(__file__).parents[2] / "docs"
 
 
 def parse(arguments) -> argparse.Namespace:
@@ -54,7 +56,8 @@ def parse(arguments) -> argparse.Namespace:
             found.add_argument("--variations", default="", help="words of variations.py with commas between them")
     command("score", "print the tables of fitted and of unseen scenes")
     command("fit", "print constants fitted to the scenes to fit")
-    command("chart", "draw docs/fidelity.png and docs/convergence.png")
+    command("compare", "print errors against particles before and after a change")
+    command("chart", "the same, and draw docs/fidelity.png and docs/convergence.png")
     commands.add_parser("seeds", help="write the table of draws anew")
     return parser.parse_args(arguments)
 
@@ -86,11 +89,26 @@ def main(arguments=None) -> int:
         print_scores(scenes, SETS["fit"], "to fit")
         return 0 if print_scores(scenes, SETS["held-out"], "unseen") else 1
     else:
-        from benchmarks.fidelity.chart import draw_charts
+        from benchmarks.fidelity.convergence import print_convergence
 
         before = by_scene(read(RESULTS / "before.jsonl"))
-        draw_charts(scenes, before)
+        print_convergence(scenes, before)
+        if options.command == "chart":
+            draw_charts(scenes, before)
     return 0
+
+
+def draw_charts(scenes, before) -> None:
+    """Draw docs/fidelity.png of scenes after a change, and docs/convergence.png with those before it."""
+    from benchmarks.fidelity.chart import draw_error_and_cost
+    from benchmarks.fidelity.convergence import draw_convergence
+    from landlab_debrisflow.plots import save_figure
+
+    for name, figure in (
+        ("fidelity", draw_error_and_cost(scenes)), ("convergence", draw_convergence(scenes, before)),
+    ):  # fmt: skip
+        save_figure(figure, DOCS / f"{name}.png", dpi=100)
+        print(f"Wrote docs/{name}.png")
 
 
 def wanted_runs(options) -> list[Run]:

@@ -1,18 +1,15 @@
-"""Charts: error against cost, stated against true errors, and errors against particles before and after a change."""
+"""Chart of error against cost, with stated against true errors beside it."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from landlab_debrisflow.plots import save_figure
-
 from .campaign import FAST, FULL, PHYSICS_PARTICLES, SETS, TRUTH
+from .convergence import WORDS
 from .replay import QUANTITIES, complete, replay, true_errors
 from .score import HELD, LEAST, pairs
 
-DOCS = Path(__file__).parents[2] / "docs"
 FLOOR = 1e-3
 """Errors below this are drawn here: less is not known [-]."""
 
@@ -22,18 +19,6 @@ MARKS = {
     "flow=one_phase": ("p", "one phase"),
 }  # fmt: skip
 """Choices of physics that are marked, with 1000 particles."""
-
-WORDS = {
-    "run_out": "run-out", "speed": "peak speed", "depth": "peak depth", "area": "affected area",
-    "eroded": "eroded volume", "pressure": "peak pressure ratio", "deposit": "mean deposit",
-}  # fmt: skip
-
-
-def draw_charts(scenes, before) -> None:
-    """Draw docs/fidelity.png of scenes after a change, and docs/convergence.png with the scenes before it."""
-    save_figure(draw_error_and_cost(scenes), DOCS / "fidelity.png", dpi=100)
-    save_figure(draw_convergence(scenes, before), DOCS / "convergence.png", dpi=100)
-    print(f"Wrote {DOCS / 'fidelity.png'} and {DOCS / 'convergence.png'}")
 
 
 def largest_error(result, truth, names=HELD) -> float:
@@ -94,38 +79,3 @@ def draw_stated(axes, choices) -> None:
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="true error", ylabel="stated error, of particles")
     axes.set_title(f"{len(choices)} unseen scenes, plans of 5 % for run-out and speed")
     axes.legend(fontsize="x-small", loc="lower right")
-
-
-def errors_by_count(scenes, names, name: str, counts, truth: int) -> np.ndarray:
-    """Return the errors of a quantity with default steps, (counts, scenes), against a number of particles."""
-    found = []
-    for scene in names:
-        runs = scenes[scene]
-        if all(("", count) in runs for count in (*counts, truth)):
-            found.append([true_errors(runs["", count], runs["", truth])[name] for count in counts])
-    errors = np.array(found).reshape(-1, len(counts)).T
-    return errors[:, np.isfinite(errors).all(axis=0)]
-
-
-def draw_convergence(after, before) -> Figure:
-    """Return median and 90 % of the errors against particles, before and after a change, against 8000 particles."""
-    figure = Figure(figsize=(14.0, 6.0), layout="constrained")
-    panels = figure.subplots(2, 4, sharex=True).ravel()
-    counts = (500, 1000, 2000)
-    names = [n for n in SETS["fit"] if all(("", c) in s.get(n, {}) for s in (after, before) for c in (*counts, FULL))]
-    for axes, name in zip(panels, QUANTITIES, strict=False):
-        for scenes, words, colour in ((before, "before", "0.55"), (after, "after", "tab:blue")):
-            errors = 100.0 * errors_by_count(scenes, names, name, counts, FULL)
-            if errors.size:
-                axes.plot(counts, np.median(errors, axis=1), "o-", color=colour, label=f"{words}, median")
-                axes.plot(counts, np.quantile(errors, 0.9, axis=1), "s--", color=colour, label=f"{words}, 90 %")
-        axes.set(xscale="log", title=WORDS[name], xticks=counts, xticklabels=counts)
-        axes.set_ylim(bottom=0.0)
-        axes.minorticks_off()
-    panels[-1].axis("off")
-    handles = panels[0].get_legend_handles_labels()
-    panels[-1].legend(*handles, loc="center")
-    figure.supxlabel("particles")
-    figure.supylabel(f"error against {FULL} particles of the same version [%]")
-    figure.suptitle(f"{len(names)} random scenes, default steps")
-    return figure
