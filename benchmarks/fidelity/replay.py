@@ -27,9 +27,9 @@ class Choice(NamedTuple):
         Errors of the run against the truth [-].
     raster : dict of str to float
         Errors of the raster [-]; empty if it is not examined.
-    cost, pilots, raster_cost : float
-        CPU time of all that was run, of the pilots in it, and of the one with every second node, over that of the full
-        run [-]; the first without the last.
+    cost, pilots, again, raster_cost : float
+        CPU time over that of the full run [-]: of pilots and run; of the pilots in it; of the run in it if it repeats
+        the last pilot, else 0; of the pilot with every second node, which is not in the first.
     """
 
     particles: int
@@ -39,6 +39,7 @@ class Choice(NamedTuple):
     raster: dict[str, float]
     cost: float
     pilots: float
+    again: float
     raster_cost: float
 
 
@@ -98,6 +99,7 @@ def replay(runs: Mapping, tolerance: float, hold, most: int = MOST_PARTICLES) ->
     return Choice(
         particles=count, planned=errors_with(errors, count, finest) if count > finest else errors, stated=after,
         true=true_errors(run, truth), raster=raster, cost=(before + run["seconds"]) / full, pilots=before / full,
+        again=run["seconds"] / full if count == finest else 0.0,
         raster_cost=raster_cost / full,
     )  # fmt: skip
 

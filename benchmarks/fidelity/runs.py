@@ -71,16 +71,25 @@ def run_all(runs, path: Path, processes: int = 1, report=print) -> None:
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(processes, mp_context=context) as pool:
         waiting = {pool.submit(result_of, run): run for run in left}
-        for count, future in enumerate(as_completed(waiting), 1):
-            run, result = waiting[future], future.result()
-            if "failure" in result:
-                report(f"{count}/{len(left)} {run.scene} {run.particles} {run.variation}: {result['failure']}")
-                continue
-            append(path, run, result)
-            report(
-                f"{count}/{len(left)} {run.scene} {run.particles} {run.variation}: {result['seconds']:.2f} s, "
-                f"run-out {result['run_out']}, area {result['area']}, at rest {result['at_rest']}"
-            )
+        try:
+            for count, future in enumerate(as_completed(waiting), 1):
+                words = keep(path, waiting[future], future.result())
+                report(f"{count}/{len(left)} {words}")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)  # after Ctrl-C only what has begun is waited for
+            raise
+
+
+def keep(path: Path, run: Run, result: dict) -> str:
+    """Append a result, unless it is a failure, and return it in a line of words."""
+    words = " ".join(filter(None, (run.scene, str(run.particles), run.variation)))
+    if "failure" in result:
+        return f"{words}: {result['failure']}"
+    append(path, run, result)
+    return (
+        f"{words}: {result['seconds']:.2f} s, run-out {result['run_out']}, area {result['area']}, "
+        f"at rest {result['at_rest']}"
+    )
 
 
 def result_of(run: Run) -> dict:
