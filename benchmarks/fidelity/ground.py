@@ -81,6 +81,7 @@ def release_cap(grid, x, y, half_axes, volume):
     """
     along, across = (max(axis, 1.5 * grid.dx) for axis in half_axes)
     shape = np.maximum(0.0, 1.0 - ((grid.x_of_node - x) / along) ** 2 - ((grid.y_of_node - y) / across) ** 2)
+    shape[grid.boundary_nodes] = 0.0
     if RELEASE not in grid.at_node:
         grid.add_zeros(RELEASE, at="node", units="m")
     grid.at_node[RELEASE] += shape * (volume / (shape.sum() * grid.dx * grid.dy))

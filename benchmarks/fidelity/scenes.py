@@ -5,6 +5,7 @@ A function of no arguments returns a `Scene`, whose grid is new with every call.
 
 import os
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -172,11 +173,17 @@ NINE = {
 
 
 def maker(name: str):
-    """Return the function that makes a scene, by its name.
+    """Return the function that makes a scene: one of `NINE`, or a random one, "r" and its seed.
 
     Raises
     ------
     KeyError
         If there is none of that name.
     """
-    return NINE[name]
+    if name in NINE:
+        return NINE[name]
+    from .generator import random_scene
+    from .seeds import DRAWS
+
+    seed = int(name.removeprefix("r"))
+    return partial(random_scene, seed, DRAWS[seed])
