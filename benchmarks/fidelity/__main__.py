@@ -1,12 +1,18 @@
 """Error against cost: ``python -m benchmarks.fidelity COMMAND`` from the root of a checkout.
 
+    python -m benchmarks.fidelity campaign --label after --processes 2
+    python -m benchmarks.fidelity fit
+    python -m benchmarks.fidelity score
+    python -m benchmarks.fidelity chart
     python -m benchmarks.fidelity run --label now --scenes nine --particles 500,1000 --results /tmp/now.jsonl
 
-appends one line of JSON a run to the file; what stands there already is not run again. S-1000 needs the rasters of
-examples/s1000.py in $DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same
-scenes by its own interpreter: run as a file with -P, the harness puts the checkout last.
+The first takes hours of CPU time and may be broken off and begun again: a run is a line of JSON in
+results/LABEL.jsonl, and what stands there is not run again. The others need seconds; `chart` draws docs/fidelity.png
+and docs/convergence.png, the latter with results/before.jsonl. S-1000 needs the rasters of examples/s1000.py in
+$DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same scenes by its own
+interpreter: run as a file with -P, the harness puts the checkout last.
 
-    PYTHON -P benchmarks/fidelity/__main__.py run --label before ...
+    PYTHON -P benchmarks/fidelity/__main__.py campaign --label before --short --scenes nine,fit
 """
 
 import argparse
@@ -17,41 +23,105 @@ from pathlib import Path
 if not __package__:  # run as a file: the package that is installed goes before that of the checkout
     sys.path.append(str(Path(__file__).parents[2]))
 
-from benchmarks.fidelity.runs import RESULTS, Run, run_all
-from benchmarks.fidelity.scenes import NINE
+from benchmarks.fidelity.campaign import SETS, campaign
+from benchmarks.fidelity.runs import RESULTS, Run, read, run_all
 from benchmarks.fidelity.seeds import FIT, HELD_OUT, TABLE, take_draws
 
-SETS = {"nine": list(NINE), "fit": [f"r{seed}" for seed in FIT], "held-out": [f"r{seed}" for seed in HELD_OUT]}
-"""Sets of scenes by name."""
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def parse(arguments) -> argparse.Namespace:
+    """Return the options of a command."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.fidelity", description=__doc__.splitlines()[0])
+    commands = parser.add_subparsers(dest="command", required=True)
+
+    def command(name, words):
+        found, runs = commands.add_parser(name, help=words), name in ("run", "campaign")
+        label = {"required": True} if runs else {"default": "after"}
+        found.add_argument("--label", help="name of the engine's version, a part of the key", **label)
+        found.add_argument("--results", type=Path, help="file of results, by default results/LABEL.jsonl")
+        return found
+
+    for name, words in (
+        ("run", "run scenes"), ("campaign", "make all runs that score, fit and chart need"),
+    ):  # fmt: skip
+        found = command(name, words)
+        most = "nine" if name == "run" else "nine,fit,held-out"
+        found.add_argument("--scenes", default=most, help="nine, fit, held-out, or names with commas between them")
+        found.add_argument("--processes", type=int, default=1, help="runs at a time")
+        if name == "campaign":
+            found.add_argument("--short", action="store_true", help="default steps only, of an engine before a change")
+        else:
+            found.add_argument("--particles", default="500,1000", help="numbers with commas between them")
+            found.add_argument("--variations", default="", help="words of variations.py with commas between them")
+    command("score", "print the tables of fitted and of unseen scenes")
+    command("fit", "print constants fitted to the scenes to fit")
+    command("compare", "print errors against particles before and after a change")
+    command("chart", "the same, and draw docs/fidelity.png and docs/convergence.png")
+    commands.add_parser("seeds", help="write the table of draws anew")
+    return parser.parse_args(arguments)
 
 
 def main(arguments=None) -> int:
-    """Carry out a command."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.fidelity", description=__doc__.splitlines()[0])
-    commands = parser.add_subparsers(dest="command", required=True)
-    run = commands.add_parser("run", help="run scenes and append their results to a file")
-    run.add_argument("--label", required=True, help="name of the engine's version, a part of the key")
-    run.add_argument("--scenes", default="nine", help="nine, fit, held-out, or names with commas between them")
-    run.add_argument("--particles", default="500,1000", help="numbers with commas between them")
-    run.add_argument("--variations", default="", help="words of benchmarks/fidelity/variations.py, commas between")
-    run.add_argument("--results", type=Path, help="file of results, by default results/LABEL.jsonl")
-    run.add_argument("--processes", type=int, default=1, help="runs at a time")
-    commands.add_parser("seeds", help="write the table of draws anew")
-    options = parser.parse_args(arguments)
+    """Carry out a command; 1: unseen scenes miss what must be reached."""
+    options = parse(arguments)
     if options.command == "seeds":
         draws = take_draws([*FIT, *HELD_OUT], lambda line: print(line, flush=True))
         TABLE.write_text(json.dumps(draws, indent=0) + "\n")
         return 0
+    path = options.results or RESULTS / f"{options.label}.jsonl"
+    if options.command in ("run", "campaign"):
+        run_all(wanted_runs(options), path, options.processes, lambda line: print(line, flush=True))
+        return 0
+
+    # not for an older version of the package
+    from benchmarks.fidelity.replay import by_scene
+
+    scenes = by_scene({run: result for run, result in read(path).items() if run.label == options.label})
+    if options.command == "fit":
+        from benchmarks.fidelity.fit import print_fit
+
+        print_fit(scenes, SETS["fit"])
+    elif options.command == "score":
+        from benchmarks.fidelity.score import print_scores
+
+        print_scores(scenes, SETS["nine"], "the nine")
+        print_scores(scenes, SETS["fit"], "to fit")
+        return 0 if print_scores(scenes, SETS["held-out"], "unseen") else 1
+    else:
+        from benchmarks.fidelity.convergence import print_convergence
+
+        before = by_scene(read(RESULTS / "before.jsonl"))
+        print_convergence(scenes, before)
+        if options.command == "chart":
+            draw_charts(scenes, before)
+    return 0
+
+
+def draw_charts(scenes, before) -> None:
+    """Draw docs/fidelity.png of scenes after a change, and docs/convergence.png with those before it."""
+    from benchmarks.fidelity.chart import draw_error_and_cost
+    from benchmarks.fidelity.convergence import draw_convergence
+    from landlab_debrisflow.plots import save_figure
+
+    for name, figure in (
+        ("fidelity", draw_error_and_cost(scenes)), ("convergence", draw_convergence(scenes, before)),
+    ):  # fmt: skip
+        save_figure(figure, DOCS / f"{name}.png", dpi=100)
+        print(f"Wrote docs/{name}.png")
+
+
+def wanted_runs(options) -> list[Run]:
+    """Return the runs that a command asks for."""
     scenes = [name for word in options.scenes.split(",") for name in SETS.get(word, [word])]
-    runs = [
+    if options.command == "campaign":
+        return campaign(options.label, scenes, options.short)
+    return [
         Run(options.label, scene, int(count), variation)
         for variation in options.variations.split(",")
         for count in options.particles.split(",")
         for scene in scenes
     ]
-    path = options.results or RESULTS / f"{options.label}.jsonl"
-    run_all(runs, path, options.processes, lambda line: print(line, flush=True))
-    return 0
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Random scenes by seed: ground, release or inflow, material, laws, walls.
 
-A seed makes the same scene for ever (numpy's PCG64): nothing here changes once constants have been fitted. Cost is
+A seed makes the same scene as long as numpy's generators do: nothing here changes once constants are fitted. Cost is
 bounded by the duration, which follows from volume and thickness. Which draw of a seed is taken is a matter of a run
 with 150 particles (`seeds.py`).
 """

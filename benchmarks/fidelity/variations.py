@@ -7,11 +7,6 @@ column=LAW    another law of the column, its levels after a slash: column=ale/21
 flow=LAW      one phase or two
 """
 
-import numpy as np
-from landlab import RasterModelGrid
-
-from .ground import RELEASE, SOIL
-
 
 def vary(scene, particles: int, variation: str):
     """Return grid, keywords without numerics, and numerics of a variation of a `Scene`.
@@ -27,7 +22,9 @@ def vary(scene, particles: int, variation: str):
         if word == "fast":
             numerics["preset"] = "fast"
         elif word == "coarse":
-            grid = every_second_node(grid)
+            from landlab_debrisflow.fidelity.grids import coarse_grid  # older versions do without
+
+            grid = coarse_grid(grid)
         elif key == "more":
             numerics["particle_count"] = round(particles * (1.0 + float(value) / 100.0))
         elif key == "column":
@@ -38,25 +35,3 @@ def vary(scene, particles: int, variation: str):
         else:
             raise ValueError(f"unknown variation {word!r}; there are fast, coarse, more=, column=, flow=")
     return grid, keywords, numerics
-
-
-def every_second_node(grid):
-    """Return the grid with every second row and column, from the first on; the volume released is kept."""
-    keep = np.zeros(grid.shape, bool)
-    keep[::2, ::2] = True
-    rows, columns = keep.any(axis=1).sum(), keep.any(axis=0).sum()
-    coarse = RasterModelGrid(
-        (int(rows), int(columns)), xy_spacing=(2.0 * grid.dx, 2.0 * grid.dy), xy_of_lower_left=grid.xy_of_lower_left
-    )
-    for name in grid.at_node:
-        coarse.add_field(name, grid.at_node[name][keep.ravel()].copy(), at="node")
-    # the corner of an odd grid keeps its side; a wall narrower than two nodes may be lost, which is the error meant
-    inside = coarse.status_at_node == 0
-    status = grid.status_at_node[keep.ravel()]
-    coarse.status_at_node[inside] = status[inside]
-    coarse.status_at_node[status == grid.BC_NODE_IS_CLOSED] = grid.BC_NODE_IS_CLOSED
-    if RELEASE in grid.at_node and coarse.at_node[RELEASE].any():
-        coarse.at_node[RELEASE] *= grid.at_node[RELEASE].sum() / (4.0 * coarse.at_node[RELEASE].sum())
-        if SOIL in coarse.at_node:
-            np.maximum(coarse.at_node[SOIL], coarse.at_node[RELEASE], out=coarse.at_node[SOIL])
-    return coarse
