@@ -88,7 +88,9 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 def setup_digest(setup: Setup) -> str:
     """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
-    return with_count(dataclasses.replace(setup, numerics=choose_steps(setup.numerics, 1.0).value), 1).digest()
+    return with_count(
+        dataclasses.replace(setup, numerics=choose_steps(setup.numerics, tolerance=1.0).value), 1
+    ).digest()
 
 
 def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:
