@@ -37,6 +37,22 @@ def copy_grid(grid: RasterModelGrid) -> RasterModelGrid:
     return copied
 
 
+def put_back(copied: RasterModelGrid, grid: RasterModelGrid) -> None:
+    """Put the fields of a grid back into a copy of it on which a flow has run.
+
+    Parameters
+    ----------
+    copied : RasterModelGrid
+        As `copy_grid` returned it; fields that have been added since are taken away.
+    grid : RasterModelGrid
+    """
+    for name in list(copied.at_node.keys()):
+        if name in grid.at_node:
+            copied.at_node[name][:] = grid.at_node[name]
+        else:
+            copied.delete_field("node", name)
+
+
 def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
     """Return a new grid of every second row and column, with the release of the same volume around the same centre.
 

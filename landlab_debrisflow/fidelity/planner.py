@@ -65,6 +65,12 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     if last.outflow > NOTABLE_OUTFLOW:
         warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
     errors = errors_with(errors, count, finest) if count > finest else errors
+    coarse = [WORDS[name] for name in wishes.hold if raster.errors.get(name, 0.0) > wishes.tolerance]
+    if coarse:
+        warnings += (
+            f"the error of the raster exceeds the tolerance for {', '.join(coarse)}: particles do not help, a finer "
+            "DEM does",
+        )
     return Plan(
         particles=count, setup=with_count(setup, count), tolerance=wishes.tolerance, hold=wishes.hold,
         rules={
@@ -82,7 +88,9 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 def setup_digest(setup: Setup) -> str:
     """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
-    return with_count(dataclasses.replace(setup, numerics=choose_steps(setup.numerics, 1.0).value), 1).digest()
+    return with_count(
+        dataclasses.replace(setup, numerics=choose_steps(setup.numerics, tolerance=1.0).value), 1
+    ).digest()
 
 
 def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.words import duration_text, grouped
 from ..scene.setup import Setup
-from .choices import choose_steps, column_words
+from .choices import column_words, steps_words
 from .constants import PILOTS
 from .errors import errors_after
 from .plan import Plan, error_rows
@@ -81,7 +81,7 @@ class Report:
             ("state", self.state),
             ("particles", f"{grouped(self.particles)} ({words})"),
             ("column", column_words(self.setup.column)),
-            ("steps", choose_steps(numerics, 0.0).words),
+            ("steps", steps_words(numerics)),
             ("cost", self._cost_words()),
         ]
         if plan is None:
