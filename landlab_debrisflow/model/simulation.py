@@ -224,11 +224,12 @@ class Simulation:
         if self.phases.sleeps and due and p.count:
             near = self.surroundings
             activity.fall_asleep(p, state.time, near.columns, near.friction, state.exchange, near.walls)
-        slow = state.bodies.judge(p, self.setup.numerics.rest_energy)
-        if slow is not None:
+        rest_energy, gravity = self.setup.numerics.rest_energy, self.setup.material.gravity
+        most_unheld = state.bodies.judge(p, rest_energy, gravity, state.time)
+        if most_unheld is not None:
             awake = slice(p.awake)
             held = self.held_at_rest(awake, p.basal_excess_pore_pressure[awake])
-            state.bodies.arrest(p, slow, held, state.inflow.prescribed(p))
+            state.bodies.arrest(p, most_unheld, held, state.inflow.prescribed(p))
 
     def catch_up(self) -> None:
         """Bring the columns of particles asleep to the present."""
