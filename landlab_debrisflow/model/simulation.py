@@ -97,7 +97,7 @@ class Simulation:
         self.state.outdated |= changed
         if changed:
             self.set_free()
-        load_bed(self.particles, bed.pore_pressure, self.setup.material, self.time)
+        load_bed(self.particles, bed, self.setup.material, self.time)
 
     def begin(self, bed: Bed, given, listener: RunListener) -> None:
         """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
@@ -129,7 +129,7 @@ class Simulation:
         state, p, material, bed = self.state, self.particles, self.setup.material, self.bed
         new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.setup.numerics, velocity)
         self._refresh(FIRST_SWEEPS)
-        load_bed(p, bed.pore_pressure, material, self.time)
+        load_bed(p, bed, material, self.time)
         p.excess_pore_pressure[new] = initial_profile(
             p.liquefaction_pressure[new], p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
             material.basal_layer_fraction,
