@@ -19,6 +19,7 @@ from .record.measures import measures
 from .scene.setup import Setup
 
 if TYPE_CHECKING:
+    from .fidelity.plan import Plan
     from .run.scene import Scene
     from .run.simulate import simulate
 
@@ -29,6 +30,7 @@ __all__ = [
     "Material",
     "Numerics",
     "ParameterError",
+    "Plan",
     "Scene",
     "Setup",
     "SimulationError",
@@ -41,7 +43,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import the names of scenes when they are first used: the readers of files load slowly."""
+    """Import the names of scenes and plans when they are first used: the readers of files load slowly."""
+    if name == "Plan":
+        from .fidelity.plan import Plan
+
+        return Plan
     if name == "Scene":
         from .run.scene import Scene
 

@@ -20,7 +20,7 @@ VARIABLES = {
     "front_age": ("s", "time since the column first eroded"),
     "consolidation_time": ("s", "thickness squared over coefficient of consolidation"),
     "erosion_time": ("s", "thickness over erosion rate"),
-    "clipped_pressure": ("Pa m", "pressure taken off by the bounds times thickness, so far"),
+    "clipped_pressure": ("Pa m", "pressure above liquefaction taken off, times thickness, so far"),
 }
 
 

@@ -52,5 +52,5 @@ SINGLE_NUMBERS = {
 CHOICES = {
     "law": parameter("-", "law of the column", "ale", choices=("ale", "classical", "constant_ratio")),
     "advance": parameter("-", "whether a column may be left alone", "lazy", choices=("lazy", "every_step")),
-    "bounded": parameter("-", "hold the pressure between suction and liquefaction", False, kind=bool),
+    "bounded": parameter("-", "show the pressure between suction and liquefaction", False, kind=bool),
 }

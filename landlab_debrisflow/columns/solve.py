@@ -87,7 +87,7 @@ def solve_column(
     source_includes_erosion : bool
         Load grains by soil that comes in below them too (eqs. 19 and 38 to the letter); to replicate only.
     bounded : bool
-        Hold the pressure between suction, with the densities of `Material`, and liquefaction.
+        Show the pressure between suction, with the densities of `Material`, and liquefaction (docs/theory.md#bounds).
     law : {"ale", "classical", "constant_ratio"}
         "constant_ratio" has the pressure ``basal_pressure_ratio * loading * y`` at the depth y, whatever the
         start, the base and the diffusion are.

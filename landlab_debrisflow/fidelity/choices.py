@@ -59,17 +59,24 @@ def choose_steps(numerics: Numerics, tolerance: float) -> Choice:
     Choice
         Of a `Numerics`.
     """
-    words = "Courant numbers {courant_number:g} and {advective_courant_number:g}, rest energy {rest_energy:g}"
     own = {name for name, value in PRESETS["standard"].items() if getattr(numerics, name) != value}
     if own:
         rule = f"your own {', '.join(name for name in PRESETS['standard'] if name in own)} in numerics"
-        return Choice(numerics, f"{numerics.preset}: {words.format(**vars(numerics))}", rule)
+        return Choice(numerics, steps_words(numerics), rule)
     preset = "fast" if tolerance >= FAST_TOLERANCE else "standard"
     sign = ">=" if preset == "fast" else "<"
     values: dict[str, Any] = {"preset": preset} | PRESETS[preset]
     chosen = dataclasses.replace(numerics, **values)
     rule = f"tolerance {100.0 * tolerance:g} % {sign} {100.0 * FAST_TOLERANCE:g} %"
-    return Choice(chosen, f"{preset}: {words.format(**vars(chosen))}", rule)
+    return Choice(chosen, steps_words(chosen), rule)
+
+
+def steps_words(numerics: Numerics) -> str:
+    """Return preset, Courant numbers and rest energy of some numerics in words."""
+    return (
+        f"{numerics.preset}: Courant numbers {numerics.courant_number:g} and {numerics.advective_courant_number:g}, "
+        f"rest energy {numerics.rest_energy:g}"
+    )
 
 
 def has_pressure(event: Event) -> bool:

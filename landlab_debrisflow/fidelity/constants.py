@@ -55,12 +55,11 @@ ERROR_LAWS = {
     "eroded": ErrorLaw(6.0, 0.005, 0.7, ("eroded",)),
     "pressure": ErrorLaw(
         4.0, 0.005, 0.6, ("pressure",),
-        reason="the peak pressure ratio still rises with the number of particles where others have converged",
+        reason="it rises with the number of particles, where all else has converged",
     ),
     "deposit": ErrorLaw(
         7.0, 0.008, 0.7, ("deposit",),
-        reason="where a flow stops depends on the last of its pore pressure: the thickness of the deposit converges "
-        "late; eroded volume and run-out can be held",
+        reason="it hangs on the pore pressure left at the stop; run-out and eroded volume can be held",
     ),
 }  # fmt: skip
 """By quantity, in the order of `QUANTITIES`. The volume eroded has no related quantity, and so the factor of a run-out

@@ -2,7 +2,8 @@
 
 import dataclasses
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -13,11 +14,12 @@ from ..physics.registry import LAWS
 from ..scene.digest import digest
 from ..scene.releases import ScheduledRelease, advance
 from ..scene.setup import Setup
-from .grids import coarse_grid, copy_grid, depth_on, write_release
+from .grids import coarse_grid, copy_grid, depth_on, put_back, write_release
 from .quantities import origin_of
 
 
-class Event(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Event:
     """An event before it begins.
 
     Attributes
@@ -41,7 +43,7 @@ class Event(NamedTuple):
     releases: tuple[ScheduledRelease, ...] = ()
 
     def flow(self, setup: Setup, observers: Sequence[Any] = ()) -> Any:
-        """Return a flow of the event on a new copy of its grid.
+        """Return a flow of the event on a copy of its grid, which the next flow takes over.
 
         Parameters
         ----------
@@ -54,7 +56,12 @@ class Event(NamedTuple):
         -------
         DebrisFlow
         """
-        return self.make(copy_grid(self.grid), **vars(setup), observers=list(observers))
+        put_back(self._spare, self.grid)
+        return self.make(self._spare, **vars(setup), observers=list(observers))
+
+    @cached_property
+    def _spare(self) -> Any:
+        return copy_grid(self.grid)  # one for all pilot runs: to build a grid takes as long as a short one
 
     def run(self, flow: Any) -> None:
         """Run a flow of the event to rest, or for the longest time.
@@ -76,7 +83,8 @@ class Event(NamedTuple):
         """
         grid = coarse_grid(self.grid)
         releases = tuple(_coarse_release(grid, one) for one in self.releases)
-        return self._replace(grid=grid, setup=_coarse_setup(self.setup, self.grid.shape), releases=releases)
+        setup = _coarse_setup(self.setup, self.grid.shape)
+        return dataclasses.replace(self, grid=grid, setup=setup, releases=releases)
 
     @property
     def volume(self) -> float:

@@ -37,6 +37,22 @@ def copy_grid(grid: RasterModelGrid) -> RasterModelGrid:
     return copied
 
 
+def put_back(copied: RasterModelGrid, grid: RasterModelGrid) -> None:
+    """Put the fields of a grid back into a copy of it on which a flow has run.
+
+    Parameters
+    ----------
+    copied : RasterModelGrid
+        As `copy_grid` returned it; fields that have been added since are taken away.
+    grid : RasterModelGrid
+    """
+    for name in list(copied.at_node.keys()):
+        if name in grid.at_node:
+            copied.at_node[name][:] = grid.at_node[name]
+        else:
+            copied.delete_field("node", name)
+
+
 def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
     """Return a new grid of every second row and column, with the release of the same volume around the same centre.
 
@@ -62,9 +78,10 @@ def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
         raise InputError(f"every second node of {rows} x {columns} nodes makes no grid; {FEWEST} x {FEWEST} are needed")
     shape = tuple((count + 1) // 2 for count in grid.shape)
     coarse = _new_grid(grid, shape, 2)
-    status = np.array(grid.status_at_node).reshape(grid.shape)
-    kept = status[::2, ::2].copy()
-    kept[-1, :], kept[:, -1] = status[-1, ::2], status[::2, -1]  # the edge, if the number of rows or columns is even
+    places = [np.arange(0, count, 2) for count in grid.shape]
+    for axis, count in zip(places, grid.shape, strict=True):
+        axis[-1] = count - 1  # the edge, also of an even number
+    kept = np.array(grid.status_at_node).reshape(grid.shape)[np.ix_(*places)]
     coarse.status_at_node[:] = kept.ravel()
     depth, momentum = _release(grid)
     fine = {name: np.array(grid.at_node[name]) for name in grid.at_node if name not in OUTPUTS}

@@ -20,7 +20,7 @@ FORMAT = 1
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Plan:
-    """Particles, column and steps of a run, found by pilot runs; it prints itself.
+    """Particles, column and steps of a run, found by pilot runs; `DebrisFlow.plan` makes it, and it prints itself.
 
     Attributes
     ----------

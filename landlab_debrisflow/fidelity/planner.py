@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..core.errors import InputError
+from ..core.words import grouped
 from ..grid.release import RELEASE_DEPTH
 from ..scene.setup import Setup
 from .choices import Choice, choose_column, choose_steps, consolidation_ratio, phase_warning
@@ -64,10 +65,16 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     if last.outflow > NOTABLE_OUTFLOW:
         warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
     errors = errors_with(errors, count, finest) if count > finest else errors
+    coarse = [WORDS[name] for name in wishes.hold if raster.errors.get(name, 0.0) > wishes.tolerance]
+    if coarse:
+        warnings += (
+            f"the error of the raster exceeds the tolerance for {', '.join(coarse)}: particles do not help, a finer "
+            "DEM does",
+        )
     return Plan(
         particles=count, setup=with_count(setup, count), tolerance=wishes.tolerance, hold=wishes.hold,
         rules={
-            "particles": (str(count), rule), "column": column[1:], "steps": steps[1:], "phases": phases,
+            "particles": (grouped(count), rule), "column": column[1:], "steps": steps[1:], "phases": phases,
             "raster": ("", raster.words),
         },
         errors=errors, raster_errors=raster.errors, creep=last.creep.get("run_out", 0.0),
@@ -81,7 +88,9 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 def setup_digest(setup: Setup) -> str:
     """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
-    return with_count(dataclasses.replace(setup, numerics=choose_steps(setup.numerics, 1.0).value), 1).digest()
+    return with_count(
+        dataclasses.replace(setup, numerics=choose_steps(setup.numerics, tolerance=1.0).value), 1
+    ).digest()
 
 
 def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:
@@ -127,7 +136,7 @@ def _choose_count(errors, costs: dict[int, Cost], wishes: Wishes) -> tuple[int, 
     rule = f"with {finest} the largest error of what is to be held is {percent(errors[worst])}, of {WORDS[worst]}"
     rule += f", tolerance {100.0 * wishes.tolerance:g} %"
     if asked > finest:
-        wanted = f"{asked:.3g}" if math.isfinite(asked) else "more than any"
+        wanted = grouped(float(f"{asked:.3g}")) if math.isfinite(asked) else "more than any number"
         rule += f": {wanted} asked for" + (", no more than max_particles allowed" if asked > count else "")
     if wishes.max_cost is not None:
         dearest = count

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.words import duration_text, grouped
 from ..scene.setup import Setup
-from .choices import choose_steps, column_words
+from .choices import column_words, steps_words
 from .constants import PILOTS
 from .errors import errors_after
 from .plan import Plan, error_rows
@@ -31,7 +31,7 @@ class Report:
     steps : int
         Steps.
     seconds : float
-        CPU time of the steps [s].
+        CPU time of the steps, since the flow was built or loaded [s]; NaN: not told.
     plan : Plan or None
         Plan by which it was made.
     errors : dict of str to float
@@ -81,8 +81,8 @@ class Report:
             ("state", self.state),
             ("particles", f"{grouped(self.particles)} ({words})"),
             ("column", column_words(self.setup.column)),
-            ("steps", choose_steps(numerics, 0.0).words),
-            ("cost", f"{duration_text(self.seconds)} of CPU time in {grouped(self.steps)} steps"),
+            ("steps", steps_words(numerics)),
+            ("cost", self._cost_words()),
         ]
         if plan is None:
             return Table(title="Report of a run", rows=[*rows, ("errors", self.source)])
@@ -92,6 +92,10 @@ class Report:
             raster=plan.rules["raster"][1], creep=plan.creep, notes=plan.warnings,
             not_held=plan.not_held_with(self.errors),
         )  # fmt: skip
+
+    def _cost_words(self) -> str:
+        steps = f"{grouped(self.steps)} steps"
+        return f"{duration_text(self.seconds)} of CPU time in {steps}" if math.isfinite(self.seconds) else steps
 
 
 def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[str, float] | None) -> Report:

@@ -13,7 +13,8 @@ class CallListener:
     """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
 
     Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
-    methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit;
+    methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit,
+    and again when it adopts a plan;
     ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
     call with ``began`` equal to ``time``;
     ``keep(flow, broken_off)`` between two steps, when all have seen the last one.

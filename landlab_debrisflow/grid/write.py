@@ -97,7 +97,8 @@ class FieldWriter:
     def record(self) -> None:
         """Write the maps of now and of peaks."""
         sim = self.simulation
-        self.state.peak_maps.record(sim.particles, sim.phases.density(sim.particles), sim.time)
+        p = sim.particles
+        self.state.peak_maps.record(p, sim.bed.footprints(p), sim.phases.density(p), sim.time)
 
     @contextmanager
     def present(self):
@@ -123,7 +124,7 @@ class FieldWriter:
         """Return the nodes at which maps of the present may differ from the fields."""
         p, bed = self.simulation.particles, self.simulation.bed
         columns, count = bed.raster.columns, bed.raster.core.size
-        below, _ = bed.depth_of(p.x, p.y, p.half_width, p.volume)
+        below, _ = bed.depth_of(bed.footprints(p), p.volume)
         nodes = np.concatenate([below, self.state.peak_maps.under])
         if nodes.size == 0:
             return nodes

@@ -12,8 +12,8 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     ----------
     p : Particles
         All particles.
-    bed : BedPressure or None
-        None: the pore pressure of the bed does not follow its load.
+    bed : Bed
+        Ground below the flow, with a pore pressure that follows its load or without.
     material : Material
         Densities, porosity, gravity.
     time : float
@@ -21,13 +21,14 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     dt : float, optional
         Length of the step just taken [s]; without one the flow has lain there before.
     """
-    if bed is None or (p.count == 0 and dt is None):
+    if bed.pore_pressure is None or (p.count == 0 and dt is None):
         return
     # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
     weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
     weight[p.phase == WATER] = 0.0
     force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)
+    footprints = bed.footprints(p)
     if dt is None:
-        bed.stand(p.x, p.y, p.half_width, force, time)
+        bed.pore_pressure.stand(footprints, force, time)
     else:
-        bed.carry(p.x, p.y, p.half_width, force, time, dt)
+        bed.pore_pressure.carry(footprints, force, time, dt)

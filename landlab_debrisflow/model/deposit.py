@@ -18,9 +18,10 @@ def resting_depth(p, origins, bed):
     still = ~np.any(p.velocity, axis=0) & (p.volume > 0.0)
     if not still.any():
         return np.empty(0, np.int64), np.empty(0)
-    x, y, half_width, volume, origin = p.x[still], p.y[still], p.half_width[still], p.volume[still], p.origin[still]
-    back = origins.unmoved(origin, x, y, 0.5 * half_width, bed.raster.core)
-    nodes, depth = bed.depth_of(x, y, half_width, (1.0 - back) * volume)
+    x, y, spacing, volume, origin = p.x[still], p.y[still], p.spacing[still], p.volume[still], p.origin[still]
+    back, lying = origins.unmoved(origin, x, y, spacing, bed.raster.core), np.zeros(p.count)
+    lying[still] = (1.0 - back) * volume
+    nodes, depth = bed.depth_of(bed.footprints(p), lying)
     returning = back > 0.0
     old, given = origins.returned(origin[returning], (back * volume)[returning])
     every, place = np.unique(np.concatenate([nodes, old]), return_inverse=True)

@@ -131,8 +131,10 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     phases.limit_entrainment(exchange, rate)
     np.divide(rate * p.volume[awake], p.depth[awake] * p.share[awake], out=demanded)
     demanded *= dt
-    entrained, p.entrained_ratio[awake] = bed.erode(p.x[awake], p.y[awake], p.half_width[awake], demanded)
-    p.entrained_volume[awake] = entrained
+    p.entrained_volume[awake] = p.entrained_ratio[awake] = 0.0
+    if bed.soil is not None and demanded.any():
+        footprints = bed.footprints(p)
+        p.entrained_volume[awake], p.entrained_ratio[awake] = bed.erode(footprints, demanded)
     soil = Soil(
         solid_fraction=phases.solid_fraction, slip_ratio=material.basal_slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,

@@ -54,9 +54,9 @@ class Particles:
         return self.z, self.slope_x, self.slope_y, self.curvature_xx, self.curvature_xy, self.curvature_yy
 
     @property
-    def half_width(self):
-        """Half-width of their hat functions on the nodes: twice their spacing (V/h)^(1/2), shape (n,) [m]."""
-        return 2.0 * np.sqrt(self.volume / (self.depth * self.share))
+    def spacing(self):
+        """Distance of particles of their phase (V/h)^(1/2), h being the depth that is of it; shape (n,) [m]."""
+        return np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:
         """Add particles that are awake and return their places; variables not given get their initial value."""

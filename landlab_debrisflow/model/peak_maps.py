@@ -24,7 +24,7 @@ import numpy as np
 from ..core.jit import kernel
 from ..physics.contracts import WATER
 from ..spatial.raster import CLOSED, Raster
-from ..spatial.transfer import scatter
+from ..spatial.transfer import Footprints, scatter
 from .particles import Particles
 
 UPDATE_FRACTION = 0.5
@@ -141,7 +141,7 @@ class PeakMaps:
         self._then = time
         return self._passed > UPDATE_FRACTION * self._raster.spacing
 
-    def record(self, particles: Particles, density, time: float) -> None:
+    def record(self, particles: Particles, footprints: Footprints, density, time: float) -> None:
         """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         for field in (*self._current, *self._phases):
@@ -159,7 +159,7 @@ class PeakMaps:
         )  # fmt: skip
         values = np.empty((p.count, self._sums.shape[1]))
         _weight_by_volume(matter, base, self._walled, values)
-        self._under = scatter(self._raster, p.x, p.y, p.half_width, values, self._sums, self._scratch).copy()
+        self._under = scatter(footprints, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._raster.area
             _record_walls(self._under, self._sums, least, self._raster, self._peaks)

@@ -1,20 +1,39 @@
 """Rest is local: a body, that is all particles which feel each other, comes to rest by its own motion.
 
 Where friction cannot hold what is left of a flow, it creeps for ever. So a body is arrested once its kinetic energy is
-a negligible part of the most it had, and friction holds most of it. Where most could not stay, it is only turning, as
-on a counter-slope. What is arrested stays until a body that moves touches it, or the ground is changed by others.
+a negligible part of the most it had, and friction holds most of it. Where most could not stay, it turns, as on a
+counter-slope, or it creeps, as a heap at its limit that drains through a throat. What turns gains speed, and what
+creeps does not: it is arrested, too, when it has been slow for longer than a force that is not balanced would leave it
+so. What is arrested stays until a body that moves touches it, or the ground is changed by others.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import kernel
 from ..core.structs import struct
-from ..spatial.cells import sort_into_cells
+from .connection import find_bodies
 
 MOST_UNHELD = 0.5
 """Part of the volume of a body that may lie where friction does not hold it when it is arrested."""
+
+LEAST_HELD = 1e-9
+"""Part of the volume of a creeping body that friction must hold: what it holds nowhere is water that moves slowly."""
+
+CREEP = 10.0
+"""Most kinetic energy of a body that creeps over that of one which friction stops [-]."""
+
+MOST_CREEP = 1e-3
+"""Most kinetic energy of a body that creeps over its peak, if more than that of rest [-]: 3 % of the speed."""
+
+IMBALANCE = 1e-3
+"""Acceleration over gravity from which on a force on a body is not balanced [-]: that of a surface which falls by 1 m
+in a kilometre more than friction holds."""
+
+REST_OF_PARTICLE = 1e-4
+"""Most of the kinetic energy over that of its body's peak, per volume, that is taken from a particle which is being
+slowed where friction holds it. A body may be judged by more: this happens all the time, and slows what flows."""
 
 STEPS_BETWEEN_SEPARATIONS = 32
 """Steps after which bodies are told apart anew: it takes many to part or to meet."""
@@ -44,13 +63,8 @@ class BodyEnergies(NamedTuple):
     peak: np.ndarray  # (bodies,) the most so far [m5 s-2], written
 
 
-class Spheres(NamedTuple):
-    """Neighbourhoods of n particles: position x, y, z and radius within which each feels its neighbours [m]."""
-
-    x: np.ndarray  # (n,) position [m]
-    y: np.ndarray  # (n,) [m]
-    z: np.ndarray  # (n,) [m]
-    support: np.ndarray  # (n,) radius within which each feels others [m]
+PER_BODY = "peak", "volume", "slow_since"
+"""Arrays of `Bodies`, shape (bodies,)."""
 
 
 class Bodies:
@@ -65,19 +79,21 @@ class Bodies:
         Whether nothing moves.
     peak, volume : ndarray, shape (bodies,)
         Most kinetic energy so far [m5 s-2] and volume [m3] of each body.
+    slow_since : ndarray, shape (bodies,)
+        Time since when a body has had no more energy than one that creeps [s]; infinite if it has more.
     steps, known : int
         Steps since the last separation, and how many particles there had ever been then.
     """
 
     def __init__(self):
         self.at_rest = False
-        self.peak = self.volume = np.zeros(0)
+        self.peak = self.volume = self.slow_since = np.zeros(0)
         self.steps = self.known = 0
 
     def copy(self) -> "Bodies":
         """Return an independent copy."""
         other = Bodies()
-        vars(other).update(vars(self) | {"peak": self.peak.copy(), "volume": self.volume.copy()})
+        vars(other).update(vars(self) | {name: getattr(self, name).copy() for name in PER_BODY})
         return other
 
     def separate(self, p) -> None:
@@ -85,11 +101,15 @@ class Bodies:
         self.steps, self.known = 0, p.ever
         if p.count == 0:
             return
-        peak = self._peak_of(p)
+        peak, slow_since = self._peak_of(p), np.full(p.count, np.inf)
+        known = p.body != UNKNOWN
+        slow_since[known] = self.slow_since[p.body[known]]
         p.body[:] = find_bodies(p.x, p.y, p.z, 2.0 * p.smoothing_length)
         bodies = int(p.body.max()) + 1
         self.volume = np.bincount(p.body, p.volume, bodies)
         self.peak = np.bincount(p.body, peak, bodies)
+        self.slow_since = np.zeros(bodies)
+        np.maximum.at(self.slow_since, p.body, slow_since)
         touched = np.bincount(p.body, p.arrested == 0, bodies) > 0
         p.arrested[touched[p.body]] = 0
         p.rest_speed[:] = np.where(p.arrested > 0, np.inf, 0.0)
@@ -103,34 +123,48 @@ class Bodies:
         part[known] = self.peak[body] * (volume / np.bincount(body, volume, self.peak.size)[body])
         return part
 
-    def judge(self, p, rest_energy: float):
-        """Find out which bodies have become slow in the last step.
+    def judge(self, p, rest_energy: float, gravity: float, time: float):
+        """Find the bodies to be arrested after the last step, and how much of each friction must hold.
 
         Parameters
         ----------
         p : Particles
         rest_energy : float
             Kinetic energy of a slow body over the most it had [-].
+        gravity : float
+            Acceleration by gravity [m s-2].
+        time : float
+            Time now [s].
 
         Returns
         -------
-        ndarray of bool, shape (bodies,), or None
-            Bodies to be arrested where friction holds them; None: no particle that is free to move is in one.
+        ndarray, shape (bodies,), or None
+            Most of the volume of a body that friction need not hold if it is to be arrested [m3]; negative if it moves.
+            None: no particle that is free to move is in a body that is slow or creeps.
         """
         self.steps += 1
         if p.count == 0:
             self.at_rest = False
             return None
+        creep_energy = max(rest_energy, min(CREEP * rest_energy, MOST_CREEP))
+        energies = rest_energy, creep_energy
         touched = True
         if self.steps < STEPS_BETWEEN_SEPARATIONS and p.ever == self.known:
-            energy, slow, free, touched = self._measure(p, rest_energy)
+            energy, slow, free, touched = self._measure(p, *energies)
         if touched:
             self.separate(p)
-            energy, slow, free, _ = self._measure(p, rest_energy)
+            energy, slow, free, _ = self._measure(p, *energies)
         self.at_rest = free == 0
-        return energy <= rest_energy * self.peak if slow else None
+        self.slow_since = np.where(energy <= creep_energy * self.peak, np.minimum(self.slow_since, time), np.inf)
+        if not slow:
+            return None
+        part = np.where(energy <= rest_energy * self.peak, MOST_UNHELD, -1.0)
+        speed = np.sqrt(creep_energy * self.peak / self.volume)
+        part[time - self.slow_since > speed / (IMBALANCE * gravity)] = 1.0 - LEAST_HELD
+        stoppable = (part >= 0.0) & (np.bincount(p.body, p.arrested == 0, part.size) > 0.0)
+        return part * self.volume if stoppable.any() else None
 
-    def _measure(self, p, rest_energy: float):
+    def _measure(self, p, rest_energy: float, creep_energy: float):
         """Return the kinetic energy of each body, and the result of the kernel `_measure`; the peak includes now."""
         energy = np.zeros(self.peak.size)
         members = Members(
@@ -138,25 +172,25 @@ class Bodies:
             rest_speed=p.rest_speed,
         )  # fmt: skip
         bodies = BodyEnergies(volume=self.volume, energy=energy, peak=self.peak)
-        return energy, *_measure(p.awake, members, bodies, rest_energy)
+        return energy, *_measure(p.awake, members, bodies, min(rest_energy, REST_OF_PARTICLE), creep_energy)
 
-    def arrest(self, p, slow, held, prescribed) -> None:
-        """Stop slow bodies that friction mostly holds, except particles of prescribed motion.
+    def arrest(self, p, most_unheld, held, prescribed) -> None:
+        """Stop bodies of which friction holds enough, except where the motion of particles is prescribed.
 
         Parameters
         ----------
         p : Particles
-        slow : ndarray of bool, shape (bodies,)
-            Changed in place.
+        most_unheld : ndarray, shape (bodies,)
+            As `judge` returns it [m3]; changed in place.
         held : ndarray of bool, shape (awake,)
             Whether friction holds a particle.
         prescribed : ndarray of int
             Particles whose motion is prescribed.
         """
-        slow[p.body[prescribed]] = False
+        most_unheld[p.body[prescribed]] = -1.0
         awake = slice(p.awake)
-        unheld = np.bincount(p.body[awake], p.volume[awake] * ~held, slow.size)
-        resting = (slow & (unheld <= MOST_UNHELD * self.volume))[p.body]
+        unheld = np.bincount(p.body[awake], p.volume[awake] * ~held, most_unheld.size)
+        resting = (unheld <= most_unheld)[p.body]
         p.velocity[:, resting], p.entrainment_rate[resting], p.arrested[resting] = 0.0, 0.0, 1
         p.rest_speed[resting] = np.inf
         self.at_rest = bool(p.arrested.all())
@@ -169,7 +203,7 @@ class Bodies:
 
 
 @kernel
-def _measure(awake, members, bodies, rest_energy):
+def _measure(awake, members, bodies, rest_energy, creep_energy):
     """Measure the kinetic energy of every body, and the speed at which its particles come to rest.
 
     Parameters
@@ -178,13 +212,13 @@ def _measure(awake, members, bodies, rest_energy):
         Number of particles that are awake.
     members : Members
     bodies : BodyEnergies
-    rest_energy : float
-        Kinetic energy of a slow body over the most it had [-].
+    rest_energy, creep_energy : float
+        Kinetic energy of a slow particle, and of a body that may creep, over the most of its body [-].
 
     Returns
     -------
     slow, free : int
-        Number of particles that are free to move, in slow bodies and in all.
+        Number of particles that are free to move, in bodies that may creep and in all.
     touched : bool
         Whether anything has changed in reach of a particle that is arrested.
     """
@@ -198,103 +232,10 @@ def _measure(awake, members, bodies, rest_energy):
     for i in range(volume.size):
         if arrested[i] == 0:
             b = body[i]
-            least = rest_energy * peak[b]
-            rest_speed[i] = np.sqrt(least / body_volume[b])
+            rest_speed[i] = np.sqrt(rest_energy * peak[b] / body_volume[b])
             free += 1
-            if energy[b] <= least:
+            if energy[b] <= creep_energy * peak[b]:
                 slow += 1
         elif summed[i]:
             touched = True
     return slow, free, touched
-
-
-def find_bodies(x, y, z, support):
-    """Return the number of the body of every particle; two that feel each other are of one.
-
-    Parameters
-    ----------
-    x, y, z, support : ndarray, shape (n,)
-        Position, and the radius within which each feels others [m].
-
-    Returns
-    -------
-    ndarray of int, shape (n,)
-
-    Examples
-    --------
-    >>> find_bodies(np.array([0.0, 1.0, 9.0]), np.zeros(3), np.zeros(3), np.array([0.5, 2.0, 2.0]))
-    array([0, 0, 1])
-    """
-    cells = sort_into_cells(x, y, support)
-    parent = np.arange(x.size)
-    spheres = Spheres(x=x, y=y, z=z, support=support)
-    _join(spheres, cells.columns, cells.order, cells.start, cells.window, parent)
-    return np.unique(parent, return_inverse=True)[1]
-
-
-@inner
-def _root(parent, i):
-    """Return the particle that stands for the body of particle `i`; shorten the way to it."""
-    while parent[i] != i:
-        parent[i] = parent[parent[i]]
-        i = parent[i]
-    return i
-
-
-@inner
-def _join_cells(spheres, order, one, other, parent):
-    """Join particles of two cells that feel each other; return whether all of the first one are then of one body.
-
-    A cell is the first place and the one after the last in `order`, int, shape (n,); `parent`, int, shape (n,), leads
-    from each particle to the one that stands for its body; `spheres` are the `Spheres` of the n particles.
-    """
-    x, y, z, support = spheres
-    first, last = one
-    for k in range(first, last):
-        i = order[k]
-        root = _root(parent, i)
-        for s in range(other[0], other[1]):
-            j = order[s]
-            if parent[j] == root:
-                continue
-            reach = max(support[i], support[j])
-            if (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2 < reach * reach:
-                met = _root(parent, j)
-                parent[max(met, root)] = min(met, root)
-                root = min(met, root)
-    root, whole = _root(parent, order[first]), True
-    for k in range(first + 1, last):
-        whole &= _root(parent, order[k]) == root
-    return whole
-
-
-@kernel
-def _join(spheres, columns, order, start, window, parent):
-    """Join particles that feel each other: write a particle that stands for its body for each of them.
-
-    Parameters
-    ----------
-    spheres : Spheres
-    columns, order, start, window
-        As in `spatial.cells.Cells`.
-    parent : ndarray of int, shape (n,)
-        Each particle itself, on entry.
-    """
-    whole = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
-    for cell in range(start.size - 1):
-        row, column, w = cell // columns, cell % columns, window[cell]
-        here = start[cell], start[cell + 1]
-        if here[0] == here[1]:
-            continue
-        whole[cell] = _join_cells(spheres, order, here, here, parent)
-        for r in range(row, max(row - w, 0) - 1, -1):
-            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                other = r * columns + q
-                if other >= cell or start[other] == start[other + 1]:  # a pair is looked at once
-                    continue
-                first, second = order[here[0]], order[start[other]]
-                if whole[cell] and whole[other] and _root(parent, first) == _root(parent, second):
-                    continue
-                whole[cell] = _join_cells(spheres, order, here, (start[other], start[other + 1]), parent)
-    for i in range(parent.size):
-        parent[i] = _root(parent, i)

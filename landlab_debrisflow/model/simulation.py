@@ -97,7 +97,7 @@ class Simulation:
         self.state.outdated |= changed
         if changed:
             self.set_free()
-        load_bed(self.particles, bed.pore_pressure, self.setup.material, self.time)
+        load_bed(self.particles, bed, self.setup.material, self.time)
 
     def begin(self, bed: Bed, given, listener: RunListener) -> None:
         """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
@@ -129,7 +129,7 @@ class Simulation:
         state, p, material, bed = self.state, self.particles, self.setup.material, self.bed
         new = release_particles(p, state.origins, nodes, depth, bed, self.phases, self.setup.numerics, velocity)
         self._refresh(FIRST_SWEEPS)
-        load_bed(p, bed.pore_pressure, material, self.time)
+        load_bed(p, bed, material, self.time)
         p.excess_pore_pressure[new] = initial_profile(
             p.liquefaction_pressure[new], p.levels, material.initial_pressure_ratio, material.initial_pressure_profile,
             material.basal_layer_fraction,
@@ -224,11 +224,12 @@ class Simulation:
         if self.phases.sleeps and due and p.count:
             near = self.surroundings
             activity.fall_asleep(p, state.time, near.columns, near.friction, state.exchange, near.walls)
-        slow = state.bodies.judge(p, self.setup.numerics.rest_energy)
-        if slow is not None:
+        rest_energy, gravity = self.setup.numerics.rest_energy, self.setup.material.gravity
+        most_unheld = state.bodies.judge(p, rest_energy, gravity, state.time)
+        if most_unheld is not None:
             awake = slice(p.awake)
             held = self.held_at_rest(awake, p.basal_excess_pore_pressure[awake])
-            state.bodies.arrest(p, slow, held, state.inflow.prescribed(p))
+            state.bodies.arrest(p, most_unheld, held, state.inflow.prescribed(p))
 
     def catch_up(self) -> None:
         """Bring the columns of particles asleep to the present."""

@@ -5,6 +5,7 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..spatial.partners import Partners
+from .rest import PER_BODY
 from .time_step import StepLimits
 
 BESIDE = {
@@ -38,7 +39,7 @@ def to_dataset(state, prefix: str = "") -> xr.Dataset:
         data |= {f"limits_{name}": value for name, value in state.limits._asdict().items()}
     data["stopped_where"] = ("map_axis", np.array(state.stopped.where))
     data["inflow_directions"] = (("source", "map_axis"), state.inflow.directions.copy())
-    data |= {f"bodies_{name}": ("body_number", getattr(state.bodies, name).copy()) for name in ("peak", "volume")}
+    data |= {f"bodies_{name}": ("body_number", getattr(state.bodies, name).copy()) for name in PER_BODY}
     data |= {f"origins{name}": (dim, getattr(state.origins, name)) for name, dim in ORIGINS.items()}
     nodes, volumes = list(state.outflow._at), list(state.outflow._at.values())
     data["outflow_node"] = ("exit_node", np.array(nodes, np.int64))
@@ -96,7 +97,8 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
         new.limits = StepLimits(*(kinds[name](read[f"limits_{name}"]) for name in StepLimits._fields))
     new.stopped.where = tuple(map(float, read["stopped_where"]))
     new.inflow.directions = np.array(read["inflow_directions"])
-    new.bodies.peak, new.bodies.volume = np.array(read["bodies_peak"]), np.array(read["bodies_volume"])
+    for name in PER_BODY:
+        setattr(new.bodies, name, np.array(read[f"bodies_{name}"]))
     for name in ORIGINS:
         setattr(new.origins, name, np.array(read[f"origins{name}"]))
     nodes = new.origins._node

@@ -48,7 +48,7 @@ def advance(simulation, dt: float) -> None:
     interact(p, exchange, setup.flow, setup.numerics, columns, inflow, walls, state.time)
     activity.wake(p, activity.disturbed(p))
     clock.lap(SUMMATION)
-    load_bed(p, bed.pore_pressure, material, end, dt)
+    load_bed(p, bed, material, end, dt)
     consolidate(p, exchange, columns, inflow.prescribed(p), dt)
     clock.lap(COLUMNS)
     friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)

@@ -36,7 +36,7 @@ PARTICLE_VARIABLES = (
     Variable("basal_excess_pore_pressure", "Pa", "excess pore pressure at the base"),
     Variable("entrainment_rate", "m s-1", "erosion rate granted by the bed, per map area"),
     Variable("basal_peclet_number", "-", "erosion rate times thickness over c_v, of the last erosion"),
-    Variable("column_clipped", "Pa m", "pressure taken off by the bounds times thickness"),
+    Variable("column_clipped", "Pa m", "pressure above liquefaction taken off, times thickness"),
     Variable("inflow_row", "-", "row of the inflow it still moves with, -1: flows by itself", "i8", -1, written=False),
     Variable("origin", "-", "number among the released (release/origins.py), -1: flowed in", "i8", -1, written=False),
     Variable("body", "-", "number of the body it is of (model/rest.py), -1: not known yet", "i8", -1, written=False),

@@ -96,7 +96,7 @@ class ColumnState(NamedTuple):
     ----------
     profile : ndarray, shape (n, levels); excess pore pressure, or the law's own form of it [Pa]
     memory : ndarray, shape (n, memory_size of the law); the law's own numbers
-    clipped : ndarray, shape (n,); pressure taken off by the bounds, times thickness, so far [Pa m]
+    clipped : ndarray, shape (n,); pressure above liquefaction taken off, times thickness, so far [Pa m]
     """
 
     profile: Array
@@ -118,7 +118,7 @@ class ColumnForcing(NamedTuple):
     porosity_source : ndarray, shape (n,) or (1,); pressure made by a change of porosity, at all levels [Pa s-1]
     coefficient_of_consolidation : ndarray, shape (n,) or (1,); c_v [m2 s-1]
     water_to_buoyant : float; density of water over buoyant density: lower bound of the pressure ratio [-]
-    bounded : bool; whether pressure is kept between suction and liquefaction
+    bounded : bool; whether pressure above liquefaction is taken off, and seen as no less than suction
     """
 
     volume: Array

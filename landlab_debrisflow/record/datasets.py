@@ -75,7 +75,7 @@ def columns_dataset(
         "initial_peclet_number": (p.basal_peclet_number / grown, "-", "the same with the thickness before any erosion"),
         "front_height": (1.0 - 1.0 / grown, "-", "height over thickness of the front between released and eroded soil"),
         "front_age": (time - p.first_erosion_time, "s", "time since the first erosion, NaN if there was none"),
-        "clipped_pressure": (p.column_clipped, "Pa m", "pressure taken off by the bounds times thickness"),
+        "clipped_pressure": (p.column_clipped, "Pa m", "pressure above liquefaction taken off, times thickness"),
     }  # fmt: skip
     words = variable_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface")
     level = xr.Variable("level", np.linspace(0.0, 1.0, levels), words, NO_FILL)

@@ -8,7 +8,6 @@ from ..fidelity.plan import Plan
 from .advance import check_mass
 from .doubts import scene_doubts
 from .forecast import Forecast, forecast, sentences
-from .planning import plan_scene
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -53,5 +52,5 @@ def check(scene: Any, notify: Callable[[str], None] | None = None) -> Forecast |
         return forecast(scene)
     check_mass(scene)
     _ = scene.places
-    plan = plan_scene(scene, notify)
+    plan = scene.plan(notify=notify)
     return PlannedRun(plan=plan, notes=tuple(scene.notes), doubts=tuple(scene_doubts(scene.with_plan(plan))))

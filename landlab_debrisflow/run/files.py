@@ -11,7 +11,7 @@ LOCK = ".lock"
 UNFINISHED = ".unfinished"
 """Directory in that of the results where these are written before they appear."""
 
-SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg", ".txt")
+SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg")
 """Endings of the files that runs write."""
 
 
@@ -26,4 +26,5 @@ def is_result(name: Any) -> bool:
     if not isinstance(name, str) or "**" in name or any(character in name for character in "?[\\\0"):
         return False
     folder, _, last = name.rpartition("/")
-    return folder in ("", SERIES) and last.endswith(SUFFIXES) and (folder == SERIES or "*" not in last)
+    in_series = folder == SERIES
+    return name == REPORT or ((in_series or (not folder and "*" not in last)) and last.endswith(SUFFIXES))

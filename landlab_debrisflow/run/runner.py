@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import logging
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -19,7 +20,6 @@ from .directory import OutputDirectory
 from .files import RECORD, REPORT, SCENE
 from .maps import write_results
 from .observers import Observers
-from .planning import plan_scene
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .results import Results
 
@@ -115,7 +115,7 @@ def _planned(scene: Any, directory: OutputDirectory, monitor: Monitor | None) ->
     monitor = monitor or Monitor()
     try:
         with compilations(lambda: monitor.say(COMPILING)):
-            plan = plan_scene(scene, monitor.say)
+            plan = scene.plan(notify=monitor.say)
     except BaseException as failure:
         _note_failure(directory, failure, 0.0)
         raise
@@ -192,4 +192,6 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
 def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
     write_results(folder, flow.maps, scene)
     observers.write(folder)
-    (folder / REPORT).write_text(f"{flow.report()}\n", encoding="utf-8")
+    if scene.adopted_plan is not None:
+        report = dataclasses.replace(flow.report(), seconds=math.nan)  # of another run it would be another time
+        (folder / REPORT).write_text(f"{report}\n", encoding="utf-8")

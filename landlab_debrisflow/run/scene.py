@@ -64,7 +64,7 @@ class Scene:
     ) -> None:
         self.folder, self.name, self._file = Path(folder), name, file
         self._content = read_content(mapping, file)
-        self._plan: Plan | None = None
+        self.adopted_plan: Plan | None = None
 
     @classmethod
     def from_file(cls, path: str | Path) -> "Scene":
@@ -106,7 +106,7 @@ class Scene:
         return f"<Scene {self.name!r} with {len(self._content.release)} releases in {str(self.folder)!r}>"
 
     def __getstate__(self):
-        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content", "_plan")}
+        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content", "adopted_plan")}
 
     # ---- keys ----
 
@@ -195,8 +195,8 @@ class Scene:
     @cached_property
     def setup(self) -> Setup:
         """Laws, material, numerics and inflow, also the inflow at points."""
-        if self._plan is not None:
-            return self._plan.setup
+        if self.adopted_plan is not None:
+            return self.adopted_plan.setup
         setup = with_fields(self._content.setup, self._varying)
         if not any(keys.kind == "points" for keys in self.release_keys):
             return setup
@@ -237,8 +237,8 @@ class Scene:
         DebrisFlow
         """
         flow = start(self.grid() if grid is None else grid, self.setup, self.releases, observers)
-        if self._plan is not None:
-            flow._keep_plan(self._plan)
+        if self.adopted_plan is not None:
+            flow._keep_plan(self.adopted_plan)
         return flow
 
     def plan(self, **wishes: Any) -> Plan:
@@ -248,6 +248,7 @@ class Scene:
         ----------
         **wishes
             As of `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
+            ``notify`` is a function that is told what begins.
         """
         from .planning import plan_scene
 
@@ -256,7 +257,7 @@ class Scene:
     def with_plan(self, plan: Plan) -> "Scene":
         """Return the scene with numerics and column of one of its plans; keys and files stay."""
         planned = object.__new__(type(self))
-        vars(planned).update(vars(self) | {"setup": plan.setup, "_plan": plan})
+        vars(planned).update(vars(self) | {"setup": plan.setup, "adopted_plan": plan})
         return planned
 
     def run(self, *, overwrite: bool = False) -> Results:

@@ -14,7 +14,7 @@ from ..core.arrays import value_at
 from ..core.jit import kernel
 from ..core.structs import struct
 from ..spatial.raster import CORE, FIXED_VALUE, Raster
-from ..spatial.transfer import MOST_NODES, hat_weights, scatter
+from ..spatial.transfer import Cover, Footprints, scatter
 from .surface import Surface
 
 
@@ -100,6 +100,7 @@ class Bed:
         self._earlier = earlier
         self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
         self.taken = np.zeros(elevation.size)  # depth eroded in this call [m]
+        self._cover = Cover(raster)
         self._demand = np.zeros((elevation.size, 1))
         self._granted = np.empty(elevation.size)
         self._touched = np.empty(elevation.size, np.int64)
@@ -155,13 +156,17 @@ class Bed:
         raster, surface = Raster.from_status(status, spacing), Surface(elevation, spacing)
         return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
-    def erode(self, x, y, half_width, demanded):
+    def footprints(self, p) -> Footprints:
+        """Return the nodes on which the particles `p` of a flow lie, all of them: where no others are is its edge."""
+        return self._cover.footprints(p.x, p.y, p.volume, p.depth, p.share)
+
+    def erode(self, footprints: Footprints, demanded):
         """Take the demanded soil for particles; particles at one node divide the soil left there.
 
         Parameters
         ----------
-        x, y, half_width : ndarray, shape (n,)
-            Position and half-width of each particle [m].
+        footprints : Footprints
+            Of these particles, and of others that follow them.
         demanded : ndarray, shape (n,)
             Volume asked for [m3].
 
@@ -173,13 +178,13 @@ class Bed:
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
         if self.soil is None:
-            return np.zeros(x.size), np.zeros(x.size)
+            return np.zeros(demanded.size), np.zeros(demanded.size)
         accounts = NodeAccounts(
             soil=self.soil, elevation=self.elevation, eroded_depth=self.eroded_depth, taken=self.taken,
             before=self._before, pressure_ratio=self.pressure_ratio,
         )  # fmt: skip
         demand = Demand(volume=self._demand[:, 0], granted=self._granted, touched=self._touched)
-        count, entrained, ratio = _erode(self.raster, x, y, half_width, demanded, accounts, demand)
+        count, entrained, ratio = _erode(footprints, demanded, self.raster.area, accounts, demand)
         at = self._touched[:count]
         self.surface.move_to(at, self.elevation[at])
         return entrained, ratio
@@ -188,13 +193,13 @@ class Bed:
         """Return the depth eroded at some nodes since the event began [m]."""
         return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
-    def depth_of(self, x, y, half_width, volume):
+    def depth_of(self, footprints: Footprints, volume):
         """Return the nodes under some particles and the depth their volume [m3] would have there [m].
 
-        `x`, `y` and `half_width` of the hat functions [m], and `volume`, have shape (n,). Both results have one entry
-        per node.
+        The footprints are those of all particles; `volume`, shape (n,), is 0 for those that do not count. Both results
+        have one entry per node.
         """
-        at = scatter(self.raster, x, y, half_width, volume[:, None], self._demand, self._touched).copy()
+        at = scatter(footprints, volume[:, None], self._demand, self._touched).copy()
         depth = self._demand[at, 0] / self.raster.area
         self._demand[at, 0] = 0.0
         return at, depth
@@ -208,17 +213,17 @@ class Bed:
 
 
 @kernel
-def _erode(raster, x, y, half_width, demanded, accounts, demand):
+def _erode(footprints, demanded, area, accounts, demand):
     """Add up the demand for soil at every node, grant it as far as there is soil, and lower the node.
 
     Parameters
     ----------
-    raster : Raster
-        Nodes, their statuses and spacing [m].
-    x, y, half_width : ndarray, shape (n,)
-        Position and half-width of the hat functions [m].
+    footprints : Footprints
+        Of the n particles at least.
     demanded : ndarray, shape (n,)
         Volume asked for [m3].
+    area : float
+        Map area of a node [m2].
     accounts : NodeAccounts
         Soil at the nodes, changed in place.
     demand : Demand
@@ -233,12 +238,11 @@ def _erode(raster, x, y, half_width, demanded, accounts, demand):
     """
     soil, elevation, eroded_depth, taken, before, pressure_ratio = accounts
     volume, granted, touched = demand
-    index, weight = np.empty(MOST_NODES, np.int64), np.empty(MOST_NODES)
-    entrained, ratio = np.zeros(x.size), np.zeros(x.size)
-    found, area = 0, raster.dx * raster.dy
-    for i in range(x.size):
+    begin, end, index, weight = footprints
+    entrained, ratio, found = np.zeros(demanded.size), np.zeros(demanded.size), 0
+    for i in range(demanded.size):
         if demanded[i] > 0.0:
-            for k in range(hat_weights(raster, x[i], y[i], half_width[i], index, weight)):
+            for k in range(begin[i], end[i]):
                 node = index[k]
                 if volume[node] == 0.0:
                     touched[found] = node
@@ -254,10 +258,10 @@ def _erode(raster, x, y, half_width, demanded, accounts, demand):
         elevation[node] = before[1, node] - taken[node]
         eroded_depth[node] = before[2, node] + taken[node]
         volume[node] = 0.0
-    for i in range(x.size):
+    for i in range(demanded.size):
         if demanded[i] > 0.0:
             fraction, pressure = 0.0, 0.0
-            for k in range(hat_weights(raster, x[i], y[i], half_width[i], index, weight)):
+            for k in range(begin[i], end[i]):
                 given = weight[k] * granted[index[k]]
                 fraction += given
                 pressure += given * value_at(pressure_ratio, index[k])

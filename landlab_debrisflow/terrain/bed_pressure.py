@@ -16,7 +16,7 @@ import numpy as np
 from ..core.jit import kernel
 from ..core.structs import struct
 from ..spatial.raster import Raster
-from ..spatial.transfer import scatter
+from ..spatial.transfer import Footprints, scatter
 
 
 @struct
@@ -105,29 +105,28 @@ class BedPressure:
         self._start, self._under = float(variables["start"]), variables["under"]
         self.ratio[:], self._load[:], self._age[:] = (variables[name] for name in ("ratio", "load", "age"))
 
-    def carry(self, x, y, half_width, force, time: float, dt: float) -> None:
+    def carry(self, footprints: Footprints, force, time: float, dt: float) -> None:
         """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
 
         Parameters
         ----------
-        x, y, half_width : ndarray, shape (n,)
-            Position and half-width of each particle [m].
+        footprints : Footprints
+            Nodes on which each of the n particles lies.
         force : ndarray, shape (n, 2)
             What it presses on the bed with, slope-normal stress times map area: all, and less what pore water
             bears [N].
         """
-        self._bear(x, y, half_width, force, time, dt, self._loading)
+        self._bear(footprints, force, time, dt, self._loading)
 
-    def stand(self, x, y, half_width, force, time: float) -> None:
+    def stand(self, footprints: Footprints, force, time: float) -> None:
         """Note the load on the bed at the start, which raises no pressure.
 
-        `x`, `y`, `half_width` of the hat functions [m] have shape (n,); `force`, shape (n, 2) [N], is as in `carry`;
-        `time` is in s.
+        `footprints` and `force`, shape (n, 2) [N], are as in `carry`; `time` is in s.
         """
-        self._bear(x, y, half_width, force, time, 0.0, 0.0)
+        self._bear(footprints, force, time, 0.0, 0.0)
 
-    def _bear(self, x, y, half_width, force, time, dt, loading):
-        at = scatter(self._raster, x, y, half_width, force, self._sums, self._scratch).copy()
+    def _bear(self, footprints, force, time, dt, loading):
+        at = scatter(footprints, force, self._sums, self._scratch).copy()
         response = BedResponse(loading=loading, drainage_time=self._drainage_time, area=self._raster.area)
         nodes = NodePressure(pressure=self._pressure, ratio=self.ratio, load=self._load, age=self._age)
         _respond(self._under, at, self._sums, response, nodes, time - self._start, dt)

@@ -28,7 +28,7 @@ def slope(loading=B, drainage_time=None, soil=1.0, foot=None, shape=(15, 40), **
 def load_of(flow):
     """Return rho g h cos^2(theta) from what lies on every node of the plane [Pa]."""
     p, bed = flow._simulation.particles, flow._simulation.bed
-    at, depth = bed.depth_of(p.x, p.y, p.half_width, p.volume)
+    at, depth = bed.depth_of(bed.footprints(p), p.volume)
     load = np.zeros(flow.grid.number_of_nodes)
     load[at] = 1990.0 * 9.81 * depth / (1.0 + SLOPE**2)
     return load

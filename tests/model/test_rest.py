@@ -5,7 +5,7 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model.rest import find_bodies
-from validation.grids import dry_block, inclined, release
+from validation.grids import dry_block, inclined, place, release, release_slab
 
 FOOT = 300.0
 """Where both slopes of `two_slopes` end [m]."""
@@ -139,3 +139,76 @@ def test_the_peak_goes_with_the_particles_when_a_body_parts():
     parts = np.bincount(p.body, p.volume)
     # by volume: within the volume of the few that had parted before
     np.testing.assert_allclose(np.sort(bodies.peak / whole), np.sort(parts / parts.sum()), atol=0.02)
+
+
+REST_ENERGY, GRAVITY = 1e-4, 9.81
+
+
+@pytest.fixture
+def creeping():
+    """Bodies and particles of a slide of one body whose energy is between rest and the most of creep."""
+    grid = inclined((9, 9), 5.0, 0.5)
+    release_slab(grid, (20.0, 20.0), 10.0, 1.0)
+    flow = place(DebrisFlow(grid, **dry_block(0.3, particle_count=20)))
+    bodies, p = flow._simulation.state.bodies, flow._simulation.particles
+    p.velocity[:] = np.array([[0.3], [0.0], [0.0]])
+    bodies.set_free(p)
+    bodies.separate(p)
+    assert bodies.volume.size == 1
+    bodies.peak[:] = 0.09 * bodies.volume / (5.0 * REST_ENERGY)  # twice less than creep may have
+    return bodies, p
+
+
+def test_what_is_slow_for_long_creeps(creeping):
+    bodies, p = creeping
+    # 1e-3 g gives a body the speed that creep has at most in this time
+    speed = 0.3 * np.sqrt(2.0)
+    patience = speed / (1e-3 * GRAVITY)
+    assert bodies.judge(p, REST_ENERGY, GRAVITY, 7.0) is None
+    assert bodies.judge(p, REST_ENERGY, GRAVITY, 7.0 + 0.99 * patience) is None
+    most_unheld = bodies.judge(p, REST_ENERGY, GRAVITY, 7.0 + 1.01 * patience)
+    assert most_unheld == pytest.approx(bodies.volume, rel=1e-6) and np.all(most_unheld < bodies.volume)
+    # what was fast meanwhile begins anew
+    p.velocity *= 2.0
+    assert bodies.judge(p, REST_ENERGY, GRAVITY, 8.0 + 1.01 * patience) is None
+    p.velocity *= 0.5
+    assert bodies.judge(p, REST_ENERGY, GRAVITY, 9.0 + 1.01 * patience) is None
+
+
+def test_what_is_as_slow_as_at_rest_need_not_wait(creeping):
+    bodies, p = creeping
+    p.velocity *= 0.4  # 0.8 of the rest energy
+    assert bodies.judge(p, REST_ENERGY, GRAVITY, 7.0) == pytest.approx(0.5 * bodies.volume)
+
+
+def test_a_body_that_creeps_is_arrested_where_friction_holds_some_of_it(creeping):
+    bodies, p = creeping
+    bodies.judge(p, REST_ENERGY, GRAVITY, 0.0)
+    held, none = np.zeros(p.awake, bool), np.zeros(0, int)
+    bodies.arrest(p, bodies.judge(p, REST_ENERGY, GRAVITY, 1e3), held, none)
+    assert p.velocity.any() and not bodies.at_rest  # water that moves slowly is not held anywhere
+    held[0] = True
+    bodies.arrest(p, bodies.judge(p, REST_ENERGY, GRAVITY, 1e3), held, np.array([1]))
+    assert p.velocity.any() and not bodies.at_rest  # some of it flows in
+    bodies.arrest(p, bodies.judge(p, REST_ENERGY, GRAVITY, 1e3), held, none)
+    assert not p.velocity.any() and bodies.at_rest
+
+
+def test_a_body_that_parts_or_meets_another_keeps_its_patience(creeping):
+    bodies, p = creeping
+    bodies.judge(p, REST_ENERGY, GRAVITY, 5.0)
+    p.x[p.x > np.median(p.x)] += 1000.0
+    bodies.separate(p)
+    assert bodies.slow_since.size > 1 and np.all(bodies.slow_since == 5.0)
+    bodies.slow_since[0] = np.inf  # one of them has become fast
+    p.x[p.x > 1000.0] -= 1000.0
+    bodies.separate(p)
+    assert bodies.slow_since.tolist() == [np.inf]
+
+
+@pytest.mark.parametrize(("rest_energy", "slowest"), [(0.0, 0.0), (1e-5, 10.0**-2.5), (1e-4, 1e-2), (1e-2, 1e-2)])
+def test_a_particle_rests_below_one_hundredth_of_the_speed_at_most(creeping, rest_energy, slowest):
+    bodies, p = creeping
+    bodies.judge(p, rest_energy, GRAVITY, 0.0)
+    at_peak = float(np.sqrt(bodies.peak / bodies.volume)[0])
+    np.testing.assert_allclose(p.rest_speed, slowest * at_peak, rtol=1e-12)

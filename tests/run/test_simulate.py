@@ -10,7 +10,8 @@ from landlab import RasterModelGrid
 
 from landlab_debrisflow import Scene, Setup, simulate
 from landlab_debrisflow.core.errors import InputError, ParameterError
-from landlab_debrisflow.run.grids import build_grid, copy_grid
+from landlab_debrisflow.fidelity.grids import copy_grid
+from landlab_debrisflow.run.grids import build_grid
 from tests.run.test_scene import HEAD, MAPPING
 
 SETUP = {"friction": "voellmy", "numerics": {"particle_count": 60}}

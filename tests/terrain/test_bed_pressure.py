@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.spatial.raster import CLOSED, CORE, Raster
+from landlab_debrisflow.spatial.transfer import Cover
 from landlab_debrisflow.terrain.bed_pressure import BedPressure
 
 SHAPE, SPACING = (5, 6), 2.0
@@ -21,6 +22,7 @@ class OnOneNode:
         status = np.full(SHAPE, CLOSED)
         status[1:-1, 1:-1] = CORE
         raster = Raster.from_status(status, (SPACING, SPACING))
+        self.cover = Cover(raster)
         self.pressure = np.full(status.size, pressure)
         self.bed = BedPressure(raster, self.pressure, loading, drainage_time, start)
         self.start = self.time = start
@@ -28,13 +30,14 @@ class OnOneNode:
     def after(self, dt, load, node=HERE, stand=False):
         """Let `dt` seconds pass in which the load on a node becomes `load` times the one above; return its pressure."""
         row, column = divmod(node, SHAPE[1])
-        x, y = np.array([column * SPACING]), np.array([row * SPACING])
+        x, y, one = np.array([column * SPACING]), np.array([row * SPACING]), np.ones(1)
+        footprints = self.cover.footprints(x, y, one, one, one)  # as wide as a node
         force = load * SPACING**2 * np.array([[LOAD, LIQUEFACTION]])
         self.time += dt
         if stand:
-            self.bed.stand(x, y, np.array([SPACING]), force, self.time)
+            self.bed.stand(footprints, force, self.time)
         else:
-            self.bed.carry(x, y, np.array([SPACING]), force, self.time, dt)
+            self.bed.carry(footprints, force, self.time, dt)
         return self.pressure[node]
 
 

@@ -31,7 +31,7 @@ def forcing_at_rest(
     water_to_buoyant : float, optional
         Density of water over buoyant density [-].
     bounded : bool, optional
-        Whether pressure is kept between suction and liquefaction.
+        Whether pressure above liquefaction is taken off, and seen as no less than suction.
 
     Returns
     -------

@@ -1,5 +1,7 @@
 """Schemes by name, and the methods of the laws that have a choice of them."""
 
+import numpy as np
+
 from ....core.errors import ParameterError
 from . import stepwise
 from .lax_wendroff import advance_lax_wendroff
@@ -33,9 +35,14 @@ def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
 
 
 def synchronise(law, columns, forcing) -> None:
-    """Turn columns into pressures at levels, as they are now; other schemes than the default keep them so.
+    """Turn columns into pressures at levels, as they are now, at least suction; for output, of a copy.
 
-    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one.
+    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one. Other
+    schemes than the default keep pressures at levels.
     """
     if law.scheme == "default":
         synchronise_columns(columns, forcing, law.choices)
+    if forcing.bounded:
+        suction = -forcing.water_to_buoyant * forcing.liquefaction_pressure
+        least = np.multiply.outer(suction, np.linspace(1.0, 0.0, law.levels))
+        np.maximum(columns.profile, least, out=columns.profile)

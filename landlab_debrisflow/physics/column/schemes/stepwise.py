@@ -109,7 +109,7 @@ def _load(profile, i, eta, load_gain, scale, source_gain, prescribed):
 
 @inner
 def end_step(columns, forcing, basal_pressure):
-    """Clip all columns to suction and liquefaction, count the pressure removed [Pa m], and write the base [Pa].
+    """Clip all columns to liquefaction, count the pressure removed [Pa m], and write the base, at least suction [Pa].
 
     `columns` is a `ColumnState`, changed in place; `forcing` holds load [Pa] and thickness [m]; `basal_pressure` has
     shape (n,).
@@ -121,9 +121,10 @@ def end_step(columns, forcing, basal_pressure):
         removed = 0.0
         for k in range(cells if bounded else 0):
             most, pressure = loads[i] * eta[k], profile[i, k]
-            if pressure > most or pressure < -lower * most:  # a NaN stays one
-                profile[i, k] = most if pressure > most else -lower * most
-                removed += abs(pressure - profile[i, k]) * (0.5 if k == 0 else 1.0)
-        if removed > 0.0:
-            clipped[i] += removed * thicknesses[i] / cells
+            if pressure > most:  # a NaN stays one
+                profile[i, k] = most
+                removed += (pressure - most) * (0.5 if k == 0 else 1.0)
+        clipped[i] += removed * thicknesses[i] / cells
         basal_pressure[i] = profile[i, 0]
+        if bounded and profile[i, 0] < -lower * loads[i]:
+            basal_pressure[i] = -lower * loads[i]

@@ -17,7 +17,7 @@ STRIDE = 1.5  # growth of a column in one update over the square root of the tol
 MODES_FRACTION = 0.25  # of the tolerance: error of a column in modes between two updates
 BED_FRACTION = 0.25  # of that growth: pressure of the bed or by a source since the update, over the load
 GRADING = 0.5  # growth in one update over that since the contact began: the layer over the base is young at first
-EXCESS = 0.1  # of the load by which levels above an impermeable base may be out of bounds until the next update
+EXCESS = 0.1  # of the load by which levels above an impermeable base may be more than liquefied until the next update
 
 CHANGED, IN_MODES, AT_LEVELS = range(3)
 """Lists of columns that `accumulate` writes: contact is another one; due in modes; due at levels."""
@@ -59,8 +59,8 @@ def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
     -------
     pressure, error : float
         At the base, and the bound of its error [Pa].
-    low_slope, high_slope : float
-        Bounds of the column over eta [Pa].
+    high_slope : float
+        Upper bound of the column over eta [Pa].
     lost : float
         Fraction of an even load since the update that has gone from the base [-].
     """
@@ -79,7 +79,7 @@ def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
     pressure += load_gain * max(1.0 - lost, 0.0) + source_gain
     error = column.remainder * scale * diffusion * diffusion * diffusion + lost * variation
     low, high, low_slope, high_slope = bounds_with_gains(column)
-    return min(max(pressure, low, low_slope), high, high_slope), error, low_slope, high_slope, lost
+    return min(max(pressure, low, low_slope), high, high_slope), error, high_slope, lost
 
 
 @kernel
@@ -98,7 +98,7 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column whose contact
         is another one than before is listed as that, and nothing else is done with it.
     excess_allowed : float
-        Pressure out of bounds over the load, of a column in modes [-].
+        Pressure above liquefaction over the load, of a column in modes [-].
 
     Returns
     -------
@@ -125,15 +125,14 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         diffusion = diffusion_of(coefficient * dt, thicknesses[i], volume, before)
         column.load = load
         if contact == IMPERMEABLE:
-            pressure, error, low_slope, high_slope, lost = accumulate_in_modes(
-                column, diffusion, load, old_load, source, loading
-            )
-            is_due = error > MODES_FRACTION * tolerance * load
+            pressure, error, high_slope, lost = accumulate_in_modes(column, diffusion, load, old_load, source, loading)
+            allowed = MODES_FRACTION * tolerance * max(load, -pressure)  # of a film the suction that it lacks, too
+            is_due = error > allowed
             if bounded:
-                # it may have left its bounds somewhere. The worth of that reaches the base like a load does; the base
-                # itself is clipped at once
-                excess = max(high_slope - load, -lower * load - low_slope, 0.0)
-                is_due |= error + lost * excess > MODES_FRACTION * tolerance * load or excess > excess_allowed * load
+                # it may be more than liquefied somewhere. The worth of that reaches the base like a load does; the base
+                # itself is clipped at once. Friction feels no more than suction, however much more the column lacks
+                excess = max(high_slope - load, 0.0)
+                is_due |= error + lost * excess > allowed or excess > excess_allowed * load
                 pressure = min(max(pressure, -lower * load), load)
             basal_pressure[i] = pressure
             if is_due:

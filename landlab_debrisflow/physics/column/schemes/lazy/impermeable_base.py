@@ -206,7 +206,7 @@ def _expand_base(profile, column, i, modes):
 
 @kernel
 def clip_modes(columns, selected, forcing, modes):
-    """Clip columns in modes, just updated, to suction and liquefaction at their levels; count the pressure removed.
+    """Clip columns in modes, just updated, to liquefaction at their levels; count the pressure removed.
 
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int; `forcing` holds load [Pa]
     and thickness [m].
@@ -214,7 +214,7 @@ def clip_modes(columns, selected, forcing, modes):
     Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
     """
     profile, state, clipped = columns
-    loads, thicknesses, lower = forcing.liquefaction_pressure, forcing.thickness, forcing.water_to_buoyant
+    loads, thicknesses = forcing.liquefaction_pressure, forcing.thickness
     cells = profile.shape[1] - 1
     levels = np.empty(cells)
     for i in selected:
@@ -222,16 +222,13 @@ def clip_modes(columns, selected, forcing, modes):
         _synthesise(profile, column, i, modes, levels)
         load, removed = loads[i], 0.0
         for k in range(cells):
-            most = load * modes.eta[k]
-            taken = levels[k] - min(max(levels[k], -lower * most), most)
-            removed += abs(taken) * (0.5 if k == 0 else 1.0)
-            if taken != 0.0:
+            taken = max(levels[k] - load * modes.eta[k], 0.0)
+            removed += taken * (0.5 if k == 0 else 1.0)
+            if taken > 0.0:
                 for j in range(cells):
                     profile[i, j] -= modes.project[NEUMANN, k, j] * taken
         clipped[i] += removed * thicknesses[i] / cells
-        column.lowest_pressure = max(column.lowest_pressure, -lower * load)
         column.highest_pressure = min(column.highest_pressure, load)
-        column.lowest_slope = max(column.lowest_slope, -lower * load)
         column.highest_slope = min(column.highest_slope, load)
         _expand_base(profile, column, i, modes)
 

@@ -161,14 +161,13 @@ def split_diffusion(column, stretch, condition):
 
 @kernel
 def commit(columns, selected, forcing, basal_pressure):
-    """Record the present as the last update of columns at levels, and clip them to suction and liquefaction.
+    """Record the present as the last update of columns at levels, and clip them to liquefaction.
 
     `columns` are the `LazyColumns`, `selected` indices of some, int; `basal_pressure` has shape (n,).
 
     Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
     profile, state, clipped = columns
-    lower = forcing.water_to_buoyant
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     cells = profile.shape[1] - 1
     for i in selected:
@@ -178,13 +177,13 @@ def commit(columns, selected, forcing, basal_pressure):
         if forcing.bounded:
             removed = 0.0
             for k in range(cells):
-                overburden, pressure = load * (cells - k) / cells, profile[i, k]
-                within = min(max(pressure, -lower * overburden), overburden)
-                removed += abs(pressure - within) * (0.5 if k == 0 else 1.0)
-                profile[i, k] = within
+                pressure, most = profile[i, k], load * (cells - k) / cells
+                profile[i, k] = min(pressure, most)
+                removed += (pressure - profile[i, k]) * (0.5 if k == 0 else 1.0)
             clipped[i] += removed * thicknesses[i] / cells
         if column.contact >= INFLOW:
-            basal_pressure[i] = profile[i, 0]
+            suction = -forcing.water_to_buoyant * load if forcing.bounded else profile[i, 0]
+            basal_pressure[i] = max(profile[i, 0], suction)
 
 
 @inner

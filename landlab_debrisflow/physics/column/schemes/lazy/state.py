@@ -76,7 +76,7 @@ class LazyColumns(NamedTuple):
     state : ndarray of `LAYOUT`, shape (n,)
         Memory of each column.
     clipped : ndarray, shape (n,)
-        Pressure taken off by the bounds times thickness, so far [Pa m].
+        Pressure above liquefaction taken off, times thickness, so far [Pa m].
     """
 
     profile: np.ndarray

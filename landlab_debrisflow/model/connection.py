@@ -1,0 +1,109 @@
+"""Bodies of a flow: particles connected through neighbours."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.jit import inner, kernel
+from ..spatial.cells import sort_into_cells
+
+
+class Spheres(NamedTuple):
+    """Neighbourhoods of n particles: position x, y, z and radius within which each feels its neighbours [m]."""
+
+    x: np.ndarray  # (n,) position [m]
+    y: np.ndarray  # (n,) [m]
+    z: np.ndarray  # (n,) [m]
+    support: np.ndarray  # (n,) radius within which each feels others [m]
+
+
+def find_bodies(x, y, z, support):
+    """Return the number of the body of every particle; two that feel each other are of one.
+
+    Parameters
+    ----------
+    x, y, z, support : ndarray, shape (n,)
+        Position, and the radius within which each feels others [m].
+
+    Returns
+    -------
+    ndarray of int, shape (n,)
+
+    Examples
+    --------
+    >>> find_bodies(np.array([0.0, 1.0, 9.0]), np.zeros(3), np.zeros(3), np.array([0.5, 2.0, 2.0]))
+    array([0, 0, 1])
+    """
+    cells = sort_into_cells(x, y, support)
+    parent = np.arange(x.size)
+    spheres = Spheres(x=x, y=y, z=z, support=support)
+    _join(spheres, cells.columns, cells.order, cells.start, cells.window, parent)
+    return np.unique(parent, return_inverse=True)[1]
+
+
+@inner
+def _root(parent, i):
+    """Return the particle that stands for the body of particle `i`; shorten the way to it."""
+    while parent[i] != i:
+        parent[i] = parent[parent[i]]
+        i = parent[i]
+    return i
+
+
+@inner
+def _join_cells(spheres, order, one, other, parent):
+    """Join particles of two cells that feel each other; return whether all of the first one are then of one body.
+
+    A cell is the first place and the one after the last in `order`, int, shape (n,); `parent`, int, shape (n,), leads
+    from each particle to the one that stands for its body; `spheres` are the `Spheres` of the n particles.
+    """
+    x, y, z, support = spheres
+    first, last = one
+    for k in range(first, last):
+        i = order[k]
+        root = _root(parent, i)
+        for s in range(other[0], other[1]):
+            j = order[s]
+            if parent[j] == root:
+                continue
+            reach = max(support[i], support[j])
+            if (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2 < reach * reach:
+                met = _root(parent, j)
+                parent[max(met, root)] = min(met, root)
+                root = min(met, root)
+    root, whole = _root(parent, order[first]), True
+    for k in range(first + 1, last):
+        whole &= _root(parent, order[k]) == root
+    return whole
+
+
+@kernel
+def _join(spheres, columns, order, start, window, parent):
+    """Join particles that feel each other: write a particle that stands for its body for each of them.
+
+    Parameters
+    ----------
+    spheres : Spheres
+    columns, order, start, window
+        As in `spatial.cells.Cells`.
+    parent : ndarray of int, shape (n,)
+        Each particle itself, on entry.
+    """
+    whole = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
+    for cell in range(start.size - 1):
+        row, column, w = cell // columns, cell % columns, window[cell]
+        here = start[cell], start[cell + 1]
+        if here[0] == here[1]:
+            continue
+        whole[cell] = _join_cells(spheres, order, here, here, parent)
+        for r in range(row, max(row - w, 0) - 1, -1):
+            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+                other = r * columns + q
+                if other >= cell or start[other] == start[other + 1]:  # a pair is looked at once
+                    continue
+                first, second = order[here[0]], order[start[other]]
+                if whole[cell] and whole[other] and _root(parent, first) == _root(parent, second):
+                    continue
+                whole[cell] = _join_cells(spheres, order, here, (start[other], start[other + 1]), parent)
+    for i in range(parent.size):
+        parent[i] = _root(parent, i)
