@@ -2,8 +2,15 @@
 
 Prints what an earlier stop would save and cut off, what moves the flow in the lower channel at 350 s, and when all
 is at rest without erosion and consolidation. The figures of docs/decisions.md, "What S-1000 taught".
+
+    python -m benchmarks.s1000_tail --particles 950,1000,1100,2000,4000,8000
+
+prints where and when the scene of the study of fidelity rests instead, by number of particles. With another version of
+the package, installed elsewhere: ``PYTHON -P benchmarks/s1000_tail.py --particles ...``.
 """
 
+import argparse
+import logging
 import os
 import sys
 import time
@@ -13,6 +20,8 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 
+if not __package__:  # run as a file: the package that is installed goes before that of the checkout
+    sys.path.append(str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
 import s1000
 
@@ -24,6 +33,21 @@ def flow_of(data, name, **keywords):
     defaults = {"friction": s1000.FRICTION[name], "erosion": s1000.EROSION, "material": s1000.MATERIAL}
     numerics = {"particle_count": 2000} | keywords.pop("numerics", {})
     return DebrisFlow(s1000.build_grid(data), **(defaults | keywords), numerics=numerics)
+
+
+def print_rest(data, counts):
+    """Print when and where the scene S-1000 of benchmarks/fidelity rests, for some numbers of particles."""
+    from benchmarks.fidelity import scenes
+    from benchmarks.fidelity.measure import measure
+
+    os.environ["DEBRISFLOW_DATA"] = str(data)
+    logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)  # of what left the grid, of nothing else
+    print("particles  at rest [s]  run-out 99 % [m]  centre [m]  eroded [m3]  area [m2]  steps  CPU [s]")
+    for count in counts:
+        found = measure(lambda: scenes.s1000()._replace(max_duration=3600.0), count)
+        print(f"{count:9d}  {found['duration']:11.0f}  {found['run_out']:16.1f}  {found['centre']:10.1f}  "
+              f"{found['eroded']:11.0f}  {found['area']:9.0f}  {found['steps']:5d}  {found['seconds']:7.1f}",
+              flush=True)  # fmt: skip
 
 
 def main(data):
@@ -66,4 +90,12 @@ def main(data):
 
 
 if __name__ == "__main__":
-    main(s1000.find_data(sys.argv[1] if len(sys.argv) > 1 else os.environ.get("DEBRISFLOW_DATA")))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("data_dir", nargs="?", default=os.environ.get("DEBRISFLOW_DATA"))
+    parser.add_argument("--particles", help="numbers with commas between them: print where and when these rest")
+    options = parser.parse_args()
+    place = s1000.find_data(options.data_dir)
+    if options.particles:
+        print_rest(place, [int(count) for count in options.particles.split(",")])
+    else:
+        main(place)

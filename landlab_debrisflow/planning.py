@@ -32,7 +32,7 @@ class Planning:
     grid: Any
 
     def plan(
-        self, tolerance: float = 0.05, hold: Collection[str] = ("run_out", "speed"), *, max_particles: int = 8000,
+        self, tolerance: float | None = None, hold: Collection[str] | None = None, *, max_particles: int = 8000,
         max_cost: float | None = None, max_duration: float = 3600.0, raster: bool | None = None,
     ) -> "Plan":  # fmt: skip
         """Find the number of particles, column and steps that an error asks for, by pilot runs on copies of the grid.
@@ -42,11 +42,12 @@ class Planning:
 
         Parameters
         ----------
-        tolerance : float
-            Error that the quantities to be held may have, of particles [-].
-        hold : collection of str
+        tolerance : float, optional
+            Error that the quantities to be held may have, of particles [-]; by default that of numerics, or 0.05.
+        hold : collection of str, optional
             Quantities to be held, out of ``run_out``, ``speed``, ``depth``, ``area``, ``eroded``, ``pressure`` and
-            ``deposit``. The last two cannot be promised; asking for them buys particles and levels all the same.
+            ``deposit``; by default those of numerics, or run_out and speed. Pressure and deposit cannot be promised;
+            asking for them buys particles and levels all the same.
         max_particles : int
             Most particles, at least 1000.
         max_cost : float, optional

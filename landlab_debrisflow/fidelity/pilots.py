@@ -4,6 +4,7 @@ import logging
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from threading import get_ident
 from time import process_time
 from typing import Any, NamedTuple
 
@@ -28,8 +29,10 @@ class MeasuredPilot(NamedTuple):
     quantities : dict of str to float
         As `fidelity.quantities.quantities` returns them.
     creep : dict of str to float
-        Their changes since the kinetic energy was last above a small part of its peak, over their value at the end [-];
+        Their changes since the kinetic energy fell below a small part of its peak, over their value at the end [-];
         empty if it came to rest from above.
+    creep_level : float
+        That part [-].
     cost : Cost
         Steps and CPU time [s]; NaN for the time if kernels were compiled.
     at_rest : bool
@@ -42,6 +45,7 @@ class MeasuredPilot(NamedTuple):
 
     quantities: dict[str, float]
     creep: dict[str, float]
+    creep_level: float
     cost: Cost
     at_rest: bool
     coefficient_of_consolidation: float
@@ -100,8 +104,9 @@ def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
             failure.__notes__ = [f"in a pilot run with {count} particles; grid and flow are as they were"]
             raise
     found, steps = quantities(run.flow, start), run.flow.diagnostics.steps
+    creep, level = _creep(decay, found, setup.numerics.rest_energy)
     return MeasuredPilot(
-        quantities=found, creep=_creep(decay, found, setup.numerics.rest_energy),
+        quantities=found, creep=creep, creep_level=level,
         cost=Cost(steps, math.nan if compiled else run.seconds), at_rest=run.flow.at_rest,
         coefficient_of_consolidation=_coefficient(run.flow), outflow=_outflow(run.flow.budget),
     )  # fmt: skip
@@ -146,24 +151,28 @@ def run_event(event: Event, setup: Setup, observers: Sequence[Any]) -> EventRun:
     return EventRun(flow, complete, process_time() - began, doubts)
 
 
-def _creep(decay: Decay, end: dict[str, float], rest_energy: float) -> dict[str, float]:
-    """Return relative changes of quantities since the last measured level above that of rest [-]."""
-    levels = [level for level in CREEP_LEVELS if level > rest_energy and level in decay.found]
-    if not levels:
-        return {}
-    before = decay.found[min(levels)]
-    return {
-        name: abs(value - before[name]) / abs(value)
-        for name, value in end.items() if value and math.isfinite(value) and math.isfinite(before[name])
-    }  # fmt: skip
+def _creep(decay: Decay, end: dict[str, float], rest_energy: float) -> tuple[dict[str, float], float]:
+    """Return relative changes of quantities [-] since the lowest level of energy above that of rest, and the level."""
+    level = min((level for level in CREEP_LEVELS if level > rest_energy), default=rest_energy)
+    before, changes = decay.found.get(level, {}), {}
+    for name, value in before.items():
+        if end[name] and math.isfinite(value) and math.isfinite(end[name]):
+            changes[name] = abs(end[name] - value) / abs(end[name])
+    return changes, level
 
 
 @contextmanager
 def collected_warnings() -> Iterator[list[str]]:
-    """Collect the warnings of the package in a block, instead of logging them; yield their list."""
+    """Collect the warnings of the package in a block, instead of logging them; yield their list.
+
+    Messages of other threads are logged as ever.
+    """
     collected: list[str] = []
+    thread = get_ident()
 
     def collect(record: logging.LogRecord) -> bool:
+        if record.thread != thread:
+            return True
         if record.levelno >= logging.WARNING and not record.getMessage().startswith(PilotOverError.__name__):
             collected.append(record.getMessage())
         return False

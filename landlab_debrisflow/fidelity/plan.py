@@ -12,7 +12,8 @@ from ..physics.registry import build_declared, build_law
 from ..scene.setup import Setup
 from .constants import ERROR_LAWS
 from .cost import Cost
-from .table import Table, percent
+from .errors import stated_errors
+from .table import LEAST_CREEP, Table, percent
 
 FORMAT = 1
 """Version of the mapping of a plan."""
@@ -38,8 +39,8 @@ class Plan:
         Stated error by quantity, of particles, which 95 % of scenes stay below [-]; NaN where nothing can be measured.
     raster_errors : dict of str to float
         The same, of the raster; empty if it was not examined [-].
-    creep : float
-        Relative change of run-out in the last of the motion, which no particle makes smaller [-].
+    creep, creep_level : float
+        Relative change of run-out after the kinetic energy fell below a part of its peak, and that part [-].
     still_moving : bool
         Whether the event lasts longer than `max_duration`.
     cost : Cost
@@ -68,6 +69,7 @@ class Plan:
     errors: dict[str, float]
     raster_errors: dict[str, float]
     creep: float
+    creep_level: float
     still_moving: bool
     cost: Cost
     pilot_seconds: float
@@ -113,6 +115,16 @@ class Plan:
                 found[name] = f"its stated error, {percent(errors[name])}, is more than {percent(self.tolerance)}"
         return found
 
+    @property
+    def creep_words(self) -> str:
+        """Change of run-out in the last creep, in words; empty if it is small."""
+        if not self.creep >= LEAST_CREEP:
+            return ""
+        return (
+            f"run-out changed by {percent(self.creep)} after the kinetic energy had fallen below "
+            f"{100.0 * self.creep_level:g} % of its peak; particles do not help"
+        )
+
     # ---- as plain values ----
 
     def to_mapping(self) -> dict[str, Any]:
@@ -151,19 +163,14 @@ class Plan:
         try:
             if mapping["format"] != FORMAT:
                 raise InputError(f"plan: format {mapping['format']!r} is not {FORMAT}, that of this version; plan anew")
-            numerics = build_declared(Numerics, dict(mapping["numerics"]), "numerics")
-            planned = dataclasses.replace(setup, numerics=numerics, column=_column(mapping, setup))
-            values = {field.name: mapping[field.name] for field in dataclasses.fields(cls) if field.name != "setup"}
-            values["runs"] = {int(count): _numbers(run) for count, run in values["runs"].items()}
-            values |= {name: _numbers(values[name]) for name in ("errors", "raster_errors")}
-            values |= {name: tuple(values[name]) for name in ("hold", "origin", "warnings")}
-            values["rules"] = {name: tuple(words) for name, words in values["rules"].items()}
-            values["cost"] = Cost(**_numbers(values["cost"]))
-            return cls(**values | {"setup": planned, "pilot_seconds": _number(values["pilot_seconds"])})
+            plan = cls(**_values(mapping, setup))
+            stated_errors(plan.runs)
+            str(plan)  # nothing is missing
         except InputError:
             raise
-        except (ParameterError, LookupError, TypeError, ValueError, AttributeError) as error:
+        except (ParameterError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
             raise InputError(f"plan: the mapping is not that of a plan ({error}); plan anew") from error
+        return plan
 
     # ---- as text ----
 
@@ -186,7 +193,7 @@ class Plan:
         return Table(
             title=f"Plan: {grouped(self.particles)} particles, {self.rules['column'][0]}, {self.numerics.preset} steps",
             rows=rows, errors=error_rows(self, self.errors), raster=self.rules["raster"][1], notes=notes,
-            creep=self.creep, not_held=self.not_held,
+            creep=self.creep_words, not_held=self.not_held,
         )  # fmt: skip
 
     def _cost_words(self) -> str:
@@ -225,11 +232,24 @@ def _with_rule(choice: str, rule: str) -> str:
     return f"{choice} ({rule})" if rule else choice
 
 
-def _column(mapping: Mapping[str, Any], setup: Setup) -> Any:
-    """Return the column law of a mapping; one that plain values do not build is that of the setup."""
-    if "repr" in mapping["column"]:
-        return setup.column
-    return build_law("column", dict(mapping["column"]))
+def _values(mapping: Mapping[str, Any], setup: Setup) -> dict[str, Any]:
+    """Return the attributes of a plan from its plain values."""
+    numerics = build_declared(Numerics, dict(mapping["numerics"]), "numerics")
+    column = dict(mapping["column"])
+    law = setup.column if "repr" in column else build_law("column", column)  # plain values do not build every law
+    values = {name: mapping[name] for name in ("max_cost", "still_moving")}
+    values |= {name: float(mapping[name]) for name in ("tolerance", "creep", "creep_level", "max_duration", "volume")}
+    values |= {name: int(mapping[name]) for name in ("particles", "max_particles")}
+    values |= {name: tuple(map(str, mapping[name])) for name in ("hold", "warnings")}
+    values |= {name: _numbers(mapping[name]) for name in ("errors", "raster_errors")}
+    x, y = map(float, mapping["origin"])
+    return values | {
+        "setup": dataclasses.replace(setup, numerics=numerics, column=law), "origin": (x, y),
+        "rules": {name: (str(choice), str(rule)) for name, (choice, rule) in mapping["rules"].items()},
+        "runs": {int(count): _numbers(run) for count, run in mapping["runs"].items()},
+        "cost": Cost(**_numbers(mapping["cost"])), "pilot_seconds": _number(mapping["pilot_seconds"]),
+        "digests": {name: str(mapping["digests"][name]) for name in ("setup", "ground")},
+    }  # fmt: skip
 
 
 def _plain(value: Any) -> Any:

@@ -77,7 +77,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
             "particles": (grouped(count), rule), "column": column[1:], "steps": steps[1:], "phases": phases,
             "raster": ("", raster.words),
         },
-        errors=errors, raster_errors=raster.errors, creep=last.creep.get("run_out", 0.0),
+        errors=errors, raster_errors=raster.errors, creep=last.creep.get("run_out", 0.0), creep_level=last.creep_level,
         still_moving=not last.at_rest, cost=cost,
         pilot_seconds=sum(known) + (raster.seconds if math.isfinite(raster.seconds) else 0.0),
         max_particles=wishes.max_particles, max_cost=wishes.max_cost, max_duration=event.max_duration, runs=runs,
@@ -88,9 +88,8 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 def setup_digest(setup: Setup) -> str:
     """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
-    return with_count(
-        dataclasses.replace(setup, numerics=choose_steps(setup.numerics, tolerance=1.0).value), 1
-    ).digest()
+    steps = choose_steps(setup.numerics, tolerance=1.0).value
+    return with_count(dataclasses.replace(setup, numerics=steps), count=1).digest()
 
 
 def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:

@@ -89,7 +89,7 @@ class Report:
         rows.append(("errors by", self.source))
         return Table(
             title="Report of a run by a plan", rows=rows, errors=error_rows(plan, self.errors),
-            raster=plan.rules["raster"][1], creep=plan.creep, notes=plan.warnings,
+            raster=plan.rules["raster"][1], creep=plan.creep_words, notes=plan.warnings,
             not_held=plan.not_held_with(self.errors),
         )  # fmt: skip
 

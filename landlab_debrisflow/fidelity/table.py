@@ -35,8 +35,8 @@ class Table:
         errors are not known.
     raster : str
         From where the errors of the raster are.
-    creep : float
-        Relative change of run-out in the last of the motion [-].
+    creep : str
+        Change of run-out in the last creep; empty: small.
     not_held : mapping of str to str
         Quantities that are not held, and why.
     notes : sequence of str
@@ -47,7 +47,7 @@ class Table:
     rows: Sequence[tuple[str, str]]
     errors: Sequence[tuple[str, float, float | None, str]] = ()
     raster: str = ""
-    creep: float = 0.0
+    creep: str = ""
     not_held: Mapping[str, str] = dataclasses.field(default_factory=dict)
     notes: Sequence[str] = ()
 
@@ -92,10 +92,7 @@ class Table:
         """Return names and words of the rows after the errors."""
         found = [("raster", self.raster)] if self.raster else []
         found += [("not held", f"{WORDS[name]}: {reason}") for name, reason in self.not_held.items()]
-        if self.creep >= LEAST_CREEP:
-            found.append(
-                ("creeping", f"run-out still changed by {percent(self.creep)} in the last creep; no particle helps")
-            )
+        found += [("creeping", self.creep)] if self.creep else []
         return found + [("note", note) for note in self.notes]
 
 

@@ -56,11 +56,12 @@ class Members(NamedTuple):
 
 @struct
 class BodyEnergies(NamedTuple):
-    """Kinetic energies of bodies: volume [m3], volume times speed squared, now and most [m5 s-2], each (bodies,)."""
+    """Energies of bodies, each (bodies,): volume [m3], volume times speed squared [m5 s-2], time of becoming slow [s]."""
 
     volume: np.ndarray  # (bodies,) [m3]
     energy: np.ndarray  # (bodies,) now [m5 s-2]; 0 before, written
     peak: np.ndarray  # (bodies,) the most so far [m5 s-2], written
+    slow_since: np.ndarray  # (bodies,) time since when it has no more than what creeps [s], infinite if more; written
 
 
 PER_BODY = "peak", "volume", "slow_since"
@@ -147,15 +148,14 @@ class Bodies:
             self.at_rest = False
             return None
         creep_energy = max(rest_energy, min(CREEP * rest_energy, MOST_CREEP))
-        energies = rest_energy, creep_energy
+        limits = rest_energy, creep_energy, time
         touched = True
         if self.steps < STEPS_BETWEEN_SEPARATIONS and p.ever == self.known:
-            energy, slow, free, touched = self._measure(p, *energies)
+            energy, slow, free, touched = self._measure(p, *limits)
         if touched:
             self.separate(p)
-            energy, slow, free, _ = self._measure(p, *energies)
+            energy, slow, free, _ = self._measure(p, *limits)
         self.at_rest = free == 0
-        self.slow_since = np.where(energy <= creep_energy * self.peak, np.minimum(self.slow_since, time), np.inf)
         if not slow:
             return None
         part = np.where(energy <= rest_energy * self.peak, MOST_UNHELD, -1.0)
@@ -164,15 +164,15 @@ class Bodies:
         stoppable = (part >= 0.0) & (np.bincount(p.body, p.arrested == 0, part.size) > 0.0)
         return part * self.volume if stoppable.any() else None
 
-    def _measure(self, p, rest_energy: float, creep_energy: float):
+    def _measure(self, p, rest_energy: float, creep_energy: float, time: float):
         """Return the kinetic energy of each body, and the result of the kernel `_measure`; the peak includes now."""
         energy = np.zeros(self.peak.size)
         members = Members(
             body=p.body, volume=p.volume, velocity=p.velocity, summed=p.summed, arrested=p.arrested,
             rest_speed=p.rest_speed,
         )  # fmt: skip
-        bodies = BodyEnergies(volume=self.volume, energy=energy, peak=self.peak)
-        return energy, *_measure(p.awake, members, bodies, min(rest_energy, REST_OF_PARTICLE), creep_energy)
+        bodies = BodyEnergies(volume=self.volume, energy=energy, peak=self.peak, slow_since=self.slow_since)
+        return energy, *_measure(p.awake, members, bodies, min(rest_energy, REST_OF_PARTICLE), creep_energy, time)
 
     def arrest(self, p, most_unheld, held, prescribed) -> None:
         """Stop bodies of which friction holds enough, except where the motion of particles is prescribed.
@@ -203,7 +203,7 @@ class Bodies:
 
 
 @kernel
-def _measure(awake, members, bodies, rest_energy, creep_energy):
+def _measure(awake, members, bodies, rest_energy, creep_energy, time):
     """Measure the kinetic energy of every body, and the speed at which its particles come to rest.
 
     Parameters
@@ -214,6 +214,8 @@ def _measure(awake, members, bodies, rest_energy, creep_energy):
     bodies : BodyEnergies
     rest_energy, creep_energy : float
         Kinetic energy of a slow particle, and of a body that may creep, over the most of its body [-].
+    time : float
+        Time now [s].
 
     Returns
     -------
@@ -223,11 +225,12 @@ def _measure(awake, members, bodies, rest_energy, creep_energy):
         Whether anything has changed in reach of a particle that is arrested.
     """
     body, volume, velocity, summed, arrested, rest_speed = members
-    body_volume, energy, peak = bodies
+    body_volume, energy, peak, slow_since = bodies
     for i in range(awake):
         energy[body[i]] += volume[i] * (velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
     for b in range(energy.size):
         peak[b] = max(peak[b], energy[b])
+        slow_since[b] = min(slow_since[b], time) if energy[b] <= creep_energy * peak[b] else np.inf
     slow, free, touched = 0, 0, False
     for i in range(volume.size):
         if arrested[i] == 0:

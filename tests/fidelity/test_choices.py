@@ -1,5 +1,7 @@
 """Column and steps by their rules, and the warning about phases."""
 
+import functools
+
 import pytest
 
 from landlab_debrisflow import Hydrograph, Numerics, Setup
@@ -10,7 +12,7 @@ from landlab_debrisflow.fidelity.choices import (
     has_pressure,
     phase_warning,
 )
-from landlab_debrisflow.fidelity.event import event_of_grid
+from landlab_debrisflow.fidelity.event import Event
 from landlab_debrisflow.laws import ALE, NoExcessPressure
 
 from .valleys import flow_on, valley
@@ -18,8 +20,14 @@ from .valleys import flow_on, valley
 NO_PRESSURE = {"initial_pressure_ratio": 0.0, "bed_pressure_ratio": 0.0}
 
 
+@functools.cache
+def shared(**keywords):
+    """Return a grid that no test changes: to build one takes longer than a test."""
+    return valley(**keywords)
+
+
 def event(grid=None, **keywords):
-    return event_of_grid(grid or valley(), Setup(**keywords), 10.0, flow_on)
+    return Event(grid or shared(), Setup(**keywords), 10.0, flow_on)
 
 
 @pytest.mark.parametrize(
@@ -44,12 +52,13 @@ def test_columns(keywords, ratio, hold, column, words):
     assert choice.value == column and words in choice.rule
 
 
+@pytest.mark.slow
 def test_where_pressure_comes_from():
     dry_body = {"initial_pressure_ratio": 0.0}
     assert has_pressure(event())
     assert has_pressure(event(material=dry_body))  # of the bed
     assert not has_pressure(event(material=dry_body, erosion="none"))
-    assert not has_pressure(event(valley(soil=0.0, release=0.0), material=dry_body))
+    assert not has_pressure(event(shared(soil=0.0, release=0.0), material=dry_body))
     assert has_pressure(event(material=NO_PRESSURE | {"bed_loading_coefficient": 0.5}))
     grid = valley()
     grid.add_zeros("bed__excess_pore_pressure_ratio", at="node")
@@ -65,7 +74,7 @@ def test_where_pressure_comes_from():
     }
     for ratio, found in ((None, True), (0.0, False), (0.3, True)):
         line = Hydrograph(**surge, pressure_ratio=ratio) if ratio is not None else Hydrograph(**surge)
-        still = event(valley(release=0.0), erosion="none", inflow=line)
+        still = event(shared(release=0.0), erosion="none", inflow=line)
         assert has_pressure(still) == found
 
 

@@ -23,7 +23,7 @@ def test_sums_and_centres_stay(shape):
     assert every_second(np.ones(shape)).sum() * 4.0 == pytest.approx(np.prod(shape))
 
 
-@pytest.mark.parametrize("shape", [(15, 30), (16, 31)])
+@pytest.mark.parametrize("shape", [(15, 30), pytest.param((16, 31), marks=pytest.mark.slow)])
 def test_a_coarse_grid_has_the_release_on_the_same_ground(shape):
     grid = valley(shape)
     grid.status_at_node[grid.nodes_at_top_edge] = 4
@@ -43,6 +43,7 @@ def test_a_coarse_grid_has_the_release_on_the_same_ground(shape):
     assert np.all(status[-1] == 4) and np.all(status[1:-1, -1] == 1) and np.all(status[1:-1, 1:-1] == 0)
 
 
+@pytest.mark.slow
 def test_momentum_stays_with_the_release():
     grid = valley()
     depth = grid.at_node["debris_flow__release_depth"]
@@ -53,6 +54,7 @@ def test_momentum_stays_with_the_release():
     flow_on(coarse, numerics={"particle_count": 50}).run_one_step(0.1)  # the border takes it
 
 
+@pytest.mark.slow
 def test_every_second_node_of_few_or_of_closed_ones_is_refused():
     with pytest.raises(InputError, match="every second node of 4 x 30 nodes makes no grid"):
         coarse_grid(valley((4, 30), release=0.0))
@@ -66,6 +68,7 @@ def test_every_second_node_of_few_or_of_closed_ones_is_refused():
         coarse_grid(grid)
 
 
+@pytest.mark.slow
 def test_ids_of_mass_wasting_become_depths():
     grid = valley()
     depth = grid.at_node["debris_flow__release_depth"]
@@ -80,6 +83,7 @@ def test_ids_of_mass_wasting_become_depths():
     assert coarse.at_node["debris_flow__release_depth"].sum() * 4.0 == pytest.approx(expected.sum())
 
 
+@pytest.mark.slow
 def test_outputs_of_a_component_are_not_copied():
     grid = valley()
     flow_on(grid, numerics={"particle_count": 20}).run_one_step(0.2)

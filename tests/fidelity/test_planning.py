@@ -1,17 +1,23 @@
 """Plans of flows: what they leave alone, what they refuse, and how they are used."""
 
+import contextlib
+import dataclasses
+import functools
 import json
 import logging
 import os
 import signal
+import threading
 
 import numpy as np
 import pytest
 
-from landlab_debrisflow import DebrisFlow, Hydrograph, InputError, ParameterError, SimulationError
+from landlab_debrisflow import DebrisFlow, Hydrograph, InputError, ParameterError, Setup, SimulationError
 from landlab_debrisflow.fidelity.constants import ERROR_LAWS
 from landlab_debrisflow.fidelity.event import event_of_grid
+from landlab_debrisflow.fidelity.pilots import collected_warnings
 from landlab_debrisflow.fidelity.plan import Plan
+from landlab_debrisflow.fidelity.wishes import Wishes, wishes_of
 from landlab_debrisflow.laws import ALE
 
 from .valleys import SHORT, fields, flow_on, valley
@@ -84,6 +90,10 @@ def test_a_plan_is_plain_values_and_back(planned):
     mapping = json.loads(json.dumps(planned.to_mapping()))
     again = Plan.from_mapping(mapping, flow_on(valley()).setup)
     assert again == planned and again.numerics == planned.numerics and again.column == ALE()
+    for name in mapping:
+        for value in (None, 3, "x", [], {}, [[]], {"a": 1}):
+            with contextlib.suppress(InputError):  # what is taken can be shown, and measured by
+                assert str(Plan.from_mapping(mapping | {name: value}, planned.setup))
     for broken in ({}, mapping | {"format": 99}, mapping | {"runs": 3}, mapping | {"numerics": {"threads": 0}}, 3):
         with pytest.raises(InputError, match="plan"):
             Plan.from_mapping(broken, planned.setup)
@@ -163,7 +173,13 @@ def test_what_cannot_be_planned_is_refused():
 )
 def test_bad_wishes_are_refused(keywords, words):
     with pytest.raises((InputError, ParameterError), match=words):
-        flow_on(valley()).plan(**keywords)
+        untouched().plan(**keywords)
+
+
+@functools.cache
+def untouched():
+    """Return a flow that does nothing."""
+    return flow_on(valley())
 
 
 class Breaking:
@@ -222,6 +238,31 @@ def test_auto_plans_in_run_until_rest(tmp_path, caplog):
     assert all(np.array_equal(again.grid.at_node[name], flow.grid.at_node[name]) for name in fields(flow.grid))
 
 
+def test_wishes_are_those_of_numerics_unless_told_otherwise():
+    auto = Setup(numerics={"particle_count": "auto", "tolerance": 0.2, "hold": "area"})
+    assert wishes_of(auto, tolerance=None) == Wishes(tolerance=0.2, hold=("area",))
+    assert wishes_of(auto, hold=["speed"], max_cost=3.0) == Wishes(tolerance=0.2, hold=("speed",), max_cost=3.0)
+    assert wishes_of(Setup()) == Wishes() == Wishes(tolerance=0.05, hold=("run_out", "speed"), max_particles=8000)
+
+
+def test_warnings_of_other_threads_are_logged_while_a_pilot_runs(caplog):
+    log = logging.getLogger("landlab_debrisflow")
+    with collected_warnings() as found:
+        log.warning("of the pilot run")
+        other = threading.Thread(target=log.warning, args=("of another flow",))
+        other.start()
+        other.join()
+    assert found == ["of the pilot run"] and [record.message for record in caplog.records] == ["of another flow"]
+
+
+@pytest.mark.slow
+def test_creep_is_told_apart(planned):
+    assert "creeping" not in str(dataclasses.replace(planned, creep=0.004))
+    text = " ".join(str(dataclasses.replace(planned, creep=0.017, creep_level=0.01)).split())
+    assert "run-out changed by 1.7 % after the kinetic energy had fallen below 1 % of its peak" in text
+
+
+@pytest.mark.slow
 def test_auto_without_a_release_waits_for_one(caplog):
     flow = flow_on(valley(release=0.0), numerics={"particle_count": "auto"})
     assert flow.run_until_rest() and flow.setup.numerics.automatic
