@@ -22,7 +22,7 @@ CREEP_LEVELS = (1e-2, 1e-3)
 
 
 def origin_of(grid: Any, setup: Any) -> tuple[float, float]:
-    """Return the centre of what is about to move, from where run-out is counted [m].
+    """Return the centre of release or inflow, from where run-out is counted [m].
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def quantities(flow: Any, origin: tuple[float, float]) -> dict[str, float]:
 
 
 class Decay:
-    """Observer that measures a flow when its kinetic energy falls below parts of its peak: what creeps afterwards.
+    """Observer: measures a flow when its kinetic energy falls below parts of its peak, before it creeps to rest.
 
     Parameters
     ----------
