@@ -114,7 +114,7 @@ NODE_FIELDS = (
 
 
 def fields_in_use(grid, laws) -> dict:
-    """Return the fields of a grid at nodes by name: all that a component reads or writes, or its laws name.
+    """Return the fields at nodes of a component and its laws, by name.
 
     `laws` are those that may read fields, by kind.
     """
