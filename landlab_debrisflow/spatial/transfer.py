@@ -91,7 +91,7 @@ class Cover:
         self._last = np.empty((5, 0)), ()  # particles, and their footprints
 
     def footprints(self, x, y, volume, depth, fraction) -> Footprints:
-        """Return the footprints of all particles of a flow; those of the last time, if nothing has changed since.
+        """Return the footprints of all particles of a flow, without a new search if no particle has changed since.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ def scatter(footprints: Footprints, values, sums, touched):
 
 @kernel
 def _changed(particles, x, y, volume, depth, fraction):
-    """Return whether particles are others than those that were copied, shape (5, n); the five arrays are as there."""
+    """Compare particles with copies of earlier ones, shape (5, n); return whether any number differs."""
     for i in range(x.size):
         if particles[0, i] != x[i] or particles[1, i] != y[i]:
             return True
