@@ -56,7 +56,7 @@ class Members(NamedTuple):
 
 @struct
 class BodyEnergies(NamedTuple):
-    """Energies of bodies, each (bodies,): volume [m3], volume times speed squared [m5 s-2], time of becoming slow [s]."""
+    """Energies of bodies, each (bodies,): volume [m3], volume times speed squared [m5 s-2], time when slow [s]."""
 
     volume: np.ndarray  # (bodies,) [m3]
     energy: np.ndarray  # (bodies,) now [m5 s-2]; 0 before, written
