@@ -125,7 +125,8 @@ class Planning:
         """
         from .fidelity.report import make_report
 
-        return make_report(self, int(self._simulation.particles.ever), self._plan, self._measured)
+        used = int(self._simulation.particles.ever), self._call.cpu
+        return make_report(self, *used, self._plan, self._measured)
 
     def _event(self: Any, max_duration: float) -> "Event":
         """Return the event that is about to begin; refuse one that has begun."""
@@ -183,7 +184,7 @@ class Planning:
         except BaseException:
             self._simulation, self._call, self._setup = simulation, call, setup
             raise
-        self._simulation.state.counters = simulation.state.counters.copy()
+        self._simulation.state.counters, self._call.cpu = simulation.state.counters.copy(), call.cpu
         self._keep_plan(plan)
 
     def _keep_plan(self, plan: "Plan") -> None:

@@ -77,8 +77,9 @@ def build(name, observers=(), **grid):
     return DebrisFlow(make(**grid), **(keywords | {"numerics": numerics}), observers=observers)
 
 
-SCRATCH = {"_touched", "_granted", "_scratch", "_before", "cpu"}
-"""Arrays that are written before they are read, and what it took on this machine."""
+SCRATCH = {"_touched", "_granted", "_scratch", "_before", "_last", "cpu"}
+"""Arrays that are written before they are read, what was found last and is found anew if it does not fit, and what it
+took on this machine."""
 
 HISTORY = {"interrupted", "interruption", "_interruption"}
 """What a flow may go back to, and what was the matter in its last call."""

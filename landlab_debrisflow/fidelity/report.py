@@ -31,7 +31,7 @@ class Report:
     steps : int
         Steps.
     seconds : float
-        CPU time of the steps, since the flow was built or loaded [s]; NaN: not told.
+        CPU time of the calls, since the flow was built or loaded [s]; NaN: not told.
     plan : Plan or None
         Plan by which it was made.
     errors : dict of str to float
@@ -98,7 +98,9 @@ class Report:
         return f"{duration_text(self.seconds)} of CPU time in {steps}" if math.isfinite(self.seconds) else steps
 
 
-def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[str, float] | None) -> Report:
+def make_report(
+    flow: Any, particles: int, seconds: float, plan: Plan | None, measured: Mapping[str, float] | None
+) -> Report:
     """Return the report of a flow.
 
     Parameters
@@ -106,6 +108,8 @@ def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[
     flow : DebrisFlow
     particles : int
         Number of particles that there were in all.
+    seconds : float
+        CPU time of its calls [s].
     plan : Plan or None
         That was adopted.
     measured : mapping of str to float, or None
@@ -118,7 +122,7 @@ def make_report(flow: Any, particles: int, plan: Plan | None, measured: Mapping[
     diagnostics = flow.diagnostics
     values = {
         "setup": flow.setup, "particles": particles, "steps": diagnostics.steps,
-        "seconds": float(sum(diagnostics.cpu.values())),
+        "seconds": seconds,
         "state": "not run yet" if not diagnostics.steps
         else f"{'at rest' if flow.at_rest else 'still moving'} at {flow.elapsed_time:.6g} s",
     }  # fmt: skip

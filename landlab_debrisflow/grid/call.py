@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 from threading import get_ident
+from time import process_time
 
 import numpy as np
 
@@ -33,6 +34,8 @@ class GridCall:
     ----------
     before_settling : callable or None
         Looks at the flow at the end of a call, as an observer does, before mass at rest settles.
+    cpu : float
+        CPU time of all calls, those of `continues` left out [s].
     """
 
     def __init__(self, flow, continues: "GridCall | None" = None):
@@ -48,6 +51,7 @@ class GridCall:
         before = None if continues is None else continues._outputs
         two_phases = self._simulation.setup.two_phases
         self.before_settling: Callable[[], None] | None = None
+        self.cpu = 0.0
         self._outputs = Outputs(grid, two_phases, self._writer.carried_volume, before)
         self.rollback = Rollback(grid, self._reader.laws, self._writer, self.interruption, self._outputs)
 
@@ -58,7 +62,7 @@ class GridCall:
         ------
         As `DebrisFlow.run_one_step`.
         """
-        sim = self._simulation
+        sim, began = self._simulation, process_time()
         with self.rollback.around_call() as interrupted:
             end = self.interruption.end = sim.state.time + duration
             if interrupted is None:
@@ -72,6 +76,7 @@ class GridCall:
             else:
                 self._listener.broken_off()
                 self.rollback.break_off(end)
+            self.cpu += process_time() - began
         while self._listener.requests:  # of another thread, after the last step
             self._listener.requests.pop(0)()
 

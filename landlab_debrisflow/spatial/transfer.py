@@ -2,16 +2,15 @@
 
 The rule, used for every field, for erosion, for the load on the bed and for the deposit: a particle is a hat function
 (bilinear) whose half-width is twice its own spacing (V/h)^(1/2), never less than the node spacing, never more than four
-of them, cut at the edge of the flow. Its weights are normalised over the *core* nodes that are left, so nothing is lost
-at a boundary or at the edge, and nothing is put outside.
+of them, sharpened at the edge of the flow. Its weights are normalised over the *core* nodes that it reaches, so nothing
+is lost at a boundary or at the edge, and nothing is put outside.
 
-Where the edge is, tells the *cover* of a node: the map area V/h of the particles, spread by whole hat functions, over
-that of the node. Inside a flow it is 1, at a straight edge 1/2, whatever the half-width. Particles are points, though:
-where a flow tapers off, the outermost one stands for more ground outwards than inwards. A particle of depth h therefore
-reaches nodes with a cover of (h/d)^(1/2)/2 or more, d being the largest depth under its hat function; then steep edges
-and those that taper off lie alike (``python -m benchmarks.footprint``). Where a flow is narrower than its hat
-functions, a particle reaches nodes with three quarters of the largest cover under its own: a single file of particles
-is one spacing wide.
+Wide hat functions keep the noise of the particles out of the depth, but blur an edge over their half-width a, which
+coarse particles have wide. Where the edge is, tells the *cover* of a node: the map area V/h of the particles, spread by
+whole hat functions, over that of the node. Inside a flow it is 1; at a distance d beyond a straight edge it is
+(1 - d/a)^2/2, and within the edge 1 less that. Weights are multiplied by the cover that hat functions of one node
+spacing would give at the same distance, over the cover there is: so an edge is blurred by one node, whatever the
+particles, as it is by particles that are very fine (`sharpened_cover`).
 
 The loops run in particle order in one thread: the only sums that several particles share.
 """
@@ -20,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import inner, kernel
 from ..core.structs import struct
 from .raster import CORE, Raster
 
@@ -32,18 +31,6 @@ MOST_NODES_PER_STEP = 2.0
 
 REACH = int(WIDEST + MOST_NODES_PER_STEP) + 1
 """Nodes within which a particle writes, also after a step."""
-
-COVERED = 0.5
-"""Cover from which a node is inside a flow: that of a node on a straight edge [-]."""
-
-NARROW = 0.75
-"""Cover over the largest one near, from which a node is inside a flow that is narrower than its hat functions.
-
-A file of particles, one spacing s apart, has the cover (1 - y/2s)/2 at a distance y: at s/2 three quarters of what it
-has in the middle."""
-
-ROUNDING = 1.0 - 1e-9
-"""What a node may fall short of that by rounding [-]: a symmetric flow is cut on both sides alike."""
 
 
 @struct
@@ -67,7 +54,7 @@ class Footprints(NamedTuple):
 
 
 class Cover:
-    """Cover of the nodes of a raster by a flow, at whose edge footprints are cut.
+    """Cover of the nodes of a raster by a flow, at whose edge footprints are sharpened.
 
     Parameters
     ----------
@@ -86,7 +73,7 @@ class Cover:
 
     def __init__(self, raster: Raster):
         self._raster = raster
-        self._sums = np.zeros((raster.status.size, 2))
+        self._area = np.zeros(raster.status.size)
         self._touched = np.empty(raster.status.size, np.int64)
         self._last = np.empty((5, 0)), ()  # particles, and their footprints
 
@@ -108,7 +95,7 @@ class Cover:
         """
         given = x, y, volume, depth, fraction
         if x.size != self._last[0].shape[1] or x.size == 0 or _changed(self._last[0], *given):
-            self._last = _find_footprints(self._raster, *given, self._sums, self._touched)
+            self._last = _find_footprints(self._raster, *given, self._area, self._touched)
         return self._last[1]
 
 
@@ -145,9 +132,31 @@ def _changed(particles, x, y, volume, depth, fraction):
     return False
 
 
+@inner
+def sharpened_cover(cover, blur):
+    """Return the cover that hat functions of one node spacing give, where wider ones give `cover` [-].
+
+    Parameters
+    ----------
+    cover : float
+        Map area of a flow at a node, spread by hat functions, over that of the node; at most 1 [-].
+    blur : float
+        Node spacing over half-width of these hat functions; at most 1 [-].
+
+    Returns
+    -------
+    float
+        Half of (1 - d/dx)^2 at the distance d beyond the edge at which `cover` is half of (1 - d/a)^2; 1 less that
+        within the edge.
+    """
+    outside = min(cover, 1.0 - cover)
+    there = 0.5 * max(0.0, 1.0 - (1.0 - np.sqrt(2.0 * outside)) / blur) ** 2
+    return there if cover <= 0.5 else 1.0 - there
+
+
 @kernel
-def _find_footprints(raster, x, y, volume, depth, fraction, sums, touched):
-    """Spread the area of particles over nodes by hat functions, and cut these where too little is covered.
+def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
+    """Spread the area of particles over nodes by hat functions, and sharpen these at the edge of what is covered.
 
     Parameters
     ----------
@@ -155,8 +164,8 @@ def _find_footprints(raster, x, y, volume, depth, fraction, sums, touched):
         Nodes, their statuses and spacing [m].
     x, y, volume, depth, fraction : ndarray, shape (n,)
         Position [m], volume [m3], depth of the flow [m] and fraction of the own phase [-] of each particle.
-    sums : ndarray, shape (nodes, 2)
-        Scratch: area [m2] and volume [m3] that lie on the nodes; 0 before and after.
+    cover : ndarray, shape (nodes,)
+        Scratch: area that lies on the nodes [m2]; 0 before and after.
     touched : ndarray of int, shape (nodes,)
         Scratch: nodes with an area.
 
@@ -196,31 +205,32 @@ def _find_footprints(raster, x, y, volume, depth, fraction, sums, touched):
         for k in range(begin[i], last):
             at = node[k]
             weight[k] *= scale
-            if sums[at, 0] == 0.0:
+            if cover[at] == 0.0:
                 touched[found] = at
                 found += 1
-            sums[at, 0] += area[i] * weight[k]
-            sums[at, 1] += volume[i] * weight[k]
+            cover[at] += area[i] * weight[k]
         end[i] = last
     for i in range(x.size):
-        least, largest, deepest = np.inf, 0.0, depth[i] * cell
+        blur = max(np.sqrt(cell) / half_width[i], 1.0 / WIDEST)
+        if blur >= 1.0:  # the hat function of one node spacing itself
+            continue
+        largest = 0.0  # of a flow that is narrower than its hat functions, less than the area of a node
         for k in range(begin[i], end[i]):
-            least, largest = min(least, sums[node[k], 0]), max(largest, sums[node[k], 0])
-            deepest = max(deepest, sums[node[k], 1])
-        bound = ROUNDING * min(NARROW * largest, COVERED * cell * np.sqrt(depth[i] * cell / deepest))
-        if least < bound:
-            kept, total = begin[i], 0.0
-            for k in range(begin[i], end[i]):
-                if sums[node[k], 0] >= bound:
-                    node[kept], weight[kept] = node[k], weight[k]
-                    total += weight[k]
-                    kept += 1
-            end[i] = kept
-            scale = 1.0 / total
-            for k in range(begin[i], kept):
-                weight[k] *= scale
+            largest = max(largest, cover[node[k]])
+        kept, total = begin[i], 0.0
+        for k in range(begin[i], end[i]):
+            covered = cover[node[k]] / largest
+            part = sharpened_cover(covered, blur)
+            if part > 0.0:
+                node[kept], weight[kept] = node[k], weight[k] * (part / covered)
+                total += weight[kept]
+                kept += 1
+        end[i] = kept
+        scale = 1.0 / total
+        for k in range(begin[i], kept):
+            weight[k] *= scale
     for k in range(found):
-        sums[touched[k], 0] = sums[touched[k], 1] = 0.0
+        cover[touched[k]] = 0.0
     return particles, (begin, end, node[:last], weight[:last])
 
 

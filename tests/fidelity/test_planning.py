@@ -186,11 +186,11 @@ class Breaking:
     """Law of erosion without soil that calls a function in its tenth step."""
 
     def __init__(self, function):
-        self._function, self._calls = function, 0
+        self._function, self.times = function, 0
 
     def entrainment_rate(self, state, out):
-        self._calls += 1
-        if self._calls == 10:
+        self.times += 1
+        if self.times == 10:
             self._function()
         out[:] = 0.0
 

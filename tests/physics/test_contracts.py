@@ -272,7 +272,7 @@ def test_a_parameter_out_of_bounds_is_refused_by_name_unit_bounds_and_value(law,
         with pytest.raises(ParameterError) as refusal:
             law(**{field.name: value})
         message = str(refusal.value)
-        names = [f"{law.__name__}: {field.name}{place} must" for place in ("", "[0]")]  # the latter of an item in a list
+        names = [f"{law.__name__}: {field.name}{place} must" for place in ("", "[0]")]  # or of an item
         assert message.startswith(tuple(names))
         assert repr(value) in message or (isinstance(value, list) and repr(value[0]) in message)
         if meta["kind"] is str:
