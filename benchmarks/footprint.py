@@ -3,7 +3,7 @@
 Bodies that end steeply, roundly, with a slope and with a film; streams of such sections; nodes of 1 m. Their particles
 have equal volumes and the depth that the sums over neighbours find. Table: error of the area deeper than 0.1 m, and of
 the depth (sum of all differences over the volume) in %, with whole hat functions and with footprints as they are, which
-are cut at the edge. Takes two minutes.
+are sharpened at the edge. Takes two minutes.
 """
 
 import argparse
@@ -86,7 +86,7 @@ def whole(raster, x, y, volume, depth):
     return np.einsum("nr,nc->rc", volume[:, None] * along, across).ravel()
 
 
-def cut(raster, x, y, volume, depth):
+def sharpened(raster, x, y, volume, depth):
     """Return the volume at nodes, shape (nodes,) [m3], of particles with footprints that end at the edge."""
     sums = np.zeros((raster.status.size, 1))
     footprints = Cover(raster).footprints(x, y, volume, depth, np.ones(x.size))
@@ -95,7 +95,7 @@ def cut(raster, x, y, volume, depth):
 
 
 def errors(body, count, seed):
-    """Return spacing over that of nodes [-], and errors of area and depth [%], shape (2, 2): whole and cut footprints.
+    """Return spacing over that of nodes [-], and errors of area and depth [%], (2, 2): whole hat functions, footprints.
 
     `body` is a key of `BODIES`, of which `count` particles are made; direction and place on the nodes are random.
     """
@@ -113,7 +113,7 @@ def errors(body, count, seed):
     exact = depth(*np.meshgrid(nodes - middle[0], nodes - middle[1])).ravel()
     raster = Raster.from_status(np.full((SIZE, SIZE), CORE), (1.0, 1.0))
     table = []
-    for spread in (whole, cut):
+    for spread in (whole, sharpened):
         shown = spread(raster, x + middle[0], y + middle[1], np.full(count, volume), found)
         table.append((np.count_nonzero(shown > SEEN) / area - 1.0, abs(shown - exact).sum() / exact.sum()))
     return np.median(np.sqrt(volume / found)), 100.0 * np.array(table)
@@ -125,7 +125,7 @@ def main(arguments=None) -> None:
     parser.add_argument("--particles", default="250,500,1000,2000,4000", help="numbers with commas between them")
     parser.add_argument("--seeds", type=int, default=2, help="bodies of each kind")
     options = parser.parse_args(arguments)
-    print(f"{'body':20} particles spacing   area: whole    cut   depth: whole   cut")
+    print(f"{'body':20} particles spacing   area: whole  sharp   depth: whole sharp")
     for count in map(int, options.particles.split(",")):
         squares = []
         for body in BODIES:

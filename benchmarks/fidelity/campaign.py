@@ -11,7 +11,7 @@ SETS = {"nine": list(NINE), "fit": [f"r{seed}" for seed in FIT], "held-out": [f"
 """Sets of scenes by name."""
 
 FAST = (250, 500, 1000, 2000, 4000, 8000)
-DEFAULT = (500, 1000, 2000, 4000, FULL, TRUTH)
+DEFAULT = (500, 1000, 2000, 4000, FULL, TRUTH)  # convergence; of scenes that are held out the last two only
 BEFORE = (500, 1000, 2000, FULL)
 COARSE = (500, 1000)
 """Particles of the runs with fast steps, with the default ones, of an engine before a change, and on every second
@@ -28,7 +28,9 @@ def runs_of(scene: str, label: str, short: bool = False) -> list[Run]:
         return [Run(label, scene, count) for count in BEFORE]
     runs = [Run(label, scene, count, "fast") for count in FAST]
     runs += [Run(label, scene, count, "fast+coarse") for count in COARSE]
-    runs += [Run(label, scene, count) for count in DEFAULT]
+    runs += [Run(label, scene, count) for count in (DEFAULT if scene not in SETS["held-out"] else (FULL, TRUTH))]
+    if scene not in SETS["held-out"]:
+        runs.append(Run(label, scene, PHYSICS_PARTICLES, "fastest"))
     if scene in NINE:
         runs += [Run(label, scene, PHYSICS_PARTICLES, word) for word in PHYSICS]
     return runs

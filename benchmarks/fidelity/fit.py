@@ -2,7 +2,8 @@
 
 E = k b + f, at least the floor: for every f and floor of a short list, k is the 95 % quantile over the scenes of what
 covers the true error with 1000 particles. Taken is the triple whose median of stated over max(true, .5 %) is least
-while 92 % are covered with 2000, 4000 and 8000, too, where E falls with the order p of the 90 % quantile of errors.
+while 92 % are covered with 2000, 4000 and 8000, too, where E falls with the order p of the 90 % quantile of errors; if
+no triple covers as many, the one that covers most.
 """
 
 import itertools
@@ -77,11 +78,10 @@ def fit_quantity(bases, errors, least_coverage: float = COVERED) -> Fitted:
             np.mean(error <= np.maximum(stated * (PILOTS[-1] / count) ** order, floor * math.sqrt(FLOOR_COUNT / count)))
             for count, error in zip(COUNTS, errors, strict=True)
         ]
-        if min(covered) >= least_coverage - 0.03 and (best is None or ratio < best.ratio):
-            best = Fitted(factor, least, floor, order, float(covered[0]), ratio)
-    if best is None:
-        raise RuntimeError("no constants cover the errors; let the lists of fit.py go farther")
-    return best
+        rank = min(float(min(covered)), least_coverage - 0.03), -ratio
+        if best is None or rank > best[0]:
+            best = rank, Fitted(factor, least, floor, order, float(covered[0]), ratio)
+    return best[1]
 
 
 def fit(scenes, names) -> dict[str, Fitted]:

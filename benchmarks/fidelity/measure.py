@@ -71,7 +71,16 @@ def measure(make, particles: int, variation: str = "") -> dict:
         Quantities by name; "creep": quantities by level; "at_rest", "steps", "seconds" (CPU of the run), "made":
         particles that were made, "outflow": volume that left over what there was [-].
     """
-    logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)
+    log = logging.getLogger("landlab_debrisflow")
+    level = log.level
+    log.setLevel(logging.ERROR)  # what does not come to rest is no news here
+    try:
+        return _measure(make, particles, variation)
+    finally:
+        log.setLevel(level)
+
+
+def _measure(make, particles, variation) -> dict:
     warm_up(make, variation)
     scene = make()
     decay = quantities.Decay()

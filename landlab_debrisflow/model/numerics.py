@@ -8,10 +8,11 @@ from ..spatial.transfer import MOST_NODES_PER_STEP
 
 PRESETS = {
     "standard": {"courant_number": 0.6, "advective_courant_number": 0.5, "rest_energy": 1e-4},
-    "fast": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-3},
+    "fast": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-4},
+    "fastest": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-3},
 }
-"""Values of parameters that are not given, by preset. What the fast one costs in accuracy is measured
-(`python -m benchmarks.fidelity`)."""
+"""Values of parameters that are not given, by preset. What the fast ones cost in accuracy is measured: see
+docs/choosing.md, and `python -m benchmarks.fidelity presets`."""
 
 
 AUTO = "auto"
@@ -45,7 +46,7 @@ class Numerics:
     settle: bool = parameter("-", "lay the mass into the terrain when all is at rest", True, kind=bool)
     preset: str = parameter(
         "-", "values of courant_number, advective_courant_number and rest_energy that are not given: 0.6, 0.5 and 1e-4 "
-        "of standard, 1, 1 and 1e-3 of fast", "standard", choices=tuple(PRESETS),
+        "of standard, 1, 1 and 1e-4 of fast, 1, 1 and 1e-3 of fastest", "standard", choices=tuple(PRESETS),
     )  # fmt: skip
     courant_number: float = parameter("-", "time step over smoothing length / celerity", None, (1e-6, 1.0))
     advective_courant_number: float = parameter(

@@ -40,11 +40,13 @@ def test_threads_change_nothing(valley):
 
 
 def test_presets_fill_in_what_is_not_given():
-    standard, fast = Numerics(), Numerics(preset="fast")
+    standard, fast, fastest = (Numerics(preset=name) for name in ("standard", "fast", "fastest"))
+    assert standard == Numerics()
     assert (standard.courant_number, standard.advective_courant_number, standard.rest_energy) == (0.6, 0.5, 1e-4)
-    assert (fast.courant_number, fast.advective_courant_number, fast.rest_energy) == (1.0, 1.0, 1e-3)
-    mixed = Numerics(preset="fast", rest_energy=1e-4)
-    assert mixed.courant_number == 1.0 and mixed.rest_energy == 1e-4
+    assert (fast.courant_number, fast.advective_courant_number, fast.rest_energy) == (1.0, 1.0, 1e-4)
+    assert (fastest.courant_number, fastest.advective_courant_number, fastest.rest_energy) == (1.0, 1.0, 1e-3)
+    mixed = Numerics(preset="fast", rest_energy=1e-2)
+    assert mixed.courant_number == 1.0 and mixed.rest_energy == 1e-2
     assert Setup.from_mapping(Setup(numerics=mixed).to_mapping()).numerics == mixed
 
 

@@ -117,11 +117,11 @@ def test_every_law_in_every_form(kind, name, form, tmp_path):
 @pytest.mark.parametrize("form", ["number", "none", "text"])
 @pytest.mark.parametrize(("keyword", "cls"), [("material", Material), ("numerics", Numerics)])
 def test_material_and_numerics_in_every_form(keyword, cls, form, tmp_path):
-    values = given(cls, form)
+    values = {name: value for name, value in given(cls, form).items() if name != "hold"}  # of a number to be found
     flow, snapshots = run(scene(), **{keyword: values})
     read = written_and_read(flow, snapshots, tmp_path)["maps"].attrs
-    for key, value in values.items():
-        assert read.get(f"{keyword}_{key}") == value, key
+    for key in values:  # a preset gives values to what is left open
+        assert read.get(f"{keyword}_{key}") == getattr(cls(**values), key), key
 
 
 @pytest.mark.slow

@@ -62,6 +62,10 @@ def test_at_its_bound(keyword, law, parameter, value):
     keywords = {"numerics": {"particle_count": 60}, keyword: values}
     if keyword == "numerics" and not parameter.startswith("particle"):
         keywords["numerics"] = {"particle_count": 60, **values}
+    if parameter in ("tolerance", "hold"):  # of a number that is to be found
+        keywords["numerics"] = {"particle_count": "auto", **values}
+        assert DebrisFlow(grid, **keywords).setup.numerics.automatic
+        return
     if parameter in REFUSED and REFUSED[parameter] == value:  # not with the default of another: said in words
         with pytest.raises(ValueError, match=parameter):
             DebrisFlow(grid, **keywords)
