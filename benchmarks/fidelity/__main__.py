@@ -3,6 +3,7 @@
     python -m benchmarks.fidelity campaign --label after --processes 2
     python -m benchmarks.fidelity fit
     python -m benchmarks.fidelity score
+    python -m benchmarks.fidelity presets
     python -m benchmarks.fidelity chart
     python -m benchmarks.fidelity run --label now --scenes nine --particles 500,1000 --results /tmp/now.jsonl
 
@@ -56,6 +57,7 @@ def parse(arguments) -> argparse.Namespace:
             found.add_argument("--variations", default="", help="words of variations.py with commas between them")
     command("score", "print the tables of fitted and of unseen scenes")
     command("fit", "print constants fitted to the scenes to fit")
+    command("presets", "print what faster steps and an earlier rest cost and change")
     command("compare", "print errors against particles before and after a change")
     command("chart", "the same, and draw docs/fidelity.png and docs/convergence.png")
     commands.add_parser("seeds", help="write the table of draws anew")
@@ -88,6 +90,10 @@ def main(arguments=None) -> int:
         print_scores(scenes, SETS["nine"], "the nine")
         print_scores(scenes, SETS["fit"], "to fit")
         return 0 if print_scores(scenes, SETS["held-out"], "unseen") else 1
+    elif options.command == "presets":
+        from benchmarks.fidelity.presets import print_presets
+
+        print_presets(scenes, [*SETS["nine"], *SETS["fit"]])
     else:
         from benchmarks.fidelity.convergence import print_convergence
 

@@ -7,7 +7,7 @@ import itertools
 import math
 from collections.abc import Collection, Mapping
 
-from .constants import AFTER_NEW, AFTER_OLD, ERROR_LAWS, FLOOR_COUNT, ErrorLaw
+from .constants import CHANGE_FACTOR, ERROR_LAWS, ErrorLaw
 
 Runs = Mapping[int, Mapping[str, float]]
 
@@ -59,10 +59,7 @@ def stated_errors(runs: Runs) -> dict[str, float]:
     dict of str to float
         k b + f by quantity of `constants.ERROR_LAWS`; NaN where there is nothing to measure.
     """
-    count = max(runs)
-    return {
-        name: max(_stated(law, error_base(runs, law.related)), _floor(law, count)) for name, law in ERROR_LAWS.items()
-    }
+    return {name: _stated(law, error_base(runs, law.related)) for name, law in ERROR_LAWS.items()}
 
 
 def errors_with(errors: Mapping[str, float], count: int, with_count: int) -> dict[str, float]:
@@ -80,10 +77,7 @@ def errors_with(errors: Mapping[str, float], count: int, with_count: int) -> dic
     dict of str to float
         Each times (with_count / count)^p.
     """
-    return {
-        name: max(error * (with_count / count) ** ERROR_LAWS[name].order, _floor(ERROR_LAWS[name], count))
-        for name, error in errors.items()
-    }
+    return {name: error * (with_count / count) ** ERROR_LAWS[name].order for name, error in errors.items()}
 
 
 def count_asked(errors: Mapping[str, float], with_count: int, tolerance: float, hold: Collection[str]) -> float:
@@ -107,16 +101,14 @@ def count_asked(errors: Mapping[str, float], with_count: int, tolerance: float, 
 
     Examples
     --------
-    >>> round(count_asked({"speed": 0.1, "run_out": 0.01}, 1000, 0.05, ["speed", "run_out"]))  # 1000 * 2^(1/0.8)
-    2378
+    >>> round(count_asked({"speed": 0.1, "run_out": 0.01}, 1000, 0.05, ["speed", "run_out"]))  # 1000 * 2^(1/0.7)
+    2692
     """
     asked = [float(with_count)]
     for name in hold:
         law, error = ERROR_LAWS[name], errors[name]
         if error > tolerance:
             asked.append(with_count * (error / tolerance) ** (1.0 / law.order))
-        if law.floor > tolerance * math.sqrt(with_count / FLOOR_COUNT):
-            asked.append(FLOOR_COUNT * (law.floor / tolerance) ** 2)
     return max(asked)
 
 
@@ -138,7 +130,7 @@ def next_count(asked: float, finest: int, most: int) -> int:
 
     Examples
     --------
-    >>> next_count(2378.0, 1000, 8000), next_count(2378.0, 1000, 3000), next_count(990.0, 1000, 8000)
+    >>> next_count(2692.0, 1000, 8000), next_count(2692.0, 1000, 3000), next_count(990.0, 1000, 8000)
     (4000, 3000, 1000)
     """
     if not math.isfinite(asked):
@@ -147,7 +139,7 @@ def next_count(asked: float, finest: int, most: int) -> int:
     return min(finest * 2**doublings, max(most, finest))
 
 
-def errors_after(runs: Runs, count: int, finest: int) -> dict[str, float]:
+def errors_after(runs: Runs, count: int, finest: int, *, factor: float = CHANGE_FACTOR) -> dict[str, float]:
     """Return the stated errors after a run with more particles than the pilot runs [-].
 
     Parameters
@@ -156,12 +148,14 @@ def errors_after(runs: Runs, count: int, finest: int) -> dict[str, float]:
         Quantities by number of particles: of the pilot runs, and of the run.
     count, finest : int
         Number of particles of the run and of the last pilot run.
+    factor : float, optional
+        On what Richardson's extrapolation leaves [-].
 
     Returns
     -------
     dict of str to float
-        The larger of half the error expected and twice what Richardson's extrapolation leaves of the change since the
-        last pilot run, with f added; the errors of the pilot runs if the run has no more particles.
+        The larger of the error expected and a multiple of what Richardson's extrapolation leaves of the change since
+        the last pilot run, with f added; the errors of the pilot runs if the run has no more particles.
 
     References
     ----------
@@ -173,20 +167,16 @@ def errors_after(runs: Runs, count: int, finest: int) -> dict[str, float]:
         return before
     found = {}
     for name, law in ERROR_LAWS.items():
-        expected = AFTER_OLD * before[name] * (finest / count) ** law.order
+        expected = before[name] * (finest / count) ** law.order
         change = abs(runs[count][name] - runs[finest][name])
-        left = AFTER_NEW * change / ((count / finest) ** law.order - 1.0)
+        left = factor * change / ((count / finest) ** law.order - 1.0)
         now = _relative(left, runs[count][name]) + (law.least if left else 0.0)
-        found[name] = math.nan if math.isnan(expected + now) else max(expected, now, _floor(law, count))
+        found[name] = math.nan if math.isnan(expected + now) else max(expected, now)
     return found
 
 
 def _stated(law: ErrorLaw, base: float) -> float:
-    return 0.0 if base == 0.0 and not law.floor else law.factor * base + law.least
-
-
-def _floor(law: ErrorLaw, count: int) -> float:
-    return law.floor * math.sqrt(FLOOR_COUNT / count)
+    return 0.0 if base == 0.0 else law.factor * base + law.least
 
 
 def _relative(change: float, value: float) -> float:

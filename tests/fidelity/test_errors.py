@@ -47,7 +47,7 @@ def test_quantities_that_are_nothing_or_not_known():
 
 
 @pytest.mark.parametrize("bias", [-0.06, -0.01, 0.003, 0.04])
-@pytest.mark.parametrize("name", ERROR_LAWS)
+@pytest.mark.parametrize("name", [name for name, law in ERROR_LAWS.items() if not law.reason])
 def test_a_stated_error_covers_a_bias_that_falls_as_fast_as_the_law_says(name, bias):
     law = ERROR_LAWS[name]
     runs = converging(bias, law.order)
@@ -60,12 +60,12 @@ def test_a_stated_error_covers_a_bias_that_falls_as_fast_as_the_law_says(name, b
 
 
 def test_an_error_after_the_run_by_hand():
-    """k b + f = 3 * 0.02 + 0.002 with 1000; half of it by 2^-0.8; twice 1 % over 2^0.8 - 1, and f."""
+    """k b + f = 2.6 * 0.02 + 0.001 with 1000; that by 2^-0.7; 1.5 times 3 % over 2^0.7 - 1, and f."""
     runs = {n: dict.fromkeys(UNITS, value) for n, value in ((250, 95.0), (500, 98.0), (1000, 100.0), (2000, 100.0))}
-    assert stated_errors({n: runs[n] for n in PILOTS})["speed"] == pytest.approx(0.062)
-    assert errors_after(runs, 2000, 1000)["speed"] == pytest.approx(0.5 * 0.062 * 0.5**0.8)
-    runs[2000] = dict.fromkeys(UNITS, 101.0)
-    assert errors_after(runs, 2000, 1000)["speed"] == pytest.approx(2.0 / 101.0 / (2**0.8 - 1.0) + 0.002)
+    assert stated_errors({n: runs[n] for n in PILOTS})["speed"] == pytest.approx(0.053)
+    assert errors_after(runs, 2000, 1000)["speed"] == pytest.approx(0.053 * 0.5**0.7)
+    runs[2000] = dict.fromkeys(UNITS, 103.0)
+    assert errors_after(runs, 2000, 1000)["speed"] == pytest.approx(1.5 * 3.0 / 103.0 / (2**0.7 - 1.0) + 0.001)
     assert errors_after(runs, 1000, 1000) == stated_errors({n: runs[n] for n in PILOTS})
 
 
