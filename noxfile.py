@@ -36,8 +36,10 @@ PLAIN = [
 FIGURES = {
     "column.png": "python -m benchmarks.column",
     "column_stability.png": "python -m benchmarks.column_stability",
+    "convergence.png": "python -m benchmarks.fidelity chart",
     "demo.png": "landlab-debrisflow demo --output-dir docs",
     "failure_surfaces.png": "python -m benchmarks.releases --figure",
+    "fidelity.png": "python -m benchmarks.fidelity chart",
     "flow.png": "python -m benchmarks.flow",
     "flow_stability.png": "python -m benchmarks.flow_stability",
     "lazy_scheme.png": "python -m benchmarks.lazy_figure",

@@ -34,7 +34,7 @@ PARTICLES = 4000
 ACROSS = 40.0
 """Width of the channel between its banks, and of the body on the slope [m]."""
 
-CELLS = (1.25, 2.5, 5.0, 10.0, 20.0, 40.0)
+CELLS = (2.5, 5.0, 10.0, 20.0, 40.0)
 """Sizes of cells [m]; the finest is what the others are compared with."""
 
 SHIFTS = (0.0, 1.0 / 3.0, 2.0 / 3.0)

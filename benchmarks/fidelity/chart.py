@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from .campaign import FAST, FULL, PHYSICS_PARTICLES, SETS, TRUTH
 from .convergence import WORDS
@@ -12,6 +13,8 @@ from .score import HELD, LEAST, pairs
 
 FLOOR = 1e-3
 """Errors below this are drawn here: less is not known [-]."""
+
+PERCENT = FuncFormatter(lambda value, _: f"{100.0 * value:g} %")
 
 MARKS = {
     "column=none": ("v", "column none"), "column=classical": ("s", "column classical"),
@@ -52,6 +55,7 @@ def draw_error_and_cost(scenes) -> Figure:
     axes.axhline(0.05, color="k", lw=0.8, ls=":")
     axes.set(xscale="log", yscale="log", xlabel=f"CPU time over that of {FULL} particles with default steps")
     axes.set(ylabel=f"error of run-out or peak speed, the larger, against {TRUTH} particles")
+    axes.yaxis.set_major_formatter(PERCENT)
     axes.set_title(f"one line a scene: {', '.join(map(str, FAST))} particles, fast steps; marks: {PHYSICS_PARTICLES}")
     figure.legend(*axes.get_legend_handles_labels(), fontsize="small", ncols=6, loc="outside lower center")
     draw_stated(beside, [replay(scenes[name], 0.05, HELD) for name in complete(scenes, SETS["held-out"])])
@@ -77,5 +81,7 @@ def draw_stated(axes, choices) -> None:
     axes.plot(ends, ends, "k-", lw=0.8)
     axes.axvline(LEAST, color="0.7", lw=0.8, zorder=0)
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="true error", ylabel="stated error, of particles")
+    axes.xaxis.set_major_formatter(PERCENT)
+    axes.yaxis.set_major_formatter(PERCENT)
     axes.set_title(f"{len(choices)} unseen scenes, plans of 5 % for run-out and speed")
     axes.legend(fontsize="x-small", loc="lower right")

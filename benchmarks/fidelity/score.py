@@ -80,7 +80,8 @@ def score_table(scenes, names, title: str) -> tuple[Table, bool]:
         value, low, high = values
         met = math.isnan(value) or (value <= must if below else value >= must)
         good.append(met)
-        cells = form.format(value) + ("" if met else " !"), f"{form.format(low)} to {form.format(high)}"
+        interval = "-" if math.isnan(low) else f"{form.format(low)} to {form.format(high)}"
+        cells = form.format(value) + ("" if met else " !"), interval
         table.add_row(words, *cells, form.format(must), form.format(goal))
 
     holds = HELD, PROMISED, ALSO
