@@ -130,6 +130,7 @@ def synthetic(name, cell, shift):
             sums += GROUND[name](grid.x_of_node + dx, grid.y_of_node + dy)
     for field, values in zip((ELEVATION, RELEASE, SOIL), sums / parts**2, strict=True):
         grid.add_field(field, values, at="node")
+    grid.at_node[RELEASE][grid.boundary_nodes] = 0.0  # of the largest cells the rim of the body reaches one
     return grid
 
 

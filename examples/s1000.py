@@ -229,8 +229,8 @@ CSI: hits / (hits + misses + false alarms) over cells with |dz| above the thresh
 whole map, 0.2 m. Correlation: outside the source, over cells that changed by more than 0.2 m in either map.
 Run-out: every cell with |dz| > 0.2 m is projected on the observed path in plan; the farthest from the crown counts. \
 Left in the scar: release less net lowering inside the source.
-Not converged: from 1000 to 2000 to 4000 particles the volume lowered outside the source by Voellmy grew by 27 and by
-27 % when this was written, its CSI outside went from .46 to .52 to .54.
+Not converged: from 1000 to 2000 to 4000 particles the volume lowered outside the source by Voellmy grew by 15 and by
+19 % when this was written, its CSI outside went from .46 to .50 to .55.
 Peak memory is that of the process so far, Python and Landlab included. Differences below the noise mean nothing."""
 
 

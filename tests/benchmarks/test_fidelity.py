@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from benchmarks.fidelity import fit, replay, runs, score
+from benchmarks.fidelity import fit, presets, replay, runs, score
 from benchmarks.fidelity.campaign import SETS, campaign, runs_of
 from benchmarks.fidelity.generator import random_scene
 from benchmarks.fidelity.measure import measure, quantities
@@ -143,3 +143,14 @@ def test_replay_chooses_as_a_plan():
     for name, values in plan.runs.items():
         # five digits are kept
         assert {q: pytest.approx(values[q], rel=1e-4) for q in pilots[name]} == pilots[name]
+
+
+def test_presets_are_compared_with_standard_steps(capsys):
+    made = fake()
+    run = made["", presets.PARTICLES]
+    for word, cost in zip(presets.PRESETS, (0.5, 0.25), strict=True):
+        changed = {name: value * 1.03 for name, value in run.items() if name in replay.QUANTITIES}
+        made[word, presets.PARTICLES] = run | changed | {"seconds": cost * run["seconds"]}
+    presets.print_presets({"r1": made, "r2": {}}, ["r1", "r2"])
+    shown = capsys.readouterr().out
+    assert "1 scenes" in shown and "0.50" in shown and "0.25" in shown and "3.0 / 3.0 / 3.0" in shown

@@ -225,7 +225,7 @@ def test_a_call_that_fails_leaves_the_outputs_of_the_other_one(monkeypatch):
     before = copy_fields(grid)
     bodies, steps = first._simulation.state.bodies, iter(range(100))
     separate = bodies.separate
-    monkeypatch.setattr(bodies, "judge", lambda p, _: separate(p) if next(steps) < 5 else 1 / 0)
+    monkeypatch.setattr(bodies, "judge", lambda p, *_: separate(p) if next(steps) < 5 else 1 / 0)
     with pytest.raises(ZeroDivisionError):
         first.run_one_step(2.0)
     assert not changed_fields(grid, before)
