@@ -23,7 +23,7 @@ class ErrorLaw(NamedTuple):
     Attributes
     ----------
     factor : float
-        k, error that 95 % of scenes stay below, over the base of pilot runs [-].
+        k, error that 95 % of the fitted scenes stay below, over the base of pilot runs [-].
     least : float
         f, what is added to it [-].
     order : float

@@ -47,7 +47,7 @@ def error_base(runs: Runs, related: Collection[str]) -> float:
 
 
 def stated_errors(runs: Runs) -> dict[str, float]:
-    """Return the error of every quantity that 95 % of scenes stay below, of the largest number of particles [-].
+    """Return the error of every quantity, meant for 95 % of scenes, of the largest number of particles [-].
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ class Plan:
     rules : dict of str to tuple of str
         Choice and rule, in words: ``particles``, ``column``, ``steps``, ``phases``, ``raster``.
     errors : dict of str to float
-        Stated error by quantity, of particles, which 95 % of scenes stay below [-]; NaN where nothing can be measured.
+        Stated error by quantity, of particles, meant for 95 % of scenes [-]; NaN where nothing can be measured.
     raster_errors : dict of str to float
         The same, of the raster; empty if it was not examined [-].
     creep, creep_level : float

@@ -57,7 +57,7 @@ class Table:
         for name, words in self.rows:
             lines += _wrapped(name, words, width)
         if self.errors:
-            lines += _wrapped("errors", "of particles / of the raster; 95 % of scenes stay below", width)
+            lines += _wrapped("errors", "of particles / of the raster; meant for 95 % of scenes", width)
             longest = max(len(WORDS[name]) for name, *_ in self.errors)
             for name, particles, raster, verdict in self.errors:
                 numbers = f"{percent(particles):>9} / {percent(raster):<12}"
