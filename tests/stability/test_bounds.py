@@ -62,7 +62,7 @@ def test_at_its_bound(keyword, law, parameter, value):
     keywords = {"numerics": {"particle_count": 60}, keyword: values}
     if keyword == "numerics" and not parameter.startswith("particle"):
         keywords["numerics"] = {"particle_count": 60, **values}
-    if parameter in ("tolerance", "hold"):  # of a number that is to be found
+    if keyword == "numerics" and parameter in ("tolerance", "hold"):  # of a number that is to be found
         keywords["numerics"] = {"particle_count": "auto", **values}
         assert DebrisFlow(grid, **keywords).setup.numerics.automatic
         return
