@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from landlab_debrisflow.fidelity.table import WORDS
+
 from .campaign import FAST, FULL, PHYSICS_PARTICLES, SETS, TRUTH
-from .convergence import WORDS
 from .replay import QUANTITIES, complete, replay, true_errors
 from .score import HELD, LEAST, pairs
 

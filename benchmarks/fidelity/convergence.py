@@ -5,14 +5,10 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
+from landlab_debrisflow.fidelity.table import WORDS
+
 from .campaign import FULL, SETS
 from .replay import QUANTITIES, true_errors
-
-WORDS = {
-    "run_out": "run-out", "speed": "peak speed", "depth": "peak depth", "area": "affected area",
-    "eroded": "eroded volume", "pressure": "peak pressure ratio", "deposit": "mean deposit",
-}  # fmt: skip
-"""Quantities in words."""
 
 COUNTS = (500, 1000, 2000)
 """Particles of the runs that are compared, with default steps."""

@@ -1,4 +1,4 @@
-"""Measure a run: its quantities at the end and while it creeps, and what it cost."""
+"""Measure a run: its quantities at the end, and what it cost."""
 
 import importlib.util
 import logging
@@ -12,9 +12,6 @@ from .variations import vary
 
 QUANTITIES = Path(__file__).parents[2] / "landlab_debrisflow" / "fidelity" / "quantities.py"
 DIGITS = 5  # significant ones that are kept
-
-KEPT_OF_CREEP = ("run_out", "centre", "area", "eroded", "deposit", "duration")
-"""Quantities that are kept at the levels of creep: peaks do not change there."""
 
 
 def load_quantities():
@@ -56,7 +53,7 @@ def warm_up(make, variation: str) -> None:
 
 
 def measure(make, particles: int, variation: str = "") -> dict:
-    """Run a scene and return its quantities, those at the levels of creep, and its cost.
+    """Run a scene and return its quantities and its cost.
 
     Parameters
     ----------
@@ -68,8 +65,8 @@ def measure(make, particles: int, variation: str = "") -> dict:
     Returns
     -------
     dict
-        Quantities by name; "creep": quantities by level; "at_rest", "steps", "seconds" (CPU of the run), "made":
-        particles that were made, "outflow": volume that left over what there was [-].
+        Quantities by name; "at_rest", "steps", "seconds" (CPU of the run), "made": particles that were made,
+        "outflow": volume that left over what there was [-].
     """
     log = logging.getLogger("landlab_debrisflow")
     level = log.level
@@ -83,18 +80,14 @@ def measure(make, particles: int, variation: str = "") -> dict:
 def _measure(make, particles, variation) -> dict:
     warm_up(make, variation)
     scene = make()
-    decay = quantities.Decay()
-    flow, duration = build(scene, particles, variation, observers=(decay,))
+    flow, duration = build(scene, particles, variation)
+    origin = quantities.origin_of(flow.grid, flow.setup)
     began = time.process_time()
     rest = flow.run_until_rest(duration)
     seconds = time.process_time() - began
     budget = flow.budget
     whole = budget["released"] + budget["inflow"] + budget["eroded"]
-    return {name: rounded(value) for name, value in quantities.quantities(flow, decay.origin).items()} | {
-        "creep": {
-            f"{level:g}": {name: rounded(found[name]) for name in KEPT_OF_CREEP}
-            for level, found in decay.found.items()
-        },
+    return {name: rounded(value) for name, value in quantities.quantities(flow, origin).items()} | {
         "at_rest": bool(rest), "steps": flow.diagnostics.steps, "seconds": round(seconds, 3),
         "made": flow.particles.sizes["particle"], "outflow": rounded(budget["outflow"] / whole),
     }  # fmt: skip

@@ -4,7 +4,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from .convergence import WORDS
+from landlab_debrisflow.fidelity.table import WORDS
+
 from .replay import QUANTITIES, true_errors
 from .score import geometric_mean
 

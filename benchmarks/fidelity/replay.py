@@ -7,12 +7,11 @@ from typing import NamedTuple
 from landlab_debrisflow.fidelity.constants import FAST_TOLERANCE, MOST_PARTICLES, PILOTS, RASTER_COST, RASTER_PILOTS
 from landlab_debrisflow.fidelity.errors import count_asked, errors_after, errors_with, next_count, stated_errors
 from landlab_debrisflow.fidelity.raster import raster_errors
+from landlab_debrisflow.model.numerics import QUANTITIES
 
 from .campaign import FULL, TRUTH
 from .measure import quantities as measured
 from .runs import Run
-
-QUANTITIES = ("run_out", "speed", "depth", "area", "eroded", "pressure", "deposit")
 
 
 class Choice(NamedTuple):

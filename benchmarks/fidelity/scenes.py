@@ -97,6 +97,18 @@ def saturated_slip() -> Scene:
     return Scene(grid, {"friction": friction, "erosion": "none", "material": material}, 600.0)
 
 
+def wet_and_eroding(turbulent_coefficient, growth_rate, coefficient_of_consolidation, pressure_ratio) -> dict:
+    """Return keywords of a flow that erodes [m s-2, m-1, m2 s-1, -]; body and bed have the same pressure ratio."""
+    return {
+        "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": turbulent_coefficient},
+        "erosion": {"law": "growth", "growth_rate": growth_rate},
+        "material": {
+            "coefficient_of_consolidation": coefficient_of_consolidation, "initial_pressure_ratio": pressure_ratio,
+            "bed_pressure_ratio": pressure_ratio,
+        },
+    }  # fmt: skip
+
+
 def leaky() -> Scene:
     """3000 m3 in a rough valley, c_v 0.5 m2 s-1, erodible all along; nodes of 5 m, ended after 600 s."""
     grid = slope_grid(1600.0, 400.0, 5.0, (0.0, 500.0, 1100.0, 1600.0), (32.0, 26.0, 5.0, 5.0))
@@ -104,14 +116,7 @@ def leaky() -> Scene:
     roughen(grid, 0.4, 15.0, seed=1)
     lay_soil(grid, 2.0)
     release_cap(grid, 80.0, 0.0, (35.0, 16.0), 3000.0)
-    keywords = {
-        "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": 300.0},
-        "erosion": {"law": "growth", "growth_rate": 1e-3},
-        "material": {
-            "coefficient_of_consolidation": 0.5, "initial_pressure_ratio": 0.5, "bed_pressure_ratio": 0.5
-        },
-    }  # fmt: skip
-    return Scene(grid, keywords, 600.0)
+    return Scene(grid, wet_and_eroding(300.0, 1e-3, 0.5, 0.5), 600.0)
 
 
 def drained_reach() -> Scene:
@@ -122,14 +127,7 @@ def drained_reach() -> Scene:
     lay_soil(grid, 2.0, x < 480.0)
     grid.add_field("bed__drained", 1.0 * ((x >= 520.0) & (x < 640.0)), at="node")
     release_cap(grid, 90.0, 0.0, (40.0, 17.0), 4000.0)
-    keywords = {
-        "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": 400.0},
-        "erosion": {"law": "growth", "growth_rate": 2e-3},
-        "material": {
-            "coefficient_of_consolidation": 5e-3, "initial_pressure_ratio": 0.6, "bed_pressure_ratio": 0.6
-        },
-    }  # fmt: skip
-    return Scene(grid, keywords, 600.0)
+    return Scene(grid, wet_and_eroding(400.0, 2e-3, 5e-3, 0.6), 600.0)
 
 
 def alternating() -> Scene:
@@ -138,14 +136,7 @@ def alternating() -> Scene:
     cut_channel(grid, 80.0, 12.0)
     lay_soil(grid, 1.5, np.floor(grid.x_of_node / 150.0) % 2.0 == 0.0)
     release_cap(grid, 90.0, 0.0, (45.0, 26.0), 6000.0)
-    keywords = {
-        "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": 500.0},
-        "erosion": {"law": "growth", "growth_rate": 1e-3},
-        "material": {
-            "coefficient_of_consolidation": 1e-3, "initial_pressure_ratio": 0.5, "bed_pressure_ratio": 0.5
-        },
-    }  # fmt: skip
-    return Scene(grid, keywords, 600.0)
+    return Scene(grid, wet_and_eroding(500.0, 1e-3, 1e-3, 0.5), 600.0)
 
 
 def large_avalanche() -> Scene:
@@ -154,14 +145,7 @@ def large_avalanche() -> Scene:
     cut_channel(grid, 500.0, 90.0, end=2600.0, fade=800.0)
     lay_soil(grid, 8.0, grid.x_of_node < 3000.0)
     release_cap(grid, 350.0, 0.0, (190.0, 130.0), 1e6)
-    keywords = {
-        "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": 500.0},
-        "erosion": {"law": "growth", "growth_rate": 4e-4},
-        "material": {
-            "coefficient_of_consolidation": 1e-2, "initial_pressure_ratio": 0.4, "bed_pressure_ratio": 0.4
-        },
-    }  # fmt: skip
-    return Scene(grid, keywords, 600.0)
+    return Scene(grid, wet_and_eroding(500.0, 4e-4, 1e-2, 0.4), 600.0)
 
 
 NINE = {

@@ -146,7 +146,8 @@ def more_tables(scenes, names) -> list[Table]:
     known = [name for name in names if all(("", count) in scenes[name] for count in CLASSES)]
     needed = [min(class_needed(scenes[name]), 8000) for name in known]
     words = f"needed, default steps, 3 % of {', '.join(ALSO)} ({len(known)} scenes)"
-    chosen.add_row(words, *(f"{np.mean([one == count for one in needed]):.2f}" for count in CLASSES))
+    if known:
+        chosen.add_row(words, *(f"{np.mean([one == count for one in needed]):.2f}" for count in CLASSES))
     return [fixed, chosen]
 
 

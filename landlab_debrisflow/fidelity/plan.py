@@ -13,14 +13,14 @@ from ..scene.setup import Setup
 from .constants import ERROR_LAWS
 from .cost import Cost
 from .errors import stated_errors
-from .table import LEAST_CREEP, Table, percent
+from .table import LEAST_CREEP, Printed, Table, percent
 
 FORMAT = 1
 """Version of the mapping of a plan."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Plan:
+class Plan(Printed):
     """Particles, column and steps of a run, found by pilot runs; `DebrisFlow.plan` makes it, and it prints itself.
 
     Attributes
@@ -173,15 +173,6 @@ class Plan:
         return plan
 
     # ---- as text ----
-
-    def __str__(self) -> str:
-        return self._table().text()
-
-    def __repr__(self) -> str:
-        return str(self)
-
-    def _repr_html_(self) -> str:
-        return self._table().html()
 
     def _table(self) -> Table:
         names = ("particles", "column", "steps", "phases")

@@ -11,13 +11,13 @@ from .choices import column_words, steps_words
 from .constants import PILOTS
 from .errors import errors_after
 from .plan import Plan, error_rows
-from .table import Table
+from .table import Printed, Table
 
 NO_PLAN = "no plan: the error is not known; flow.plan(), before a run, tells it"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Report:
+class Report(Printed):
     """Particles, column and steps of a run, its cost, and its errors; printed as a table.
 
     Attributes
@@ -48,15 +48,6 @@ class Report:
     plan: Plan | None = None
     errors: Mapping[str, float] = dataclasses.field(default_factory=dict)
     source: str = NO_PLAN
-
-    def __str__(self) -> str:
-        return self._table().text()
-
-    def __repr__(self) -> str:
-        return str(self)
-
-    def _repr_html_(self) -> str:
-        return self._table().html()
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the report as plain values: numbers, words and mappings; an error that is not known is None.

@@ -117,3 +117,19 @@ def _wrapped(name: str, words: str, width: int) -> list[str]:
     indent = " " * (width + 4)
     lines = textwrap.wrap(f"  {name:{width}}  {joined}", WIDTH, subsequent_indent=indent, break_long_words=False)
     return [line.replace("\xa0", " ") for line in lines]
+
+
+class Printed:
+    """Base of what prints itself as a `Table`, which its method ``_table`` returns."""
+
+    def _table(self) -> Table:
+        raise AttributeError(f"{type(self).__name__} has no table")
+
+    def __str__(self) -> str:
+        return self._table().text()
+
+    def __repr__(self) -> str:
+        return str(self)
+
+    def _repr_html_(self) -> str:
+        return self._table().html()
