@@ -19,7 +19,7 @@ FORMAT = 1
 """Version of the mapping of a plan."""
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Plan(Printed):
     """Particles, column and steps of a run, found by pilot runs; `DebrisFlow.plan` makes it, and it prints itself.
 

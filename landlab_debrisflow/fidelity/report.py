@@ -16,7 +16,7 @@ from .table import Printed, Table
 NO_PLAN = "no plan: the error is not known; flow.plan(), before a run, tells it"
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Report(Printed):
     """Particles, column and steps of a run, its cost, and its errors; printed as a table.
 
