@@ -120,7 +120,7 @@ def _wrapped(name: str, words: str, width: int) -> list[str]:
 
 
 class Printed:
-    """Base of what prints itself as a `Table`, which its method ``_table`` returns; a dataclass needs ``repr=False``."""
+    """Base of what prints itself as a `Table`, which ``_table`` returns; a dataclass needs ``repr=False``."""
 
     def _table(self) -> Table:
         raise AttributeError(f"{type(self).__name__} has no table")

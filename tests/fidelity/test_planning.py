@@ -114,7 +114,7 @@ def test_an_adopted_plan_is_used_and_reported(planned):
     assert report.particles == 1000 and report.steps == planned.cost.steps and "the pilot runs" in report.source
     assert report.errors == planned.errors and report.seconds > 0.0
     assert report.to_mapping()["errors"]["run_out"] == planned.errors["run_out"]
-    assert "still moving at 1 s" in str(report) and "<table>" in report._repr_html_()
+    assert "still moving at 1 s" in str(report) == repr(report) and "<table>" in report._repr_html_()
     by_hand = flow_on(valley(), numerics=planned.numerics, column=planned.column)
     by_hand.run_until_rest(SHORT)
     assert all(np.array_equal(by_hand.grid.at_node[name], grid.at_node[name]) for name in fields(grid))
