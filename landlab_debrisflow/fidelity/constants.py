@@ -53,7 +53,7 @@ ERROR_LAWS = {
     ),
     "deposit": ErrorLaw(
         4.5, 0.004, 0.5, ("deposit", "centre", "eroded"),
-        reason="it hangs on the pore pressure left at the stop; run-out and eroded volume can be held",
+        reason="it depends on the pore pressure left at the stop; run-out and eroded volume can be held",
     ),
 }  # fmt: skip
 """By quantity, in the order of `QUANTITIES`. Related quantities are those whose bases covered the errors of the fitted
