@@ -57,6 +57,8 @@ def test_grid_flow_and_observers_are_left_alone(caplog):
     assert {name for name in before if not np.array_equal(before[name], grid.at_node[name])} == set()
     assert set(grid.at_node) == set(before) and np.array_equal(statuses, grid.status_at_node)
     assert flow.maps.drop_attrs().identical(maps.drop_attrs()) and flow.setup.numerics.particle_count == 60
+    told = [record.getMessage() for record in caplog.records if record.name.endswith(".progress")]
+    assert any("pilot run with 1000 particles" in words for words in told)
     assert (watching.counts, watching.calls) == ([60], 0)
     assert plan.particles == 1000 and plan.setup.numerics.particle_count == 1000
     untouched = flow_on(valley(), numerics={"particle_count": 60})
