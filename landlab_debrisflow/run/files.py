@@ -2,7 +2,8 @@
 
 from typing import Any
 
-RECORD, SCENE, MAPS, REPORT = "run.json", "scene.yaml", "maps.nc", "report.txt"
+RECORD, SCENE, BEFORE, MAPS, REPORT = "run.json", "scene.yaml", "before.nc", "maps.nc", "report.txt"
+PAGE = "report.html"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"
 SERIES_SUFFIX = {"netcdf": ".nc", "zarr": ".zarr"}

@@ -3,15 +3,43 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from ..geo.exposure import exposure, write_exposure
 from ..geo.geotiff import write_geotiffs
+from ..record.attributes import axis_attributes, file_attributes, variable_attributes
+from ..record.datasets import FIELDS
+from ..record.files import write_dataset
+from ..record.georeference import georeferenced
+from ..record.measures import RELEASE
 from ..record.written_maps import write_maps
 from ..scene.output_keys import ALWAYS
-from .files import MAPS
+from .files import BEFORE, MAPS
 
 EXPOSURE = "exposure"
+
+
+def write_before(folder: Path, scene: Any) -> None:
+    """Write the ground before the event and the depth [m] of all releases into a directory.
+
+    With them `measures` and sections of the maps have a beginning: the names of the variables are those of the maps.
+
+    Parameters
+    ----------
+    folder : Path
+    scene : Scene
+    """
+    released = sum((one.depth for one in scene.releases), np.zeros(scene.lattice.shape))
+    ground = scene.terrain.drop_vars("closed", errors="ignore").assign({RELEASE: (("y", "x"), released)})
+    known = {name: data.assign_attrs(_words(name)) for name, data in ground.items() if name in FIELDS}
+    before = xr.Dataset(known, {axis: (axis, ground[axis].values, axis_attributes(axis)) for axis in ("y", "x")})
+    before.attrs = file_attributes() | {"scene_digest": scene.digest()}
+    write_dataset(folder / BEFORE, georeferenced(before, scene.lattice.crs))
+
+
+def _words(name: str) -> dict[str, str]:
+    return variable_attributes(FIELDS[name].unit, FIELDS[name].doc)
 
 
 def write_results(folder: Path, maps: xr.Dataset, scene: Any) -> None:

@@ -78,8 +78,46 @@ class Results:
         """
         if not (self.directory / MAPS).is_file():
             raise InputError(f"{self.directory} holds no maps: the run is {self.record.state}; resume it first")
-        with xr.open_dataset(self.directory / MAPS, decode_coords="all") as maps:
-            return maps.load()
+        return self.dataset("maps")
+
+    @property
+    def before(self) -> xr.Dataset:
+        """Ground before the event and depth of all releases, read from their file.
+
+        Raises
+        ------
+        InputError
+            If there is no such file: earlier versions wrote none.
+        """
+        return self.dataset("before")
+
+    def dataset(self, name: str) -> xr.Dataset:
+        """Return one of the files of the results, whole.
+
+        Parameters
+        ----------
+        name : str
+            Name of a NetCDF file without its ending, such as ``gauges``.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        InputError
+            If it is not there or cannot be read.
+        """
+        path = self.directory / f"{name}.nc"
+        if not path.is_file():
+            raise InputError(f"{self.directory} holds no {path.name}: the run did not write it")
+        try:
+            with xr.open_dataset(path, engine="netcdf4", decode_coords="all", decode_timedelta=False) as data:
+                return data.load()
+        except (OSError, RuntimeError, ValueError) as error:
+            raise InputError(
+                f"cannot read {path}: {error}; the file is damaged, run the scene anew with --overwrite"
+            ) from error
 
     @property
     def report(self) -> str:

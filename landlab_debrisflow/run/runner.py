@@ -13,14 +13,17 @@ from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
 from ..fidelity.plan import Plan
+from ..fidelity.report import Report
 from ..record.monitor import COMPILING, Monitor
 from ..scene.releases import advance
 from .advance import check_mass
 from .directory import OutputDirectory
+from .environment import environment
 from .files import RECORD, REPORT, SCENE
-from .maps import write_results
+from .maps import write_before, write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
+from .remarks import noted_warnings, remarks
 from .results import Results
 
 log = logging.getLogger("landlab_debrisflow")
@@ -149,11 +152,11 @@ def _compute(
     flow = None
     try:
         monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
-        directory.note(state=RUNNING)
-        if scene.text is not None:
-            directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
+        directory.remove_page()
+        directory.note(state=RUNNING, environment=environment(), **remarks(scene))
+        directory.publish(lambda folder: _write_input(folder, scene))
         observers = Observers(scene, directory)
-        with compilations(lambda: monitor.say(COMPILING)):
+        with compilations(lambda: monitor.say(COMPILING)), noted_warnings(directory):
             flow = build(observers=[monitor, *observers.all])
             advance(flow, scene.releases, scene.output_keys.max_duration)
         monitor.finish()
@@ -162,7 +165,7 @@ def _compute(
             flow.save(directory.checkpoint)
         directory.note(
             state=FINISHED, reason="", elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget,
-            steps=flow.diagnostics.steps,
+            steps=flow.diagnostics.steps, statement=_statement(flow).to_mapping() if scene.adopted_plan else None,
         )  # fmt: skip
     except BaseException as failure:
         monitor.finish()
@@ -189,9 +192,18 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
         failure.add_note("there was no checkpoint yet: landlab-debrisflow run begins anew")
 
 
+def _write_input(folder: Path, scene: Any) -> None:
+    write_before(folder, scene)
+    if scene.text is not None:
+        (folder / SCENE).write_text(scene.text, encoding="utf-8")
+
+
 def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
     write_results(folder, flow.maps, scene)
     observers.write(folder)
     if scene.adopted_plan is not None:
-        report = dataclasses.replace(flow.report(), seconds=math.nan)  # of another run it would be another time
-        (folder / REPORT).write_text(f"{report}\n", encoding="utf-8")
+        (folder / REPORT).write_text(f"{_statement(flow)}\n", encoding="utf-8")
+
+
+def _statement(flow: DebrisFlow) -> Report:
+    return dataclasses.replace(flow.report(), seconds=math.nan)  # of another run it would be another time
