@@ -10,8 +10,8 @@ from ..core.version import __version__
 from ..core.words import printable
 from ..run.record import RunRecord
 from ..run.results import Results
-from . import cautions
 from .blocks import Block, Section, Sentences, Table, Verbatim
+from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
 from .errors import error_blocks
 from .inputs import input_blocks
@@ -49,6 +49,10 @@ class Content:
     sections: list[Section]
     made: str
 
+    def __post_init__(self) -> None:
+        for name in ("title", "state", "alert", "made"):
+            object.__setattr__(self, name, printable(getattr(self, name)))
+
 
 def gather_content(results: Results) -> Content:
     """Gather the content of the report of a run.
@@ -67,12 +71,12 @@ def gather_content(results: Results) -> Content:
         If a file of the run is damaged.
     """
     record = results.record
-    state, alert = state_of(record)
+    state, alert = state_of(results)
     maps = results.maps if results.finished else None
     exposure = exposed(results) if results.finished else None
     summary = [] if maps is None else summary_of(record, outcome_of(results, maps), exposure)
     return Content(
-        title=printable(scene_name(results)), state=state, alert=printable(alert), summary=Sentences(summary),
+        title=scene_name(results), state=state, alert=alert, summary=Sentences(summary),
         sections=list(_sections(results, maps, exposure)), made=_made(),
     )  # fmt: skip
 
@@ -89,7 +93,7 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     if maps is not None:
         yield Section("errors", "How sure this is", [*error_blocks(results), Sentences([BEYOND])])
     yield Section("cautions", "What was not modelled, and what to distrust", [
-        Sentences([cautions.NOT_MODELLED]), Sentences(cautions.DISTRUST, listed=True),
+        Sentences([NOT_MODELLED]), Sentences(DISTRUST, listed=True),
     ])  # fmt: skip
     yield Section("remarks", "What was odd", list(_remarks(record)))
     if maps is not None:

@@ -4,8 +4,11 @@ from ..fidelity.quantities import UNITS
 from ..fidelity.table import WORDS, percent
 from ..run.results import Results
 from .blocks import Block, Sentences, Table, Verbatim
-from .summary import UNPLANNED
 
+UNPLANNED = (
+    "How large the errors of these numbers are has not been stated: the number of particles was given and not planned "
+    "(numerics: particle_count: auto states them)."
+)
 MEANT = (
     "Each error is meant to hold in 95 % of scenes. That of particles falls with their number, that of the raster with "
     "a finer terrain."
@@ -33,4 +36,8 @@ def error_blocks(results: Results) -> list[Block]:
         for name, error in errors.items() if name in UNITS
     ]  # fmt: skip
     head = ("quantity", "of particles", "of the raster")
-    return [Table(caption="Stated errors", head=head, rows=rows, numbers=(1, 2)), Sentences([MEANT])]
+    return [
+        Table(caption="Stated errors", head=head, rows=rows, numbers=(1, 2)),
+        Sentences([MEANT]),
+        Verbatim(results.report),
+    ]

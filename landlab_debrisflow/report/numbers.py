@@ -17,9 +17,10 @@ def rounded(value: float, unit: str = "", digits: int = 3) -> str:
     """
     if not math.isfinite(value):
         return f"not{SPACE}known"
+    value = float(f"{value:.12g}")  # 1125 is 1125, also as a sum that is 1e-13 less
     if abs(value) >= 10.0 ** (digits - 1):
         scale = 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits)
-        words = grouped(round(value / scale) * scale)
+        words = grouped(math.copysign(math.floor(abs(value) / scale + 0.5), value) * scale)
     else:
         words = f"{value:.{digits}g}"
     return f"{words} {unit}".strip().replace(" ", SPACE)

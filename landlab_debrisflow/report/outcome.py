@@ -90,7 +90,10 @@ def _distance_from_inflow(maps: xr.Dataset) -> Callable | None:
     """Return the function of the plan distance [m] from the middle of the inflow; None without inflow."""
     try:
         lines = json.loads(maps.attrs["setup"])["inflow"]
-        x0, y0 = np.mean([line[end] for line in lines for end in ("line_start", "line_end")], axis=0)
+        ends = [line[end] for line in lines for end in ("line_start", "line_end")]
     except (KeyError, ValueError, TypeError):
         return None
+    if not ends:
+        return None
+    x0, y0 = np.mean(ends, axis=0)
     return lambda x, y: np.hypot(x - x0, y - y0)

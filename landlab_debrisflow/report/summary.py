@@ -5,15 +5,13 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
+from ..core.errors import InputError
+from ..fidelity.table import WORDS, percent
 from ..run.record import FAILED, INTERRUPTED, RunRecord
 from ..run.results import Results
 from .numbers import area, duration, rounded, volume
 from .outcome import AFFECTED, Outcome
 
-UNPLANNED = (
-    "How large the errors of these numbers are has not been stated: the number of particles was given and not planned "
-    "(numerics: particle_count: auto states them)."
-)
 BEYOND = (
     "Errors of the parameters and of the terrain come on top, and are larger as a rule: see the five things to "
     "distrust. A computation is no observation."
@@ -40,12 +38,16 @@ class Exposed(NamedTuple):
 
 
 def exposed(results: Results) -> Exposed | None:
-    """Return the table of exposed polygons; None if the scene has none."""
+    """Return the table of exposed polygons; None if the scene has none; a damaged table raises an InputError."""
     path = results.directory / "exposure.csv"
     if not path.is_file():
         return None
     with Path(path).open(encoding="utf-8", newline="") as file:
-        head, *rows = csv.reader(file)
+        head, *rows = list(csv.reader(file)) or [[]]
+    if "id" not in head:
+        raise InputError(
+            f"{path} is no table of exposed polygons; the file is damaged, run the scene anew with --overwrite"
+        )
     return Exposed(head, [row for row in rows if len(row) == len(head)])
 
 
@@ -62,7 +64,7 @@ def summary_of(record: RunRecord, outcome: Outcome, exposure: Exposed | None) ->
     -------
     list of str
     """
-    found = [*_volumes(record.budget), *_way(outcome)]
+    found = [*_volumes(record), *_way(outcome)]
     found.append(
         f"It was at most {rounded(outcome.max_depth, 'm')} deep and {rounded(outcome.max_speed, 'm/s')} "
         f"({rounded(3.6 * outcome.max_speed, 'km/h')}) fast, and covered {area(outcome.affected_area)} with "
@@ -75,28 +77,32 @@ def summary_of(record: RunRecord, outcome: Outcome, exposure: Exposed | None) ->
             f"It was still moving when the computation ended after {duration(record.elapsed_time)}: run-out, area and "
             "volumes are not final."
         )
-    return [*found, *_exposure(exposure)]
+    return [*found, *_exposure(exposure), *_certainty(record)]
 
 
-def state_of(record: RunRecord) -> tuple[str, str]:
-    """Return the state of a run as a heading, and the sentence for one that has not come to its end, or nothing."""
-    if record.state == "finished":
+def state_of(results: Results) -> tuple[str, str]:
+    """Return the state of a run as a heading, and sentences on a run that has not come to its end, or nothing."""
+    record = results.record
+    if results.finished:
         return ("At rest" if record.at_rest else "Still moving at its end"), ""
     how = {INTERRUPTED: "was interrupted", FAILED: "failed"}.get(
         record.state, "is still running, or was ended from outside"
     )
     time = f" at {record.elapsed_time:.6g} s" if record.elapsed_time else ""
     reason = f" The reason: {record.reason}." if record.reason and record.state == FAILED else ""
+    command = "resume goes on with it" if results.checkpoints else "run --overwrite begins it anew"
     return "Not finished", (
-        f"This run {how}{time}. There are no results yet: below is what it was given.{reason} landlab-debrisflow "
-        "resume goes on with it."
+        f"This run {how}{time}.{reason} There are no results yet: below is what it was given. landlab-debrisflow "
+        f"{command}."
     )
 
 
-def _volumes(budget: dict[str, float]) -> list[str]:
+def _volumes(record: RunRecord) -> list[str]:
+    budget, releases = record.budget, record.scene.get("release") or []
+    failed = all(isinstance(one, dict) and one.get("from", "ground") == "ground" for one in releases)
     came = [
         f"{volume(budget[name])} {words}"
-        for name, words in (("released", "of ground failed or was released"), ("inflow", "flowed in"))
+        for name, words in (("released", "of ground failed" if failed else "was released"), ("inflow", "flowed in"))
         if budget.get(name, 0.0) > 0.0
     ]
     eroded = budget.get("eroded", 0.0)
@@ -109,7 +115,8 @@ def _volumes(budget: dict[str, float]) -> list[str]:
             ("outflow", "left the map over its edge, where the computation ends"),
         ) if budget.get(name, 0.0) > 0.0
     ]  # fmt: skip
-    return [*found, f"In the end {_joined(went)}."] if went else found
+    when = "In the end" if record.at_rest else "When the computation ended"
+    return [*found, f"{when} {_joined(went)}."] if went else found
 
 
 def _way(outcome: Outcome) -> list[str]:
@@ -123,6 +130,30 @@ def _way(outcome: Outcome) -> list[str]:
             f"{rounded(outcome.travel_angle, '°', 2)})"
         )
     return [f"{words}; 99 % of what lies there is nearer."]
+
+
+IN_SUMMARY = ("run_out", "speed", "depth", "area", "eroded")
+"""Quantities whose stated errors are in the summary."""
+
+
+def _certainty(record: RunRecord) -> list[str]:
+    if record.statement is None:
+        return ["No errors were stated for these numbers."]
+    errors, raster = record.statement.get("errors") or {}, record.statement.get("raster_errors") or {}
+    words = [
+        f"{WORDS[name]} {percent(errors[name])} and {percent(raster.get(name))}"
+        for name in IN_SUMMARY if errors.get(name) is not None
+    ]  # fmt: skip
+    unknown = [WORDS[name] for name in IN_SUMMARY if name in errors and errors[name] is None]
+    found = []
+    if words:
+        found.append(
+            "The number of particles and the raster of the terrain are meant to change these numbers, in 95 % of "
+            f"scenes, by no more than: {'; '.join(words)}."
+        )
+    if unknown:
+        found.append(f"The error of {_joined(unknown)} is not known.")
+    return found
 
 
 def _exposure(exposure: Exposed | None) -> list[str]:

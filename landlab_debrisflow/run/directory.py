@@ -71,7 +71,7 @@ class OutputDirectory:
     @property
     def checkpoints(self) -> list[Path]:
         """Checkpoints that are there, the latest first."""
-        return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
+        return checkpoints_in(self.path)
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
         """Begin a run here: refuse to lose results, remove them if they may go, write its record.
@@ -212,6 +212,12 @@ class OutputDirectory:
                 if (parent := (self.path / name).parent) != self.path:
                     parent.rmdir()
         (self.path / RECORD).unlink(missing_ok=True)
+
+
+def checkpoints_in(directory: Path) -> list[Path]:
+    """Return the checkpoints in a directory of results, the latest first."""
+    latest = directory / CHECKPOINT
+    return [path for path in (latest, previous_path(latest)) if path.is_file()]
 
 
 def listed(words: list[str], most: int = 3) -> str:

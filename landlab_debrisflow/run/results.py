@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..core.words import grouped
+from .directory import checkpoints_in
 from .files import MAPS, RECORD, REPORT
 from .record import FINISHED, RunRecord
 
@@ -63,6 +64,11 @@ class Results:
         return self.record.budget
 
     @property
+    def checkpoints(self) -> list[Path]:
+        """Checkpoints from which a run can go on, the latest first."""
+        return checkpoints_in(self.directory)
+
+    @property
     def files(self) -> list[Path]:
         """Files of the results."""
         return sorted(path for name in self.record.results for path in self.directory.glob(name))
@@ -76,7 +82,7 @@ class Results:
         InputError
             If the run was not finished.
         """
-        if not (self.directory / MAPS).is_file():
+        if not self.finished and not (self.directory / MAPS).is_file():
             raise InputError(f"{self.directory} holds no maps: the run is {self.record.state}; resume it first")
         return self.dataset("maps")
 
@@ -110,7 +116,10 @@ class Results:
         """
         path = self.directory / f"{name}.nc"
         if not path.is_file():
-            raise InputError(f"{self.directory} holds no {path.name}: the run did not write it")
+            raise InputError(
+                f"{self.directory} holds no {path.name}: the run did not write it, or it was removed; run the scene "
+                "anew with --overwrite"
+            )
         try:
             with xr.open_dataset(path, engine="netcdf4", decode_coords="all", decode_timedelta=False) as data:
                 return data.load()
