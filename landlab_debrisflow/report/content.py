@@ -16,7 +16,7 @@ from .citation import SENTENCE, bibtex
 from .errors import error_blocks
 from .inputs import input_blocks
 from .ledger import ledger_blocks
-from .outcome import before_of, outcome_of
+from .outcome import outcome_of
 from .parameters import law_blocks, scene_blocks
 from .pictures import map_pictures
 from .summary import BEYOND, Exposed, exposed, state_of, summary_of
@@ -89,7 +89,7 @@ def scene_name(results: Results) -> str:
 
 
 def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | None) -> Iterator[Section]:
-    record, before = results.record, before_of(results)
+    record = results.record
     if maps is not None:
         yield Section("errors", "How sure this is", [*error_blocks(results), Sentences([BEYOND])])
     yield Section("cautions", "What was not modelled, and what to distrust", [
@@ -101,8 +101,7 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
         if exposure is not None:
             yield Section("exposure", "Exposed polygons", [_exposure_table(exposure)])
         yield Section("volumes", "Volumes", ledger_blocks(record.budget))
-    ground = before if before is not None else maps
-    yield Section("input", "Input", input_blocks(record, ground, {} if maps is None else maps.attrs))
+    yield Section("input", "Input", input_blocks(record, maps))
     yield Section("scene", "The scene as it was given", scene_blocks(record))
     yield Section("parameters", "Laws and parameters", law_blocks(record, maps))
     yield Section("provenance", "How this was made", list(_provenance(record)))

@@ -1,4 +1,4 @@
-"""Input of a run for its report: terrain, extent, soil, release, files with checksums."""
+"""Input of a run for its report: terrain, extent, release, files with checksums."""
 
 import re
 
@@ -6,35 +6,33 @@ import numpy as np
 import xarray as xr
 
 from ..record.georeference import crs_of
-from ..record.measures import ELEVATION, RELEASE
+from ..record.measures import ELEVATION
+from ..record.written_maps import ELEVATION_BEFORE, RELEASED_DEPTH
 from ..run.record import RunRecord
 from .blocks import Block, Sentences, Table
 from .numbers import area, rounded, volume
 
-SOIL = "soil__depth"
 UNKNOWN_CRS = "not known; coordinates are metres"
 
 
-def input_blocks(record: RunRecord, ground: xr.Dataset | None, attributes: dict) -> list[Block]:
+def input_blocks(record: RunRecord, maps: xr.Dataset | None) -> list[Block]:
     """Return tables of terrain, release and files.
 
     Parameters
     ----------
     record : RunRecord
-    ground : xarray.Dataset or None
-        Ground before the event, or else the maps of the end.
-    attributes : dict
-        Of the maps: name and checksum of the DEM.
+    maps : xarray.Dataset or None
+        Maps of the end; None of a run that has not come to it.
 
     Returns
     -------
     list of Block
     """
     blocks: list[Block] = []
-    if ground is not None:
-        blocks.append(Table(caption="Terrain", rows=_terrain_rows(record, ground, attributes)))
-    if ground is not None and RELEASE in ground and bool((ground[RELEASE] > 0.0).any()):
-        blocks.append(Table(caption="Release", rows=_release_rows(record, ground)))
+    if maps is not None:
+        blocks.append(Table(caption="Terrain", rows=_terrain_rows(record, maps)))
+        if RELEASED_DEPTH in maps and bool((maps[RELEASED_DEPTH] > 0.0).any()):
+            blocks.append(Table(caption="Release", rows=_release_rows(maps)))
     if record.inputs:
         rows = list(record.inputs.items())
         blocks.append(Table(caption="Files that the scene names", head=("file", "SHA-256"), rows=rows))
@@ -43,16 +41,16 @@ def input_blocks(record: RunRecord, ground: xr.Dataset | None, attributes: dict)
     return blocks
 
 
-def _terrain_rows(record: RunRecord, ground: xr.Dataset, attributes: dict) -> list[tuple[str, str]]:
-    x, y, z = ground.x.values, ground.y.values, ground[ELEVATION].values
+def _terrain_rows(record: RunRecord, maps: xr.Dataset) -> list[tuple[str, str]]:
+    x, y, z = maps.x.values, maps.y.values, _ground(maps)
     dx, dy = (x[-1] - x[0]) / (x.size - 1), (y[-1] - y[0]) / (y.size - 1)
     known = np.isfinite(z)
     spacing = rounded(dx, "m", 4) if np.isclose(dx, dy) else f"{rounded(dx, 'm', 4)} × {rounded(dy, 'm', 4)}"
     terrain = record.scene.get("terrain") or {}
-    dem = attributes.get("dem") or terrain.get("elevation") or f"built-in example: {terrain.get('example')}"
+    dem = maps.attrs.get("dem") or terrain.get("elevation") or f"built-in example: {terrain.get('example')}"
     rows = [
         ("elevation from", str(dem)),
-        ("coordinate reference system", crs_label(crs_of(ground))),
+        ("coordinate reference system", crs_label(crs_of(maps))),
         ("grid", f"{y.size} rows × {x.size} columns of nodes, {spacing} apart; {area(x.size * y.size * dx * dy)}"),
         (
             "extent",
@@ -62,9 +60,8 @@ def _terrain_rows(record: RunRecord, ground: xr.Dataset, attributes: dict) -> li
     ]
     if not known.all():
         rows.append(("without data", f"{np.count_nonzero(~known)} nodes, closed"))
-    if attributes.get("dem_sha256"):
-        rows.insert(1, ("its SHA-256", str(attributes["dem_sha256"])))
-    rows.append(("erodible soil", _soil_words(ground)))
+    if maps.attrs.get("dem_sha256"):
+        rows.insert(1, ("its SHA-256", str(maps.attrs["dem_sha256"])))
     edits = terrain.get("edits") or []
     if edits:
         kinds = [next((key for key in one if key in EDITS), "edit") for one in edits]
@@ -75,29 +72,24 @@ def _terrain_rows(record: RunRecord, ground: xr.Dataset, attributes: dict) -> li
 EDITS = ("dam", "wall", "excavation", "buildings")
 
 
-def _soil_words(ground: xr.Dataset) -> str:
-    if SOIL not in ground:
-        return "none"
-    soil = ground[SOIL].values
-    least, most = np.nanmin(soil), np.nanmax(soil)
-    return f"{most:.3g} m deep" if least == most else f"{least:.3g} to {most:.3g} m deep"
-
-
-def _release_rows(record: RunRecord, ground: xr.Dataset) -> list[tuple[str, str]]:
-    depth, x, y = ground[RELEASE].fillna(0.0).values, ground.x.values, ground.y.values
+def _release_rows(maps: xr.Dataset) -> list[tuple[str, str]]:
+    depth, x, y = maps[RELEASED_DEPTH].fillna(0.0).values, maps.x.values, maps.y.values
     cell = abs((x[1] - x[0]) * (y[1] - y[0]))
-    centre = [
-        np.average(axis, weights=depth)
-        for axis in (np.broadcast_to(x, depth.shape), np.repeat(y, x.size).reshape(depth.shape))
-    ]
-    z = ground[ELEVATION].values[depth > 0.0]
+    east, north = np.meshgrid(x, y)
+    centre = [np.average(axis, weights=depth) for axis in (east, north)]
+    z = _ground(maps)[depth > 0.0]
     return [
         ("volume", volume(float(depth.sum() * cell))),
         ("area", f"{area(float((depth > 0.0).sum() * cell))}, {np.count_nonzero(depth > 0.0)} nodes"),
         ("depth", f"{rounded(depth.max(), 'm')} at most, {rounded(depth[depth > 0.0].mean(), 'm')} in the mean"),
-        ("centre", f"x {centre[0]:.10g} m, y {centre[1]:.10g} m"),
+        ("centre", f"x {centre[0]:.1f} m, y {centre[1]:.1f} m"),
         ("elevation", f"{np.nanmin(z):.1f} to {np.nanmax(z):.1f} m"),
     ]
+
+
+def _ground(maps: xr.Dataset) -> np.ndarray:
+    """Return the elevation before the event, or after it if the maps do not hold it [m], shape (rows, columns)."""
+    return maps[ELEVATION_BEFORE if ELEVATION_BEFORE in maps else ELEVATION].values
 
 
 def crs_label(wkt: str | None) -> str:

@@ -8,7 +8,6 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from ..core.errors import InputError
 from ..record.measures import RELEASE, measures
 from ..run.results import Results
 
@@ -58,7 +57,7 @@ def outcome_of(results: Results, maps: xr.Dataset) -> Outcome:
     -------
     Outcome
     """
-    before = before_of(results)
+    before = results.before
     lies = maps.debris_flow__deposit_depth.fillna(0.0) + maps.debris_flow__depth.fillna(0.0)
     whole = maps.assign(debris_flow__deposit_depth=lies)  # what still moves has come as far
     released = before is not None and bool((before[RELEASE] > 0.0).any())
@@ -74,16 +73,6 @@ def outcome_of(results: Results, maps: xr.Dataset) -> Outcome:
         max_eroded_depth=number("max_eroded_depth"), max_deposit_depth=deposit, run_out=number("run_out"),
         fall_height=number("fall_height"), travel_angle=number("travel_angle"),
     )  # fmt: skip
-
-
-def before_of(results: Results) -> xr.Dataset | None:
-    """Return ground and release before the event; None if the run was made by a version that did not write them."""
-    try:
-        return results.before
-    except InputError:
-        if (results.directory / "before.nc").exists():
-            raise
-        return None
 
 
 def _distance_from_inflow(maps: xr.Dataset) -> Callable | None:

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-RECORD, SCENE, BEFORE, MAPS, REPORT = "run.json", "scene.yaml", "before.nc", "maps.nc", "report.txt"
+RECORD, SCENE, MAPS, REPORT = "run.json", "scene.yaml", "maps.nc", "report.txt"
 PAGE = "report.html"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"

@@ -8,6 +8,8 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..core.words import grouped
+from ..record.measures import ELEVATION, RELEASE
+from ..record.written_maps import ELEVATION_BEFORE, RELEASED_DEPTH
 from .directory import checkpoints_in
 from .files import MAPS, RECORD, REPORT
 from .record import FINISHED, RunRecord
@@ -87,15 +89,12 @@ class Results:
         return self.dataset("maps")
 
     @property
-    def before(self) -> xr.Dataset:
-        """Ground before the event and depth of all releases, read from their file.
-
-        Raises
-        ------
-        InputError
-            If there is no such file: earlier versions wrote none.
-        """
-        return self.dataset("before")
+    def before(self) -> xr.Dataset | None:
+        """Ground before the event and depth of all releases, as `measures` takes them; None if not written."""
+        maps = self.maps
+        if ELEVATION_BEFORE not in maps:
+            return None
+        return maps[[ELEVATION_BEFORE, RELEASED_DEPTH]].rename({ELEVATION_BEFORE: ELEVATION, RELEASED_DEPTH: RELEASE})
 
     def dataset(self, name: str) -> xr.Dataset:
         """Return one of the files of the results, whole.

@@ -20,7 +20,7 @@ from .advance import check_mass
 from .directory import OutputDirectory
 from .environment import environment
 from .files import RECORD, REPORT, SCENE
-from .maps import write_before, write_results
+from .maps import write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
 from .remarks import noted_warnings, remarks
@@ -154,7 +154,8 @@ def _compute(
         monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
         directory.remove_page()
         directory.note(state=RUNNING, environment=environment(), **remarks(scene))
-        directory.publish(lambda folder: _write_input(folder, scene))
+        if scene.text is not None:
+            directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)
         with compilations(lambda: monitor.say(COMPILING)), noted_warnings(directory):
             flow = build(observers=[monitor, *observers.all])
@@ -190,12 +191,6 @@ def _note_failure(directory: OutputDirectory, failure: BaseException, time: floa
         failure.add_note(f"a checkpoint is kept: landlab-debrisflow resume {directory.path} goes on from there")
     else:
         failure.add_note("there was no checkpoint yet: landlab-debrisflow run begins anew")
-
-
-def _write_input(folder: Path, scene: Any) -> None:
-    write_before(folder, scene)
-    if scene.text is not None:
-        (folder / SCENE).write_text(scene.text, encoding="utf-8")
 
 
 def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> None:
