@@ -25,6 +25,7 @@ def rendered(text):
     return render_page(
         Content(
             title=text,
+            kind=text,
             state=text,
             alert=text,
             summary=Sentences([text]),
