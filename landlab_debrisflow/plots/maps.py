@@ -137,7 +137,7 @@ def draw_shown(
     limits, contours, shapes
         As of `draw_map`.
     """
-    norm, scale = shown.norm(), shown.quantity.scale
+    norm, scale = shown.norm(region), shown.quantity.scale
     if limits is not None:
         norm.vmin, norm.vmax = checked_limits(limits, isinstance(norm, LogNorm))
     colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, "plain"))

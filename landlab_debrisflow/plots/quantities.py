@@ -91,9 +91,11 @@ class ShownMap(NamedTuple):
     values: xr.DataArray
     quantity: Quantity
 
-    def norm(self) -> Normalize:
-        """Return the scale of the colours."""
+    def norm(self, scar: xr.DataArray | None = None) -> Normalize:
+        """Return the scale of the colours; that of a change is for what lies outside of a scar, if anything does."""
         values, scale = [self.values.values], self.quantity.scale
+        if self.name == CHANGE and scar is not None and np.isfinite(beyond := np.where(scar, np.nan, values[0])).any():
+            values = [beyond]
         if scale == LOGARITHMIC:
             return log_norm(values)
         norm = linear_norm(values, diverging=scale == DIVERGING, from_zero=scale not in (TIME, "plain"))
