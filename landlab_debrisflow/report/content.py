@@ -17,9 +17,10 @@ from .errors import error_blocks
 from .exposure import Exposed, exposed, exposure_table
 from .inputs import input_blocks
 from .ledger import ledger_blocks
+from .moving import moving_pictures
 from .outcome import outcome_of
 from .parameters import law_blocks, scene_blocks
-from .pictures import map_pictures, section_pictures, series_pictures
+from .pictures import column_pictures, map_pictures, section_pictures, series_pictures, volume_pictures
 from .summary import BEYOND, state_of, summary_of
 
 NOT_KEPT = "The version that made the run did not keep these."
@@ -102,18 +103,20 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     ])  # fmt: skip
     yield Section("remarks", "What was odd", list(_remarks(record)))
     if maps is not None:
-        yield Section("maps", "Maps", list(map_pictures(results, maps)))
+        yield Section("maps", "Maps", [*map_pictures(results, maps), *moving_pictures(results, maps)])
         if sections := list(section_pictures(results, maps)):
             yield Section("sections", "Along the flow", sections)
         if series := list(series_pictures(results)):
             yield Section("series", "At sections and gauges", series)
+        if columns := list(column_pictures(results)):
+            yield Section("columns", "Pore pressure in a column", columns)
         if exposure is not None:
             yield Section("exposure", "Exposed polygons", [exposure_table(exposure)])
-        yield Section("volumes", "Volumes", ledger_blocks(record.budget))
+        yield Section("volumes", "Volumes", [*ledger_blocks(record.budget), *volume_pictures(results)])
     yield Section("input", "Input", input_blocks(record, maps))
     yield Section("scene", "The scene as it was given", scene_blocks(record))
     yield Section("parameters", "Laws and parameters", law_blocks(record, maps))
-    yield Section("provenance", "How this was made", list(_provenance(record)))
+    yield Section("provenance", "How this was made", list(_provenance(results)))
     yield Section("citation", "Citation", [Sentences([SENTENCE]), Verbatim(bibtex(record.version, _year(record)))])
 
 
@@ -132,7 +135,8 @@ def _remarks(record: RunRecord) -> Iterator[Block]:
             yield Sentences([f"{heading}: none."])
 
 
-def _provenance(record: RunRecord) -> Iterator[Block]:
+def _provenance(results: Results) -> Iterator[Block]:
+    record = results.record
     rows = [
         ("package", f"landlab_debrisflow {record.version}"), ("started", record.started),
         ("digest of the scene and its files", record.digest), ("time steps", str(record.steps)),
@@ -149,6 +153,8 @@ def _provenance(record: RunRecord) -> Iterator[Block]:
         ("libraries", ", ".join(f"{name} {version}" for name, version in libraries.items())),
     ]
     yield Table(caption="The run", rows=rows)
+    if record.statement is not None and results.report:
+        yield Verbatim(results.report)
 
 
 def _made() -> str:

@@ -8,7 +8,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..plots import draw_gauges, draw_hydrographs, draw_map, draw_section, draw_time_distance
+from ..plots import (
+    draw_column,
+    draw_gauges,
+    draw_hydrographs,
+    draw_map,
+    draw_section,
+    draw_time_distance,
+    draw_volumes,
+)
 from ..run.results import Results
 from .blocks import Picture
 from .numbers import rounded
@@ -75,6 +83,27 @@ def series_pictures(results: Results) -> Iterator[Picture]:
     if "gauges" in found:
         words = "Depth, speed and excess pore pressure at the base, at the gauges of the scene, against time."
         yield picture(draw_gauges(results.dataset("gauges")), words, words)
+
+
+def column_pictures(results: Results) -> Iterator[Picture]:
+    """Yield the pore pressure of a marked column against time, if the run followed any."""
+    if "columns" in series_of(results):
+        columns = results.dataset("columns")
+        if columns.sizes.get("time") and np.isfinite(columns.excess_pore_pressure.values).any():
+            words = (
+                "Excess pore pressure within the column of one particle: on the left over height and time, where the "
+                "upper edge is the surface of the flow; on the right its profile at some times."
+            )
+            yield picture(draw_column(columns), words, words)
+
+
+def volume_pictures(results: Results) -> Iterator[Picture]:
+    """Yield the volumes of a run against time."""
+    if "budget" in series_of(results):
+        budget = results.dataset("budget")
+        if budget.sizes.get("time", 0) > 1:
+            words = "Volumes against time: what came above each other, what came to rest and left as lines."
+            yield picture(draw_volumes(budget), words, words)
 
 
 def series_of(results: Results) -> set[str]:

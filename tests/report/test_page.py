@@ -29,7 +29,7 @@ def rendered(text):
             state=text,
             alert=text,
             summary=Sentences([text]),
-            sections=[Section("a", text, blocks)],
+            sections=[Section("a", "Of constants", blocks)],
             made=text,
         )
     )
