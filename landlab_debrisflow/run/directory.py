@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
+"""Directory of the results of a run: one run at a time, no file of another run, nothing half written."""
 
 import contextlib
 import dataclasses
