@@ -152,14 +152,19 @@ def save_animation(
     suffix = path.suffix.lower()
     if suffix not in (".gif", ".mp4"):
         raise InputError(f"save_animation: the suffix of {path.name} must be .gif or .mp4, got {path.suffix!r}")
-    if suffix == ".mp4" and not FFMpegWriter.isAvailable():
-        raise InputError(
-            "save_animation: MP4 needs the program ffmpeg, which is not installed; install it (apt install ffmpeg, "
-            "conda install ffmpeg), or write a .gif"
-        )
+    check_format(suffix)
     kind = PillowWriter if suffix == ".gif" else FFMpegWriter
     writer = kind(fps=frames_per_second)
     return write_atomically(path, lambda temporary: animation.save(temporary, writer=writer, dpi=dpi))
+
+
+def check_format(suffix: str) -> None:
+    """Raise InputError if an animation of the format of a suffix cannot be written here."""
+    if suffix == ".mp4" and not FFMpegWriter.isAvailable():
+        raise InputError(
+            "an animation as MP4 needs the program ffmpeg, which is not installed; install it (apt install ffmpeg, "
+            "conda install ffmpeg), or write a GIF"
+        )
 
 
 def _known(series: xr.Dataset, name: str) -> str:
