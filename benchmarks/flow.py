@@ -51,8 +51,17 @@ def _cases():
 
 CASES = {name: rest for name, *rest in _cases()}
 MARKS = {
-    "ours": (style.BLUE, "o"), "fixed length": (style.ORANGE, "s"), "finite volume": (style.GREEN, "^"),
-    "com1DFA": (style.RED, "D"),
+    "ours": (style.BLUE, "o", "this package"),
+    "fixed length": (style.ORANGE, "s", "SPH with a fixed smoothing length"),
+    "finite volume": (style.GREEN, "^", "finite volumes, second order"),
+    "com1DFA": (style.RED, "D", "AvaFrame com1DFA 2.1"),
+}
+TITLES = {
+    "Ritter": "Ritter: dam break, dry and level", "Stoker": "Stoker: dam break on standing water",
+    "Mangeney": "Mangeney: dam break, dry slope", "dam break 22/21": "dam break, slope 22°, friction 21°",
+    "similarity": "similarity solution, slope 35°", "cap 30 deg": "spreading cap, slope 30°",
+    "Thacker planar": "Thacker: basin, level surface", "Thacker curved": "Thacker: basin, curved surface",
+    "circular dam, wet": "circular dam on standing water", "circular dam, dry": "circular dam, dry",
 }  # fmt: skip
 
 
@@ -139,21 +148,22 @@ def chart():
     results = kept()
     figure, axes = style.panels(2, 5, (15.5, 7.0), sharey=True, sharex=True)
     for axis, case in zip(axes.ravel(), CASES, strict=True):
-        for method, (colour, mark) in MARKS.items():
+        for method, (colour, mark, words) in MARKS.items():
             these = [r for r in results if (r.case, r.method) == (case, method)]
             times = [max(r.cpu, 1e-3) for r in these]
             mark_of = {"color": colour, "marker": mark, "ms": 5}
-            axis.plot(times, [100.0 * r.h.l1 for r in these], lw=1.3, label=method, **mark_of)
+            axis.plot(times, [100.0 * r.h.l1 for r in these], lw=1.3, label=words, **mark_of)
             axis.plot(times, [100.0 * r.hu.l1 for r in these], lw=0.9, ls=":", mfc="none", **mark_of)
-        rows = ", 12 rows" if case in STRIPS else ""
-        style.finish(axis, xscale="log", yscale="log", ylim=(0.1, 100.0), xlim=(2e-3, 40.0), title=case + rows)
+        words = TITLES[case] + ("\n(time of 12 rows)" if case in STRIPS else "")
+        style.finish(axis, xscale="log", yscale="log", ylim=(0.1, 100.0), xlim=(2e-3, 40.0), title=words)
         axis.set_yticks([0.1, 1.0, 10.0, 100.0], ["0.1", "1", "10", "100"])
+        axis.set_xticks([0.01, 0.1, 1.0, 10.0], ["0.01", "0.1", "1", "10"])
     for axis in axes[:, 0]:
         axis.set_ylabel("relative L1 error [%]")
     for axis in axes[1]:
         axis.set_xlabel("CPU time, one thread [s]")
-    words = "full lines and marks: thickness h; dotted and open: momentum hu; more particles or cells to the right"
-    style.legend_below(figure, axes[0, 0], ncol=5, title=words)
+    words = "Full lines and marks: thickness h. Dotted lines, open marks: momentum hu. To the right: more particles or cells."
+    style.legend_below(figure, axes[0, 0], ncol=4, title=words)
     return figure
 
 
