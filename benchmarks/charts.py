@@ -71,8 +71,7 @@ CHARTS = {
 """Figures of docs/figures by name. Beside them stands demo.png, which ``landlab-debrisflow demo`` draws of its run."""
 
 REPORTS = {
-    name: name
-    for name in ("column", "flow", "flow_stability", "speed", "tsing_shan", "two_phase", "when_ale_matters")
+    name: name for name in ("column", "flow", "flow_stability", "speed", "tsing_shan", "two_phase", "when_ale_matters")
 }
 """Texts of benchmarks/, and the module whose `report` makes them of a result file."""
 

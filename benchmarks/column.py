@@ -239,7 +239,12 @@ def chart():
                 if all((name, scheme, levels) in worst for name in names):
                     error = np.nanmax([worst[name, scheme, levels][which] for name in names], axis=0)
                     axis.plot(PECLET, np.maximum(error, FLOOR), label=label, lw=1.0, **mark)
-    words = {"xscale": "log", "yscale": "log", "ylabel": "largest error over the bed's pressure [-]", "ylim": (7e-6, 0.7)}
+    words = {
+        "xscale": "log",
+        "yscale": "log",
+        "ylabel": "largest error over the bed's pressure [-]",
+        "ylim": (7e-6, 0.7),
+    }
     title = "Basal pressure after one stop of erosion: one mark for each Péclet number"
     style.finish(axes[0, 0], xlabel="CPU time per column and step [ns]", title=title, **words)
     for axis, *_, title in shown:

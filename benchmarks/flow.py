@@ -162,7 +162,7 @@ def chart():
         axis.set_ylabel("relative L1 error [%]")
     for axis in axes[1]:
         axis.set_xlabel("CPU time, one thread [s]")
-    words = "Full lines and marks: thickness h. Dotted lines, open marks: momentum hu. To the right: more particles or cells."
+    words = "Full lines and marks: thickness h. Dotted, open: momentum hu. More particles or cells to the right."
     style.legend_below(figure, axes[0, 0], ncol=4, title=words)
     return figure
 

@@ -1,7 +1,7 @@
 """Two phases of the engine against the converged finite-volume reference: ``python -m benchmarks.two_phase``.
 
-The strips and the errors are those of `validation.cases.two_phase_strips`. Keeps benchmarks/results/two_phase_errors.json
-and two_phase.nc, from which benchmarks/two_phase.txt and docs/figures/two_phase.png are made.
+The strips and the errors are those of `validation.cases.two_phase_strips`. Keeps two_phase_errors.json and two_phase.nc
+in benchmarks/results, from which benchmarks/two_phase.txt and docs/figures/two_phase.png are made.
 """
 
 import argparse
