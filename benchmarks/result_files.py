@@ -36,12 +36,14 @@ def provenance(command: str) -> dict[str, Any]:
 
 
 def commit() -> str:
-    """Return the short name of the commit that is checked out, with ``-dirty`` if files differ; empty without Git."""
-    words = ["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--exclude=*"]
+    """Return the short name of the commit, with ``-dirty`` if files of the package differ; empty without Git."""
+    git = ["git", "-C", str(ROOT)]
     try:
-        return subprocess.run(words, check=True, capture_output=True, text=True).stdout.strip()
+        name = subprocess.run([*git, "rev-parse", "--short", "HEAD"], check=True, capture_output=True, text=True)
+        differs = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "landlab_debrisflow", "validation"])
     except (OSError, subprocess.CalledProcessError):
         return ""
+    return name.stdout.strip() + ("-dirty" if differs.returncode else "")
 
 
 def processor() -> str:

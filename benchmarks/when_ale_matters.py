@@ -8,16 +8,14 @@ docs/figures/when_ale_matters.png are made.
 
 import argparse
 import itertools
-import sys
-from pathlib import Path
 
 from matplotlib.lines import Line2D
 
 from benchmarks import charts, result_files, style
+from benchmarks.example_scripts import load
 from landlab_debrisflow.scene import tsing_shan_valley
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
-import tsing_shan
+tsing_shan = load("tsing_shan")
 
 CONSOLIDATION = (1e-5, 1e-3, 1e-2, 0.1, 0.4, 1.0, 4.0, 10.0)  # [m2 s-1]
 
