@@ -22,7 +22,7 @@ LEVEL = {
 }  # fmt: skip
 TOP = 8  # component and what stands beside it
 KNOWS_LANDLAB = {
-    "component", "restart", "grid/checks", "scene/tsing_shan", "plots/maps", "run/grids", "run/scene", "run/simulate",
+    "component", "restart", "grid/checks", "scene/tsing_shan", "run/grids", "run/scene", "run/simulate",
     "triggers", "fidelity/grids",
 }  # fmt: skip
 
