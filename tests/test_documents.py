@@ -29,7 +29,7 @@ DANGLING = [
 ]
 CITED = re.compile(r"theory\.md#([\w-]+)")
 DECISION = re.compile(r"decisions\.md[`)]?,\s+([A-Z][a-z]+(?: [a-z]+)*)(?: (\d+))?")
-DECISION_HEADING = r'^<a id="([\w-]+)"></a>\n### (\d+)\. (.+)$'
+DECISION_HEADING = r'^<a id="([\w-]+)"></a>\n## (\d+)\. (.+)$'
 LABELS = "Context", "Decision", "Evidence", "Consequence"
 FEWEST = {"Flow": 19, "Column": 17, "Two phases": 13, "Laws": 10, "Erosion and the bed": 7, "Inflow and walls": 6}
 FEWEST |= {"What S-1000 taught": 3, "The paper, section 4.2": 5, "Interface": 18, "Calls and looks": 6, "The house": 7}
