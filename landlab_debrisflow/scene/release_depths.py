@@ -200,8 +200,8 @@ def _number(name: str, attributes: dict[str, Any], shape: Shape) -> float | None
         number = float(value)
     except (TypeError, ValueError):
         raise InputError(
-            f"{shape.label}: {name} must be a number, got {value!r:.60}; write it with a decimal point and without unit, "
-            "or give the attribute a numeric type"
+            f"{shape.label}: {name} must be a number, got {value!r:.60}; write it with a decimal point and without "
+            "unit, or give the attribute a numeric type"
         ) from None
     if isinstance(value, bool) or not 0.0 < number < np.inf:
         raise InputError(f"{shape.label}: {name} must be a number more than 0, got {value!r:.60}")
