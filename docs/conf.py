@@ -40,6 +40,7 @@ extensions = [
 ]
 exclude_patterns = ["_build", "_site"]
 templates_path = ["_site/templates"]
+smartquotes = False  # a prime is not an apostrophe, and dashes are written as such
 default_role = "code"  # names in docstrings; those with a page of their own are listed in tables that link
 nitpicky = True
 
