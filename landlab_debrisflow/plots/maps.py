@@ -122,7 +122,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) ->
     path : str or os.PathLike
         The file; its suffix chooses the format, such as ``.png`` or ``.pdf``.
     dpi : int
-        Dots per inch of what is not drawn as lines.
+        Dots per inch of rasters in the figure.
 
     Returns
     -------
