@@ -1,6 +1,7 @@
 """Every habit is one command: ``nox -l`` lists them, ``nox -s test-fast`` runs one in an environment of its own."""
 
 import re
+import shutil
 import time
 import tomllib
 from pathlib import Path
@@ -105,6 +106,22 @@ def check(session):
     session.run("ruff", "format", "--check", ".")
     session.run("typos")
     session.run("mypy")
+
+
+@nox.session
+def build(session):
+    """Build wheel and source distribution, install the one and run the fast subset in the other; both are in dist/."""
+    session.install("build", "twine>=6.1")
+    work = Path(session.create_tmp()).resolve()
+    shutil.rmtree(work / "dist", ignore_errors=True)
+    session.run("python", "-m", "build", "--outdir", str(work / "dist"), ".")
+    (archive,), (wheel,) = (work / "dist").glob("*.tar.gz"), (work / "dist").glob("*.whl")
+    session.run("twine", "check", "--strict", str(archive), str(wheel))
+    session.install(f"landlab_debrisflow[test] @ {wheel.as_uri()}")
+    shutil.copytree(work / "dist", "dist", dirs_exist_ok=True)
+    shutil.unpack_archive(archive, work, filter="data")
+    session.chdir(work / archive.name.removesuffix(".tar.gz"))
+    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
 
 
 @nox.session

@@ -63,7 +63,7 @@ class Reports:
         supply = budget["released"] + budget["inflow"] + budget["eroded"]
         outflow = {edge: volume - self._outflow_before[edge] for edge, volume in by_edge.items()}
         total, came, at_rest = sum(outflow.values()), supply - self._supply, self._simulation.at_rest
-        # as soon as it is notable, and once more with its final volume
+        # when it becomes notable, and once more with its final volume
         if total - self._reported >= NOTABLE * came > 0.0 and (at_rest or self._reported == 0.0):
             sides = {"inside": "open nodes inside"} | {edge: f"the {edge} edge" for edge in outflow if edge != "inside"}
             where = ", ".join(f"{v:.4g} m3 over {sides[edge]}" for edge, v in outflow.items() if v >= 0.01 * total)
