@@ -15,7 +15,7 @@ FORMATS = ("netcdf", "zarr", "geotiff")
 
 
 def add_commands(commands) -> None:
-    """Add the commands to a parser's."""
+    """Add the commands about scenes to the commands of a parser."""
     new = _command(commands, "new", _new, "write a commented scene file, of an example or of files of your own")
     new.add_argument("scene", type=Path, help="scene file to be written")
     new.add_argument(

@@ -33,7 +33,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     event : Event
     wishes : Wishes
     notify : callable
-        Is told, in words, what begins.
+        Called with a text when a pilot run begins.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 
 def setup_digest(setup: Setup) -> str:
-    """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
+    """Return a digest of the setup without the values that a plan chooses, such as the number of particles."""
     steps = choose_steps(setup.numerics, tolerance=1.0).value
     return with_count(dataclasses.replace(setup, numerics=steps), count=1).digest()
 
@@ -104,7 +104,8 @@ def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, Mea
 
     pilot = run(first, setup)
     column = choose_column(event, _measured_ratio(pilot), wishes.hold)
-    if column.value != guess.value or math.isnan(pilot.cost.seconds):  # of another column, or kernels were compiled
+    # the pilot had another column, or its time includes the compilation of kernels
+    if column.value != guess.value or math.isnan(pilot.cost.seconds):
         setup = dataclasses.replace(setup, column=column.value)
         pilot = run(first, setup)
     return column, {first: pilot} | {count: run(count, setup) for count in others}

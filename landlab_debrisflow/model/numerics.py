@@ -11,7 +11,7 @@ PRESETS = {
     "fast": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-4},
     "fastest": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-3},
 }
-"""Values of parameters that are not given, by preset. What the fast ones cost in accuracy is measured: see
+"""Values of parameters that are not given, by preset. The accuracy that the fast presets cost is measured: see
 docs/choosing.md, and `python -m benchmarks.fidelity presets`."""
 
 

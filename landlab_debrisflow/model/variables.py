@@ -45,7 +45,7 @@ PARTICLE_VARIABLES = (
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
     Variable("counted_at_wall", "-", "1 once that was counted", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
-    # what the stages of a step hand on to each other
+    # values that the stages of a step pass on to each other
     Variable("nearest_node", "-", "node nearest to it", "i8", 0, written=False, scratch=True),
     Variable("slope_x", "-", "slope dz/dx of the bed below", written=False, scratch=True),
     Variable("slope_y", "-", "slope dz/dy of the bed below", written=False, scratch=True),
@@ -67,7 +67,7 @@ def particle_variables(column, laws=()) -> tuple[Variable, ...]:
     Parameters
     ----------
     column : ColumnLaw
-        Says how much it keeps per column, if anything (``memory_size``).
+        Its ``memory_size``, if it has one, is the number of floats that it keeps per column.
     laws : sequence
         Laws and phases; those with an attribute ``variables``, a tuple of `Variable`, bring variables of their own.
 

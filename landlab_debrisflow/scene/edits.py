@@ -16,15 +16,15 @@ from ..geo.shapes import Shape, read_shapes
 from .terrain_keys import Edit
 
 FEWEST_ACROSS = 3
-"""Nodes across below which sums over neighbours reach through an obstacle (README, Limits)."""
+"""Least width of an obstacle in nodes: sums over neighbours reach through a thinner one."""
 CREST_WIDTH = 3.0
-"""Of a dam, if it is not given [m]."""
+"""Default width of the crest of a dam [m]."""
 SLOPES = {"dam": math.degrees(math.atan(2.0 / 3.0)), "excavation": 45.0}
-"""Of the sides, if it is not given [deg]."""
+"""Default angle of the sides [deg]."""
 FARTHEST = 100.0
-"""Length of a line over the diagonal of the terrain, from which on it is not meant [-]."""
+"""Length of a line over the diagonal of the terrain above which it is refused [-]."""
 FAR = 4.0
-"""Width of a side over that on level ground, from which on the user is told."""
+"""Width of a side over its width on level ground, from which on a note says so [-]."""
 SQUARE = np.ones((FEWEST_ACROSS, FEWEST_ACROSS), bool)
 
 
@@ -63,7 +63,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
     folder : Path
         Directory to which names of files are relative.
     notes : list of str
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
     beside[beside < 1e-6 * half] = 0.0
     body = np.where(beside == 0.0, crest, crest - beside * steepness if math.isfinite(steepness) else -np.inf)
     before = ground.elevation.reshape(-1)[near.nodes]
-    raised = body > before  # not where there are no data
+    raised = body > before  # nodes without data stay without
     if not raised.any():
         raise InputError(
             f"{shape.label}: no node is raised, the crest ({profile.min():g} to {profile.max():g} m) lies below the "

@@ -1,4 +1,4 @@
-"""Parameters and methods that the laws of consolidating columns share; no law itself."""
+"""Parameters and methods shared by the laws of consolidating columns."""
 
 import functools
 from typing import ClassVar
@@ -31,7 +31,8 @@ class Consolidating:
     )
 
     stores_pressure: ClassVar[bool] = True
-    moves_with_grains: ClassVar[bool]  # grains keep their depth below the surface; else their fraction of the depth
+    # True: grains keep their depth below the surface; False: their fraction of the depth
+    moves_with_grains: ClassVar[bool]
 
     def _agree(self):
         check_scheme(self)
@@ -58,7 +59,7 @@ class Consolidating:
         dt : float
             Duration of the step [s].
         basal_pressure : ndarray, shape (n,)
-            Written: excess pore pressure that friction feels [Pa].
+            Written: excess pore pressure at the base, for friction [Pa].
         """
         advance(self, columns, forcing, dt, basal_pressure)
 

@@ -37,8 +37,8 @@ def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
 def synchronise(law, columns, forcing) -> None:
     """Turn columns into pressures at levels, as they are now, at least suction; for output, of a copy.
 
-    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one. Other
-    schemes than the default keep pressures at levels.
+    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one. Schemes
+    other than the default keep pressures at levels anyway.
     """
     if law.scheme == "default":
         synchronise_columns(columns, forcing, law.choices)
