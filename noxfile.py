@@ -58,7 +58,7 @@ FIGURES = {
 
 @nox.session
 def test(session):
-    """Run all tests, doctests and notebooks."""
+    """Run all tests and doctests, and build the site, which runs notebooks and pages."""
     session.install("-e", ".[test]")
     session.run("python", "-m", "pytest", *session.posargs)
 
@@ -90,7 +90,8 @@ def test_nojit(session):
 @nox.session(python="3.11")
 def oldest(session):
     """Run the fast subset with the lowest versions that pyproject.toml allows."""
-    needed = [each for each in PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["test"] if "[geo]" not in each]
+    wanted = PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["docs"] + EXTRAS["test"]
+    needed = [each for each in wanted if "landlab_debrisflow[" not in each]
     lowest = [re.sub(r">=([\d.]+)(,[^;]*)?", r"==\1", each) for each in needed]
     session.install(*lowest)
     session.install("--no-deps", "-e", ".")
@@ -125,15 +126,20 @@ def build(session):
 
 @nox.session
 def docs(session):
-    """Check that the pages are true: the code they show, links, the page of laws, doctests, notebooks."""
+    """Build the documentation site, which executes pages and notebooks; check links, README and doctests."""
     session.install("-e", ".[test]")
+    site = Path("docs/_build/html")
+    session.run("python", "-m", "sphinx", "-W", "--keep-going", "-n", "-j", "4", "-q", "docs", str(site))
+    session.run("python", "docs/_site/links.py", str(site))
     pages = [
+        "tests/docs",
         "tests/test_readme.py",
         "tests/test_contributing.py",
         "tests/test_which_component.py",
         "tests/cli/test_laws.py",
     ]
-    session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", "notebooks")
+    session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", env={"SITE": str(site)})
+    session.log(f"the site: {(site / 'index.html').resolve().as_uri()}")
 
 
 @nox.session

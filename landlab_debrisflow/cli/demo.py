@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..component import DebrisFlow
-from ..plots.maps import Layer, draw_maps, save_figure
+from ..plots import Layer, draw_maps, save_figure
 from ..record.datasets import stack
 from ..record.files import check_writable, write_dataset
 from ..record.measures import measures

@@ -10,6 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import erf, erfc, erfcx
 
+__all__ = [
+    "basal_consolidation",
+    "consolidation",
+    "consolidation_modes",
+    "constant_local_peclet",
+    "front",
+    "growing_column",
+]
+
 LINEAR, BASAL_LAYER = "linear", "basal_layer"
 """Profiles from which `consolidation` starts."""
 

@@ -47,6 +47,7 @@ class GridCall:
         self._listener = CallListener(flow, self._writer, self.interruption)
         if continues is not None:
             self._writer.continue_from(continues._writer)
+            self._listener.reports.continue_from(continues._listener.reports)
         # last, so that a component that is refused has changed nothing
         before = None if continues is None else continues._outputs
         two_phases = self._simulation.setup.two_phases

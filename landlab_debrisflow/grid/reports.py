@@ -23,6 +23,11 @@ class Reports:
         self._flow, self._simulation = flow, flow._simulation
         self._supply, self._outflow_before, self._reported = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
 
+    def continue_from(self, earlier: "Reports") -> None:
+        """Take over the volumes [m3] that have been told of the flow that this one continues."""
+        self._supply, self._reported = earlier._supply, earlier._reported
+        self._outflow_before = dict(earlier._outflow_before)
+
     def log_messages(self, until_rest: bool) -> None:
         """Log the messages of a call that ends; `until_rest`: whether it was to end at rest."""
         self._walls()
@@ -81,7 +86,7 @@ class Reports:
             x, y = np.add((p.x[k], p.y[k]), self._flow.grid.xy_of_lower_left)
             words.append(
                 f"{p.volume[moving].sum():.4g} m3 in {np.count_nonzero(moving)} of {p.count} particles still move, the "
-                f"fastest with {speed[k]:.3g} m/s near ({x:.6g}, {y:.6g}) m"
+                f"fastest with {speed[k]:.3g} m/s near ({x:.9g}, {y:.9g}) m"
             )
         if not sim.inflow.over:
             words.append(f"the inflow lasts until {max(source.times[-1] for source in sim.inflow.sources):.4g} s")

@@ -1,5 +1,23 @@
 """Figures made of Datasets."""
 
-from .maps import Layer, draw_maps, save_figure
+from .comparison import Layer, draw_maps
+from .files import save_figure
+from .hydrographs import draw_gauges, draw_hydrographs
+from .maps import draw_map
+from .overview import draw_overview
+from .section import draw_section
+from .thalweg import trace_thalweg
+from .time_distance import draw_time_distance
 
-__all__ = ["Layer", "draw_maps", "save_figure"]
+__all__ = [
+    "Layer",
+    "draw_gauges",
+    "draw_hydrographs",
+    "draw_map",
+    "draw_maps",
+    "draw_overview",
+    "draw_section",
+    "draw_time_distance",
+    "save_figure",
+    "trace_thalweg",
+]

@@ -82,7 +82,10 @@ class Front(Follower):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Front over ``time`` [s]: ``front_distance``, ``farthest_distance`` [m], ``front_elevation`` [m]."""
+        """Front over ``time`` [s]: ``front_distance``, ``farthest_distance`` [m], ``front_elevation`` [m].
+
+        ``thalweg_x`` and ``thalweg_y`` over ``vertex`` are the line [m].
+        """
         rows = self._rows.arrays()
         meanings = {
             "front_distance": f"distance along the thalweg behind which {100.0 * self.fraction:g} % of the volume lies",
@@ -91,6 +94,10 @@ class Front(Follower):
         }
         data = {
             name: ("time", rows.get(name, np.empty(0)), variable_attributes("m", meanings[name])) for name in meanings
+        }
+        data |= {
+            f"thalweg_{axis}": ("vertex", values, variable_attributes("m", f"{axis} of the thalweg, from the top down"))
+            for axis, values in zip("xy", self.thalweg.T, strict=True)
         }
         return xr.Dataset(
             data, {"time": ("time", rows["time"], variable_attributes("s", "elapsed time"))}, file_attributes()

@@ -22,6 +22,9 @@ LEAST_DEPTH = 0.05
 
 PEAK_DEPTH = OUTPUT_PREFIX + "max_depth"
 
+ELEVATION_BEFORE, RELEASED_DEPTH = "topographic__elevation_before", OUTPUT_PREFIX + "released_depth"
+"""Maps of a run in its file beside those of the flow: ground before the event, and depth that was released [m]."""
+
 
 def mask_peaks(maps: xr.Dataset, least_depth: float = LEAST_DEPTH) -> xr.Dataset:
     """Return maps whose peaks are missing (NaN) where the flow was never as deep as a least depth.

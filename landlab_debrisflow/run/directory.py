@@ -13,7 +13,7 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
+from .files import CHECKPOINT, LOCK, PAGE, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
 TEMPORARY = re.compile(r"\.(run|checkpoint|checkpoint\.previous|maps_\d+)\.\d+\.(json|nc)")
@@ -71,7 +71,7 @@ class OutputDirectory:
     @property
     def checkpoints(self) -> list[Path]:
         """Checkpoints in the directory, the latest first."""
-        return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
+        return checkpoints_in(self.path)
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
         """Begin a run here: refuse to lose results, remove them if they may go, write its record.
@@ -184,16 +184,21 @@ class OutputDirectory:
             with contextlib.suppress(OSError):  # it holds other files
                 (self.path / SERIES).rmdir()
 
+    def remove_page(self) -> None:
+        """Remove the report, which tells of a run as it was."""
+        (self.path / PAGE).unlink(missing_ok=True)
+
     def _remove_checkpoints(self) -> None:
         for path in self.checkpoints:
             path.unlink()
 
     def remove_results(self) -> None:
-        """Remove the files that the recorded run wrote here; other files stay."""
+        """Remove the files that the recorded run wrote here, and the page made of them; other files stay."""
         shutil.rmtree(self.path / UNFINISHED, ignore_errors=True)
         if self.record is None:
             return
         self._remove_checkpoints()
+        self.remove_page()
         folder = self.path.resolve()
         for name in self.record.results:
             for path in sorted(self.path.glob(name)):
@@ -207,6 +212,12 @@ class OutputDirectory:
                 if (parent := (self.path / name).parent) != self.path:
                     parent.rmdir()
         (self.path / RECORD).unlink(missing_ok=True)
+
+
+def checkpoints_in(directory: Path) -> list[Path]:
+    """Return the checkpoints in a directory of results, the latest first."""
+    latest = directory / CHECKPOINT
+    return [path for path in (latest, previous_path(latest)) if path.is_file()]
 
 
 def listed(words: list[str], most: int = 3) -> str:

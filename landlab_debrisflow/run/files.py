@@ -3,6 +3,7 @@
 from typing import Any
 
 RECORD, SCENE, MAPS, REPORT = "run.json", "scene.yaml", "maps.nc", "report.txt"
+PAGE = "report.html"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"
 SERIES_SUFFIX = {"netcdf": ".nc", "zarr": ".zarr"}

@@ -13,14 +13,17 @@ from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
 from ..fidelity.plan import Plan
+from ..fidelity.report import Report
 from ..record.monitor import COMPILING, Monitor
 from ..scene.releases import advance
 from .advance import check_mass
 from .directory import OutputDirectory
+from .environment import environment
 from .files import RECORD, REPORT, SCENE
 from .maps import write_results
 from .observers import Observers
 from .record import FAILED, FINISHED, INTERRUPTED, RUNNING, RunRecord
+from .remarks import noted_warnings, remarks
 from .results import Results
 
 log = logging.getLogger("landlab_debrisflow")
@@ -149,11 +152,12 @@ def _compute(
     flow = None
     try:
         monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
-        directory.note(state=RUNNING)
+        directory.remove_page()
+        directory.note(state=RUNNING, environment=environment(), **remarks(scene))
         if scene.text is not None:
             directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)
-        with compilations(lambda: monitor.say(COMPILING)):
+        with compilations(lambda: monitor.say(COMPILING)), noted_warnings(directory):
             flow = build(observers=[monitor, *observers.all])
             advance(flow, scene.releases, scene.output_keys.max_duration)
         monitor.finish()
@@ -162,7 +166,7 @@ def _compute(
             flow.save(directory.checkpoint)
         directory.note(
             state=FINISHED, reason="", elapsed_time=flow.elapsed_time, at_rest=flow.at_rest, budget=flow.budget,
-            steps=flow.diagnostics.steps,
+            steps=flow.diagnostics.steps, statement=_statement(flow).to_mapping() if scene.adopted_plan else None,
         )  # fmt: skip
     except BaseException as failure:
         monitor.finish()
@@ -193,5 +197,8 @@ def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> 
     write_results(folder, flow.maps, scene)
     observers.write(folder)
     if scene.adopted_plan is not None:
-        report = dataclasses.replace(flow.report(), seconds=math.nan)  # left out, so that equal runs write equal files
-        (folder / REPORT).write_text(f"{report}\n", encoding="utf-8")
+        (folder / REPORT).write_text(f"{_statement(flow)}\n", encoding="utf-8")
+
+
+def _statement(flow: DebrisFlow) -> Report:
+    return dataclasses.replace(flow.report(), seconds=math.nan)  # left out, so that equal runs write equal files

@@ -140,14 +140,13 @@ class Scene:
         """Directory of the results."""
         return self.folder / (self.output_keys.directory or f"{self.name}_out")
 
-    def to_mapping(self) -> dict[str, Any]:
-        """Return keys and defaults as plain values, without unset ones.
+    @property
+    def given_keys(self) -> tuple[str, ...]:
+        """Keys whose values were given, such as ``friction.cohesion``; all others have their defaults."""
+        return self._content.given
 
-        Returns
-        -------
-        dict
-            `from_mapping` builds an equal scene from it, also by way of YAML or JSON.
-        """
+    def to_mapping(self) -> dict[str, Any]:
+        """Return keys and defaults as plain values; `from_mapping` builds an equal scene from them."""
         return to_mapping(self._content)
 
     def digest(self) -> str:

@@ -182,7 +182,7 @@ def _amount(keys: ReleaseKeys, shape: Shape) -> dict[str, float]:
     if not found:
         names = list(shape.attributes)
         near = "".join(did_you_mean(name, AMOUNTS) for name in names)
-        told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attributes"
+        told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attribute with a value"
         raise InputError(
             f"{shape.label} has neither an attribute depth [m] nor volume [m3] with a value; {told}; add one, or the "
             "key depth or volume to the release"
@@ -201,7 +201,10 @@ def _number(name: str, attributes: dict[str, Any], shape: Shape) -> float | None
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{shape.label}: {name} must be a number, got {value!r:.60}") from None
+        raise InputError(
+            f"{shape.label}: {name} must be a number, got {value!r:.60}; write it with a decimal point and without "
+            "unit, or give the attribute a numeric type"
+        ) from None
     if isinstance(value, bool) or not 0.0 < number < np.inf:
         raise InputError(f"{shape.label}: {name} must be a number more than 0, got {value!r:.60}")
     return number

@@ -118,8 +118,8 @@ def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
     lattice, count, notes = ground.lattice, int(np.count_nonzero(depth)), []
     if count < FEWEST_NODES:
         notes.append(
-            f"the release covers {count} nodes of {lattice.spacing[0]:g} m; its volume is kept, its shape is not: "
-            "a finer spacing of the terrain would resolve it"
+            f"the release covers {count} node{'s' * (count > 1)} of {lattice.spacing[0]:g} m; its volume is kept, its "
+            "shape is not: a finer spacing of the terrain would resolve it"
         )
     if depth.max() > 100.0:
         notes.append(f"the release is up to {depth.max():.4g} m deep; depths are in m, volumes in m3")

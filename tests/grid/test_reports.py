@@ -62,6 +62,22 @@ def test_one_per_cent_is_where_telling_begins(caplog, left, tells):
     assert len(told(caplog, "left the grid")) == tells
 
 
+@pytest.mark.slow
+def test_outflow_of_the_flow_before_is_not_told_again(caplog):
+    first = DebrisFlow(ending(150.0, 58), numerics=COARSE)
+    first.run_until_rest()
+    assert len(told(caplog, "left the grid")) == 1
+    second = DebrisFlow(first.grid, numerics=COARSE, continues=first)
+    assert sum(second.outflow_by_edge.values()) == first.budget["outflow"] > 0.0
+    second.run_until_rest()  # without a release
+    assert told(caplog, "left the grid") == []
+    release_slab(first.grid, (30.0, 48.0), 8.0, 0.5, on_top=True)
+    second.run_until_rest()
+    volumes = [float(re.match(NUMBER, message)[0]) for message in told(caplog, "left the grid")]
+    left = second.budget["outflow"] - first.budget["outflow"]
+    assert left > 1.0 and volumes == [pytest.approx(left, rel=1e-3)]  # its own, of four digits
+
+
 def inclined_with_release():
     grid = inclined((20, 60), 5.0, 0.5)
     release_slab(grid, (30.0, 48.0), 8.0, 1.0)
