@@ -180,7 +180,9 @@ class Plan(Printed):
         rows.append(("cost", self._cost_words()))
         notes = [*self.warnings]
         if self.still_moving:
-            notes.append(f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are those then")
+            notes.append(
+                f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are stated for this time"
+            )
         return Table(
             title=f"Plan: {grouped(self.particles)} particles, {self.rules['column'][0]}, {self.numerics.preset} steps",
             rows=rows, errors=error_rows(self, self.errors), raster=self.rules["raster"][1], notes=notes,

@@ -131,8 +131,8 @@ class Outputs:
         if (volume := other._carried_volume()) and not self._warned:
             self._warned = True
             log.warning(
-                "another DebrisFlow on this grid carries %.4g m3 that have not settled: this one does not feel them, "
-                "nor are they in elevation; settle() them before, or put elevation and soil back",
+                "another DebrisFlow on this grid carries %.4g m3 that have not settled: the flow of this one runs "
+                "through them, and elevation lacks them; settle() before, or put elevation and soil back",
                 volume,
             )
 

@@ -22,9 +22,9 @@ pore-pressure column, > 0 in the positive direction [m3]; depth [m], speed [m s-
 [Pa]."""
 
 MEANS = {
-    "depth": ("m", "vertical depth of the flow, mean over what crossed"),
-    "speed": ("m s-1", "speed of the flow, mean over what crossed"),
-    "pressure": ("Pa", "excess pore pressure at the base, mean over what crossed"),
+    "depth": ("m", "vertical depth of the flow, mean over the volume that crossed"),
+    "speed": ("m s-1", "speed of the flow, mean over the volume that crossed"),
+    "pressure": ("Pa", "excess pore pressure at the base, mean over the volume that crossed"),
 }
 
 
