@@ -18,7 +18,6 @@ from tests.numba_cache import NUMBA_CACHE  # noqa: E402
 
 # kernels of cells run this checkout with this Python, and read the compiled kernels that the tests have left
 os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
-os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 os.environ.setdefault("NUMBA_CACHE_DIR", NUMBA_CACHE)
 
 project = "landlab_debrisflow"
