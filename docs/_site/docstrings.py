@@ -18,9 +18,7 @@ VALUES = {
 
 def show_signature(app, what, name, object_, options, signature, returned):
     """Return the signature of a class: Landlab's components and protocols hide it behind ``*args``."""
-    if what == "exception":
-        return "", None
-    if what != "class":
+    if what != "class" or signature is None:
         return None
     try:
         text = stringify_signature(inspect.signature(object_), show_annotation=False)
