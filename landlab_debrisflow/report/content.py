@@ -82,7 +82,7 @@ def gather_content(results: Results) -> Content:
 
 
 def scene_name(results: Results) -> str:
-    """Return the name of the scene of a run: that of its file, or of the directory of the results."""
+    """Return the name of the scene of a run, from its file or from the directory of the results."""
     file = results.record.scene_file
     name = (file or str(results.directory.resolve())).replace("\\", "/").rstrip("/").rpartition("/")[2]
     return name.removesuffix(".yaml").removesuffix(".yml").removesuffix("_out") or name

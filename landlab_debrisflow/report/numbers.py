@@ -1,4 +1,4 @@
-"""Numbers in words for people who read a report: rounded, with thousands apart, never split from their units."""
+"""Numbers as text of a report: rounded, with thousands apart, never split from their units."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Pictures of a run for its report: figures as data URIs, each with words for people who cannot see it."""
+"""Pictures of a run for its report: figures as data URIs, each with a description as text."""
 
 import base64
 import io

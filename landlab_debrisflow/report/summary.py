@@ -1,4 +1,4 @@
-"""Summary of a run in a paragraph for people who decide, and how sure it is."""
+"""Summary of a run in a paragraph for decisions, with the uncertainty of the result."""
 
 import csv
 import math
@@ -33,7 +33,7 @@ class Exposed(NamedTuple):
     rows: list[list[str]]
 
     def column(self, name: str) -> list[str]:
-        """Return the cells of a column; empty if there is no such column."""
+        """Return the cells of a column; empty if the column is missing."""
         return [row[self.head.index(name)] for row in self.rows] if name in self.head else []
 
 
@@ -81,7 +81,7 @@ def summary_of(record: RunRecord, outcome: Outcome, exposure: Exposed | None) ->
 
 
 def state_of(results: Results) -> tuple[str, str]:
-    """Return the state of a run as a heading, and sentences on a run that has not come to its end, or nothing."""
+    """Return the state of a run as a heading, and sentences on a run that has not come to its end ("" otherwise)."""
     record = results.record
     if results.finished:
         return ("At rest" if record.at_rest else "Still moving at its end"), ""

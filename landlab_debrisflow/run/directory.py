@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
+"""Directory of the results of a run: of one run at a time, complete files only."""
 
 import contextlib
 import dataclasses

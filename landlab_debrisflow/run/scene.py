@@ -142,7 +142,7 @@ class Scene:
 
     @property
     def given_keys(self) -> tuple[str, ...]:
-        """Keys whose values were given, such as ``friction.cohesion``; all others have their defaults."""
+        """Keys whose values were given, such as ``friction.cohesion``; other keys have their defaults."""
         return self._content.given
 
     def to_mapping(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""SPH sums of the particles of one phase over those of the other.
+"""SPH sums of the particles of one phase over the particles of the other.
 
 Smoothing kernel, smoothing lengths and layout are those of `summation`, where the formulas and their reasons stand. A
 phase is a subset of the particles, in the cells of all of them.

@@ -44,7 +44,7 @@ class Partners(NamedTuple):
 
 
 def find_partners(targets: Cells, sources: Cells, position: Position, volume, smoothing_length) -> Partners:
-    """Find the partners of some particles among others.
+    """Find the partners of the particles of one phase among the other phase.
 
     Parameters
     ----------
