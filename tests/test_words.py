@@ -21,7 +21,7 @@ SHOWN = [
 PUBLIC = {"exact", "laws", "plots", "record", "report", "scene", "triggers"}
 """Modules of the package that are public, beside the package itself."""
 CEILINGS = {"docstrings": 2.6, "comments": 4.6, "messages": 4.3, "pages": 7.2}
-"""Most pronouns without a noun in 1000 words: measured (``python -m tests.words``), rounded up, lowered when they fall."""
+"""Most pronouns without a noun in 1000 words: measured (``python -m tests.words``), rounded up; lowered as they fall."""
 
 
 def first_lines():
@@ -41,12 +41,14 @@ def test_first_lines_have_nouns_as_subjects():
     assert len(lines) > 800 and len(found) < 6, found
 
 
+@pytest.mark.slow
 def test_other_texts_have_fewer_and_fewer_pronouns():
     measured = rates(ROOT)
     assert {kind: rate for kind, rate in measured.items() if rate > CEILINGS[kind]} == {}, "name the noun"
     assert {kind: rate for kind, rate in measured.items() if rate < 0.75 * CEILINGS[kind]} == {}, "lower the ceiling"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("texts", [docstrings, comments, messages])
 def test_no_turn_of_speech_has_to_be_deciphered(texts):
     assert found(texts(PACKAGE), PICTURED) == []
