@@ -21,7 +21,7 @@ SHOWN = [
 PUBLIC = {"exact", "laws", "plots", "record", "report", "scene", "triggers"}
 """Modules of the package that are public, beside the package itself."""
 CEILINGS = {"docstrings": 2.6, "comments": 4.6, "messages": 4.3, "pages": 7.2}
-"""Most pronouns without a noun in 1000 words: measured (``python -m tests.words``), rounded up; lowered as they fall."""
+"""Most pronouns without a noun in 1000 words: measured (``python -m tests.words``); lowered as they fall."""
 
 
 def first_lines():
