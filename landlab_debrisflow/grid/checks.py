@@ -150,7 +150,7 @@ def check_continued(earlier, grid, inflow) -> None:
     grid : RasterModelGrid
         Grid of the component.
     inflow : Inflow
-        Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
+        Inflow of the component that is to continue: elapsed time goes on, and nothing may have entered before.
 
     Raises
     ------

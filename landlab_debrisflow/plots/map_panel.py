@@ -80,7 +80,7 @@ def draw_colour_bar(
     unit : str
         Unit of the values.
     extent : Extent
-        Of the panel.
+        Extent of the panel.
     """
     beside = axes_beside(axes)
     bar = axes.figure.colorbar(image, cax=beside, extend=extend_of(norm, values), extendfrac=0.04)

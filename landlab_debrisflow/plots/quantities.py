@@ -31,7 +31,7 @@ class Quantity(NamedTuple):
     colours : str
         Name of a matplotlib colour map.
     factor : float
-        By which values of the map are multiplied.
+        Factor by which values of the map are multiplied.
     scale : str
         ``linear`` from 0, ``diverging`` about 0, ``logarithmic``, ``ratio`` from 0 to 1, or ``time``.
     least : float

@@ -89,7 +89,7 @@ def sum_over_other_phase(
     Parameters
     ----------
     one, other : Cells
-        Of the phases, made by `cells_of_phase` of the same cells.
+        Cells of the phases, made by `cells_of_phase` of the same cells.
     given : CrossPhaseInput
         State of the particles of both phases.
     sums : CrossPhaseSums
@@ -146,7 +146,7 @@ def _sum(first, last, targets, sources, packed, packed_sources, sums):
     ----------
     first, last : int
     targets, sources : Cells
-        Of the phase that is summed for, and of the other.
+        Cells of the phase that is summed for, and of the other.
     packed, packed_sources : Packed
         Both phases, by `_pack`.
     sums : CrossPhaseSums

@@ -208,11 +208,11 @@ def _sum(first, last, cells, packed, given, viscosity, sums):
     cells : Cells
         Cell list over the particles.
     packed : Packed
-        Of all particles, by `_pack`.
+        Values of all particles, by `_pack`.
     given : SummationInput
         With n particles.
     viscosity : float
-        Of shocks [-].
+        Strength of the viscosity of shocks [-].
     sums : Sums
         Written, for at most n particles.
     """
