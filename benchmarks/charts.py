@@ -1,13 +1,16 @@
 """Draw the figures of docs/ from result files: ``python -m benchmarks.charts [NAME ...]``, all of them by default.
 
 A figure is drawn in seconds from what its command has measured in minutes or hours and kept in benchmarks/results.
-The tables of benchmarks/*.txt and of docs/accuracy.md are written from the same files, by the same command.
+The tables of benchmarks/*.txt and of docs/accuracy.md are written from the same files, by the same command. With
+--measure the commands of the figures that are named are run, and the files made anew.
 """
 
 import argparse
 import importlib
 import io
+import subprocess
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -68,7 +71,10 @@ CHARTS = {
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
 }  # fmt: skip
-"""Figures of docs/figures by name. Beside them stands demo.png, which ``landlab-debrisflow demo`` draws of its run."""
+"""Figures of docs/figures by name; beside them stands `DEMO`."""
+
+DEMO = "demo"
+"""Figure that ``landlab-debrisflow demo`` draws of the run that it makes, in seconds: it has no result file."""
 
 REPORTS = {
     name: name for name in ("column", "flow", "flow_stability", "speed", "tsing_shan", "two_phase", "when_ale_matters")
@@ -86,7 +92,10 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
     say : callable
         Given one line for each file.
     """
-    for name in names or (*CHARTS, *(set(REPORTS) - set(CHARTS))):
+    for name in names or (*CHARTS, *(name for name in REPORTS if name not in CHARTS), DEMO):
+        if name == DEMO:
+            draw_demo(FIGURES / f"{DEMO}.png")
+            say(f"Wrote {_short(FIGURES / f'{DEMO}.png')}")
         if name in CHARTS:
             chart = CHARTS[name]
             say(f"Wrote {_short(save_figure(chart.draw(), FIGURES / f'{name}.png', chart.dpi))}")
@@ -98,6 +107,23 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
 
     for path in page_tables.fill():
         say(f"Wrote {_short(path)}")
+
+
+def draw_demo(path: Path) -> None:
+    """Run the demo and keep its figure."""
+    from landlab_debrisflow.cli.demo import run_demo
+
+    with tempfile.TemporaryDirectory() as folder:
+        run_demo(1500, Path(folder), Console(quiet=True))
+        drawn = Path(folder, f"{DEMO}.png").read_bytes()
+    write_atomically(path, lambda place: place.write_bytes(drawn))
+
+
+def measure(names: list[str]) -> None:
+    """Run the commands that measure what figures are drawn from, each once."""
+    commands = [CHARTS[name].command if name in CHARTS else f"python -m benchmarks.{REPORTS[name]}" for name in names]
+    for command in dict.fromkeys(commands):
+        subprocess.run([sys.executable, *command.split()[1:]], check=True, cwd=result_files.ROOT)
 
 
 def printed(show: Callable[[Console], object], width: int) -> str:
@@ -116,12 +142,19 @@ def main(arguments: list[str] | None = None) -> int:
     """Draw figures by name."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help="of a figure or text; by default all")
-    names = [name.removesuffix(".png").removesuffix(".txt") for name in parser.parse_args(arguments).names]
-    known = [*CHARTS, *REPORTS]
+    parser.add_argument("--measure", action="store_true", help="run the commands that make the result files of NAME")
+    options = parser.parse_args(arguments)
+    names = [name.removesuffix(".png").removesuffix(".txt") for name in options.names]
+    known = list(dict.fromkeys([*CHARTS, *REPORTS, *([] if options.measure else [DEMO])]))
     for name in names:
         if name not in known:
-            parser.error(f"there is no figure {name!r}{did_you_mean(name, known)}; there are {', '.join(CHARTS)}")
-    make(*names)
+            parser.error(f"there is no figure {name!r}{did_you_mean(name, known)}; there are {', '.join(known)}")
+    if options.measure and not names:
+        parser.error(f"name what is to be measured, it takes minutes to hours: {', '.join(known)}")
+    if options.measure:
+        measure(names)
+    else:
+        make(*names)
     return 0
 
 

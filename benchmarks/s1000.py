@@ -13,7 +13,7 @@ import xarray as xr
 from benchmarks import charts, result_files
 from benchmarks.example_scripts import load
 
-COMMAND = "python -m benchmarks.s1000 DATA_DIR"
+COMMAND = "python -m benchmarks.s1000"
 CHANGES = "elevation_change"
 
 

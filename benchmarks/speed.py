@@ -29,6 +29,10 @@ SUMS, STEPS = "density + force", "whole step"
 COLOUR = {SUMS: style.BLUE, STEPS: style.ORANGE, "demo's physics": style.GREEN, "com1DFA": style.RED}
 STEPPED = {1_000: (5.0, 5), 10_000: (5.0, 3), 100_000: (2.0, 2), 1_000_000: (0.5, 1)}  # seconds run, repeats
 DEMO = {1_000: (5.0, 3), 10_000: (5.0, 2), 100_000: (1.0, 1)}
+CURVES = {
+    SUMS: "sums over neighbours (density and force)", STEPS: "whole step without columns",
+    "demo's physics": "whole step with erosion and columns", "com1DFA": "AvaFrame com1DFA 2.1, whole step",
+}  # fmt: skip
 COMMAND = "python -m benchmarks.speed"
 
 
@@ -188,7 +192,7 @@ def chart():
         if not rows:
             continue
         n, one, two = ([row[key] for row in rows] for key in ("particles", "one", "two"))
-        words = {"demo's physics": "whole step with erosion and columns"}.get(name, name)
+        words = CURVES[name]
         axis.plot(n, one, color=colour, marker="D" if name == "com1DFA" else "o", label=f"{words}, one thread")
         if name != "com1DFA":
             axis.plot(n, two, color=colour, marker="o", mfc="none", ls="--", label=f"{words}, two threads (wall)")

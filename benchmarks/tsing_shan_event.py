@@ -20,7 +20,7 @@ COMMAND = "python -m benchmarks.tsing_shan_event"
 MAPS = ("debris_flow__eroded_depth", "debris_flow__deposit_depth", "debris_flow__basal_excess_pore_pressure",
         "debris_flow__max_depth")  # fmt: skip
 MARGIN = 8
-"""Nodes that are kept around the ground that the flow reaches."""
+"""Nodes that are kept beyond the farthest that the flow reaches."""
 
 
 def measure():
@@ -67,7 +67,7 @@ def particles_of(records) -> xr.Dataset:
 
 
 def maps_of(records) -> xr.Dataset:
-    """Return the final maps of all runs with the terrain, around the ground that the flow reaches."""
+    """Return the final maps of all runs with the terrain, from its corner to beyond the farthest node reached."""
     one = next(iter(records.values()))
     found = xr.concat([record.maps[list(MAPS)] for record in records.values()], "run").fillna(0.0)
     peclet = [record.snapshots["since", 0.0]["peclet"] for record in records.values()]

@@ -231,7 +231,7 @@ Run-out: every cell with |dz| > 0.2 m is projected on the observed path in plan;
 Left in the scar: release less net lowering inside the source.
 Not converged: from 1000 to 2000 to 4000 particles the volume lowered outside the source by Voellmy grew by 15 and by
 19 % when this was written, its CSI outside went from .46 to .50 to .55.
-Peak memory is that of the process so far, Python and Landlab included. Smaller differences than the noise tell nothing."""
+Peak memory is that of the process so far, Python and Landlab included. Differences below the noise mean nothing."""
 
 
 def print_misfits(console, results, observed):

@@ -86,7 +86,7 @@ class Reports:
             x, y = np.add((p.x[k], p.y[k]), self._flow.grid.xy_of_lower_left)
             words.append(
                 f"{p.volume[moving].sum():.4g} m3 in {np.count_nonzero(moving)} of {p.count} particles still move, the "
-                f"fastest with {speed[k]:.3g} m/s near ({x:.9g}, {y:.9g}) m"
+                f"fastest with {speed[k]:.3g} m/s near ({x:.8g}, {y:.8g}) m"
             )
         if not sim.inflow.over:
             words.append(f"the inflow lasts until {max(source.times[-1] for source in sim.inflow.sources):.4g} s")

@@ -1,4 +1,4 @@
-"""Report of a run: one HTML page without further files, for decisions and for checks."""
+"""Report of a run: one HTML page that needs no other file."""
 
 from .write import write_report
 

@@ -12,7 +12,7 @@ log = logging.getLogger("landlab_debrisflow")
 
 
 def remarks(scene: Any) -> dict[str, list[str]]:
-    """Return notes and doubts about a `Scene`, which `check` prints, by their names in a record."""
+    """Return notes and doubts about a `Scene` by their names in a record, as `check` prints them."""
     return {"notes": list(scene.notes), "doubts": list(scene_doubts(scene))}
 
 

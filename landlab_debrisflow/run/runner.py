@@ -13,7 +13,7 @@ from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
 from ..fidelity.plan import Plan
-from ..fidelity.report import Report
+from ..fidelity.statement import Statement
 from ..record.monitor import COMPILING, Monitor
 from ..scene.releases import advance
 from .advance import check_mass
@@ -200,5 +200,5 @@ def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> 
         (folder / REPORT).write_text(f"{_statement(flow)}\n", encoding="utf-8")
 
 
-def _statement(flow: DebrisFlow) -> Report:
+def _statement(flow: DebrisFlow) -> Statement:
     return dataclasses.replace(flow.report(), seconds=math.nan)  # left out, so that equal runs write equal files

@@ -86,7 +86,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
 
 
 def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Raise the ground along a line to a crest, with sloping sides or upright ones; return a report.
+    """Raise the ground along a line to a crest, with sloping sides or upright ones; return a note.
 
     Every node within half a diagonal of a cell from the line gets the crest, so that it has no gap between nodes.
     """
@@ -170,7 +170,7 @@ def _check_thickness(shape: Shape, nodes: np.ndarray, ground: Ground, width: flo
 
 
 def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return a report."""
+    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return a note."""
     lattice = ground.lattice
     nodes = nodes_inside(shape.geometry, lattice)
     if nodes.size == 0:
@@ -204,7 +204,7 @@ def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
 
 
 def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
-    """Close the nodes of buildings, or raise them by a height; return a report."""
+    """Close the nodes of buildings, or raise them by a height; return a note."""
     lattice = ground.lattice
     raised, closed, thin = 0, 0, []
     for shape in shapes:

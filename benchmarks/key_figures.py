@@ -1,12 +1,11 @@
-"""Print the figures the README quotes: ``python -m benchmarks.figures`` from the root of a checkout.
+"""Balances, travel of bodies, and the demo in numbers: ``python -m benchmarks.key_figures`` from a checkout.
 
-Balance of volume and of elevation; travel of a cap on planes and of an eroding block against their closed
-forms; CPU time of the demo with a cold and a warm cache of kernels, and its run-out against the number of
-particles. The cases are those of the tests, with more
-particles. S-1000 is measured by ``python examples/s1000.py``.
+Balance of volume and of elevation; travel of a cap on planes and of an eroding block against their closed forms; CPU
+time of the demo with a cold and a warm cache of kernels; its run-out against the number of particles and of levels.
+Keeps benchmarks/results/key_figures.json, from which tables of docs/accuracy.md are written.
 """
 
-import itertools
+import argparse
 import math
 import os
 import resource
@@ -15,9 +14,8 @@ import sys
 import tempfile
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
+from benchmarks import charts, result_files
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import LEVELS, MATERIAL, measure
 from landlab_debrisflow.exact import flows
@@ -68,42 +66,52 @@ def demo_cpu():
     return times[0], np.median(times[1:], axis=0)
 
 
-def fronts(columns, counts=(750,)) -> str:
-    """Return the run-out of the demo's front beyond the 100 m contour, for columns and numbers of particles [m]."""
-    found = []
-    for column, particles in itertools.product(columns, counts):
-        flow = DebrisFlow(tsing_shan_valley(), column=column, material=MATERIAL, numerics={"particle_count": particles})
-        before = flow.maps
-        flow.run_until_rest()
-        found.append(measure(flow, before)["run-out of the front beyond the 100 m contour [m]"])
-    return " ".join(f"{one:.0f}" for one in found)
+SLOPES = (20.0, 30.0, 45.0)
+"""Of the planes on which the cap slides [deg]."""
+
+COUNTS = (750, 1500, 3000, 6000)
+"""Particles of the demo's runs with its own columns."""
+
+COLUMNS = tuple(
+    {"law": law, "levels": levels, "scheme": scheme}
+    for law in ("ale", "classical")
+    for scheme in ("default", "upwind")
+    for levels in (11, 41, 161)
+)
+"""Columns of the demo's runs with 750 particles."""
+
+
+def front(column, particles: int) -> float:
+    """Return the run-out of the demo's front beyond the 100 m contour [m]."""
+    flow = DebrisFlow(tsing_shan_valley(), column=column, material=MATERIAL, numerics={"particle_count": particles})
+    before = flow.maps
+    flow.run_until_rest()
+    return float(measure(flow, before)["run-out of the front beyond the 100 m contour [m]"])
 
 
 def main():
-    table = Table(title="Figures", title_justify="left")
-    for heading in ("what", "measured", "to reach"):
-        table.add_column(heading)
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     volume, rise = balances()
-    table.add_row("balance of volume over the demo's event, relative", f"{volume:.1e}", "1e-12")
-    table.add_row("sum of elevation change against the balance, relative", f"{rise:.1e}", "1e-12")
-    for degrees in (20.0, 30.0, 45.0):
-        words = f"travel of a cap of {PARTICLES} particles on {degrees:g} deg, relative error"
-        table.add_row(words, f"{cap_travel(degrees):.1e}", "1e-3")
     speed, travel, ratio = flows.eroding_block(20.0, math.radians(30.0), 0.21, 3e-3)
     error = growing_cap(0.25) / np.array([travel, speed, ratio]) - 1.0
-    table.add_row("Hungr block at 20 s, relative error of x, v, h/h0", " ".join(f"{e:.1e}" for e in error), "1e-4")
     cold, warm = demo_cpu()
-    for word, (runs, process), most in (("a cold", cold, 20), ("a warm", warm, 5)):
-        words = f"CPU of the demo's two runs with {word} cache (of the whole process) [s]"
-        table.add_row(words, f"{runs:.1f} ({process:.1f})", f"{most}")
-    for column in ("ale", "classical"):
-        words = f"front of the demo's {column} run with 750, 1500, 3000, 6000 particles [m]"
-        columns = [{"law": column, "levels": LEVELS}]
-        table.add_row(words, fronts(columns, (750, 1500, 3000, 6000)), "spread 5")
-        for scheme in ("default", "upwind"):
-            finer = [{"law": column, "levels": levels, "scheme": scheme} for levels in (11, 41, 161)]
-            table.add_row(f"the same, 750 particles, {scheme} scheme, 11, 41, 161 levels", fronts(finer), "no spread")
-    Console().print(table)
+    runs = [
+        ({"law": law, "levels": LEVELS, "scheme": "default"}, count) for law in ("ale", "classical") for count in COUNTS
+    ]
+    runs += [(column, COUNTS[0]) for column in COLUMNS]
+    data = {
+        "balance of volume": volume, "balance of elevation": rise,
+        "travel of a cap": [{"slope [deg]": slope, "error": cap_travel(slope)} for slope in SLOPES],
+        "eroding block": dict(zip(("travel", "speed", "growth"), error, strict=True)),
+        "CPU time of the demo [s]": [
+            {"cache": word, "runs": times[0], "process": times[1]} for word, times in (("cold", cold), ("warm", warm))
+        ],
+        "front of the demo": [
+            column | {"particles": particles, "front [m]": front(column, particles)} for column, particles in runs
+        ],
+    }  # fmt: skip
+    result_files.keep("key_figures", data, "python -m benchmarks.key_figures")
+    charts.make("key_figures")
 
 
 if __name__ == "__main__":
