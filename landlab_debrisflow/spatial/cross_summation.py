@@ -22,7 +22,7 @@ _ZERO, _ONE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(4.0), _F(1e-12)
 
 
 class CrossPhaseInput(NamedTuple):
-    """State of all n particles, of either phase, that the sums over the other phase read.
+    """State of all n particles, of either phase, for the sums over the other phase.
 
     Attributes
     ----------
