@@ -95,8 +95,7 @@ class ShownMap(NamedTuple):
     quantity: Quantity
 
     def norm(self, scar: xr.DataArray | None = None) -> Normalize:
-        """Return the scale of the colours; for changes of elevation the scar is left out, unless all changes lie in
-        it."""
+        """Return the scale of the colours; the scar sets that of elevation changes only if all changes lie in it."""
         values, scale = [self.values.values], self.quantity.scale
         if self.name == CHANGE and scar is not None and np.isfinite(beyond := np.where(scar, np.nan, values[0])).any():
             values = [beyond]
