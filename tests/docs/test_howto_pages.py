@@ -1,5 +1,6 @@
 """What the pages about releases, loops, observers and columns print is what they say; their numbers have a source."""
 
+import concurrent.futures
 import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -127,7 +128,8 @@ def test_many_runs_at_once_as_printed(monkeypatch, capsys, tmp_path):
     }  # fmt: skip
     monkeypatch.chdir(tmp_path)
     Path("scene.yaml").write_text(yaml.safe_dump(scene), encoding="utf-8")
-    pools = SimpleNamespace(ProcessPoolExecutor=lambda count, mp_context: ThreadPoolExecutor(count))
+    threads = {"ProcessPoolExecutor": lambda count, mp_context: ThreadPoolExecutor(count)}
+    pools = SimpleNamespace(**vars(concurrent.futures) | threads)
     monkeypatch.setitem(sys.modules, "concurrent.futures", pools)
     exec(compile(block, "landlab_loops.md", "exec"), {"__name__": "__main__"})
     angles, speeds = np.array(numbers(capsys.readouterr().out)).reshape(3, 2).T
