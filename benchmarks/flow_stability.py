@@ -149,7 +149,7 @@ def chart():
     style.finish(
         axis, yscale="log", ylim=(1e-5, 300.0), xlabel="time step over the stability limit [-]",
         ylabel="energy gained in one period\nover the kinetic energy [-]",
-        title="Basin of Thacker with a curved surface, 2000 particles; a line ends where the run blew up",
+        title="Basin of Thacker with a curved surface, 2000 particles; lines end where a run became unstable",
     )  # fmt: skip
     title = f"shock viscosity (limit of the step: {LIMIT:g} smoothing lengths over celerity)"
     style.legend_below(figure, axis, ncol=3, title=title)

@@ -112,8 +112,8 @@ def test_arrays_are_kept_within_their_steps_and_read(tmp_path, monkeypatch):
 
 def test_an_unknown_figure_is_asked_back(capsys):
     with pytest.raises(SystemExit):
-        charts.main(["colum"])
-    assert "there is no figure 'colum' (did you mean 'column'?)" in capsys.readouterr().err
+        charts.main(["flw"])
+    assert "there is no figure 'flw' (did you mean 'flow'?)" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         charts.main(["--measure"])
     assert "name what is to be measured" in capsys.readouterr().err
