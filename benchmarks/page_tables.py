@@ -34,9 +34,9 @@ def filled(text: str) -> str:
     return MARKED.sub(lambda found: f"{found[1]}{TABLES[found[2]]()}{found[3]}", text)
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table of Markdown; all columns but the first are numbers."""
-    lines = ["| " + " | ".join(heads) + " |", "|---|" + "---:|" * (len(heads) - 1)]
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], other: str = "---:") -> str:
+    """Return a table of Markdown; `other` tells how columns but the first are aligned, by default as numbers."""
+    lines = ["| " + " | ".join(heads) + " |", "|---|" + f"{other}|" * (len(heads) - 1)]
     return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
@@ -243,8 +243,8 @@ def provenance() -> str:
         known = "" if load is None or math.isnan(load) else f"{load:g}"
         machine = f"{told['processor']}, {told['cores']} cores"
         link = f"[{name}](../benchmarks/results/{result_files.path_of(name).name})"
-        rows.append((link, f"`{told['command']}`", told["date"], told["commit"], machine, known))
-    return table(["result", "command", "date", "commit", "machine", "load before"], rows)
+        rows.append((link, f"`{told['command']}`", told["date"], told["commit"], machine, known, told.get("note", "")))
+    return table(["result", "command", "date", "commit", "machine", "load before", "note"], rows, "---")
 
 
 TABLES = {

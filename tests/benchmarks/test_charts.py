@@ -78,7 +78,6 @@ def test_tables_of_a_page_are_those_of_the_results(page):
     text = page.read_text(encoding="utf-8")
     assert set(page_tables.TABLES) == set(re.findall("<!-- table (\\w+) -->", text))
     assert page_tables.filled(text) == text
-    assert page_tables.filled(re.sub(r"\d", "7", text)) == re.sub(r"\d", "7", text) or "| " in text
     assert "<!-- table" not in page_tables.MARKED.sub("", text)
 
 
