@@ -11,14 +11,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "docs" / "_site")]
 
-from values import VALUES  # noqa: E402  of docs/_site
+from docstrings import VALUES  # noqa: E402  of docs/_site
 
 import landlab_debrisflow  # noqa: E402
 from tests.numba_cache import NUMBA_CACHE  # noqa: E402
 
 # kernels of cells run this checkout with this Python, and read the compiled kernels that the tests have left
 os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])])
-os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 os.environ.setdefault("NUMBA_CACHE_DIR", NUMBA_CACHE)
 
 project = "landlab_debrisflow"
@@ -36,6 +35,7 @@ extensions = [
     "anchors",
     "expected",
     "cells",
+    "docstrings",
     "mathml",
 ]
 exclude_patterns = ["_build", "_site"]

@@ -18,7 +18,7 @@ from .model.simulation import Simulation
 if TYPE_CHECKING:
     from .fidelity.event import Event
     from .fidelity.plan import Plan
-    from .fidelity.report import Report
+    from .fidelity.statement import Statement
 
 
 class Planning:
@@ -53,7 +53,7 @@ class Planning:
         max_cost : float, optional
             Longest CPU time of the run to come [s].
         max_duration : float
-            As of `run_until_rest` [s].
+            As in `run_until_rest` [s].
         raster : bool, optional
             Whether to run a pilot with every second node, too; by default if that costs little.
 
@@ -91,7 +91,7 @@ class Planning:
         Parameters
         ----------
         plan : Plan
-            Of the same scene.
+            Plan of the same scene.
 
         Raises
         ------
@@ -115,18 +115,18 @@ class Planning:
             )
         self._take(plan)
 
-    def report(self) -> "Report":
-        """Return a report of the run: particles, column and steps, cost, and stated errors.
+    def report(self) -> "Statement":
+        """Return a statement on the run: particles, column and steps, cost, and stated errors.
 
         Returns
         -------
-        Report
+        Statement
             It prints itself. Without a plan the error is not known.
         """
-        from .fidelity.report import make_report
+        from .fidelity.statement import make_statement
 
         used = int(self._simulation.particles.ever), self._call.cpu
-        return make_report(self, *used, self._plan, self._measured)
+        return make_statement(self, *used, self._plan, self._measured)
 
     def _event(self: Any, max_duration: float) -> "Event":
         """Return the event that is about to begin; refuse one that has begun."""

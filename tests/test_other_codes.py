@@ -69,7 +69,7 @@ def test_a_voellmy_block_has_their_speed_at_every_time(recipe):
     flow = on_plane(**voellmy(recipe))
     terminal = math.sqrt(XI * float(flow.particles.thickness[0]) * PULL / G)
     relative = history(flow) / (terminal * np.tanh(PULL * np.array(TIMES) / terminal)) - 1.0
-    # Voellmy is of second order in the step of 0.5 s (docs/decisions.md, Laws 9): measured 1.1e-3 at 2 s, 4e-11 at 32 s
+    # second order in the step (docs/decisions.md, Laws 9), 0.5 s here: measured 1.1e-3 at 2 s, 4e-11 at 32 s
     assert abs(relative).max() < 2e-3
     assert abs(relative[-1]) < 1e-9
 

@@ -1,19 +1,35 @@
 """Prepare the kernels that execute code cells: a folder as in a checkout, short errors, commands that must succeed."""
 
 import os
+import sys
 from itertools import zip_longest
 from pathlib import Path
 
 STARTUP = Path(__file__).with_name("startup.py")
+COMMAND = """#!{}
+import sys
+
+from landlab_debrisflow.cli.main import main
+
+sys.exit(main())
+"""
 
 
 def prepare(app):
-    """Give IPython a folder of settings in which every kernel runs `startup.py` first."""
-    folder = Path(app.doctreedir).resolve() / "ipython"
+    """Give IPython a folder of settings in which every kernel runs `startup.py` first, and the command of the package.
+
+    The command is that of this checkout, whichever is installed in the environment.
+    """
+    folder = Path(app.doctreedir).resolve() / "kernels"
     startup = folder / "profile_default" / "startup" / "first.py"
     startup.parent.mkdir(parents=True, exist_ok=True)
     startup.write_text(STARTUP.read_text(encoding="utf-8"), encoding="utf-8")
-    os.environ.update(IPYTHONDIR=str(folder), SITE_ROOT=str(STARTUP.parents[2]), COLUMNS="100")
+    command = folder / "bin" / "landlab-debrisflow"
+    command.parent.mkdir(exist_ok=True)
+    command.write_text(COMMAND.format(sys.executable), encoding="utf-8")
+    command.chmod(0o755)
+    path = os.pathsep.join([str(command.parent), os.environ["PATH"]])
+    os.environ.update(IPYTHONDIR=str(folder), SITE_ROOT=str(STARTUP.parents[2]), COLUMNS="100", PATH=path)
 
 
 def spread(app, env, docnames):

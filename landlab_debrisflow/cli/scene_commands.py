@@ -61,7 +61,9 @@ def _command(commands, name: str, function, words: str, end: str | None = None):
 
 def _add_message_options(parser) -> None:
     parser.add_argument("--quiet", "-q", action="store_true", help="write errors only")
-    parser.add_argument("--verbose", "-v", action="store_true", help="write what the package tells besides warnings")
+    parser.add_argument(
+        "--verbose", "-v", action="store_true", help="write further messages of the package, besides warnings"
+    )
     parser.add_argument("--log", type=Path, metavar="FILE", help="append all messages to a file, progress as well")
 
 

@@ -97,7 +97,7 @@ RASTER_PILOTS = (1000, 500)
 
 NEVER_HELD = {
     "time_to_rest": "a flow ends in a creep whose duration changes by a fifth from one number of particles to the next",
-    "deposit_area": "it is the area of what lies there, which changes by a sixth; hold area, where the flow came",
+    "deposit_area": "the area of the deposit changes by a sixth; hold area, which the flow reached",
     "max_pressure": "it is that of one node; pressure is the 99 % quantile, which is stated",
     "deposit_thickness": "it changes by a fifth at one node; deposit is its mean by volume, which is stated",
 }  # fmt: skip

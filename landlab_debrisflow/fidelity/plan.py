@@ -56,7 +56,7 @@ class Plan(Printed):
     volume : float
         Volume that is released and flows in [m3].
     digests : dict of str to str
-        Of the setup and the ground that the plan is for.
+        Digests of the setup and the ground that the plan is for.
     warnings : tuple of str
         Doubts about the event that no choice of a plan removes.
     """
@@ -103,7 +103,7 @@ class Plan(Printed):
         Parameters
         ----------
         errors : mapping of str to float
-            Of particles, by quantity [-].
+            Errors of particles, by quantity [-].
 
         Returns
         -------
@@ -180,7 +180,9 @@ class Plan(Printed):
         rows.append(("cost", self._cost_words()))
         notes = [*self.warnings]
         if self.still_moving:
-            notes.append(f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are those then")
+            notes.append(
+                f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are stated for this time"
+            )
         return Table(
             title=f"Plan: {grouped(self.particles)} particles, {self.rules['column'][0]}, {self.numerics.preset} steps",
             rows=rows, errors=error_rows(self, self.errors), raster=self.rules["raster"][1], notes=notes,
@@ -206,7 +208,7 @@ def error_rows(plan: Plan, errors: Mapping[str, float]) -> list[tuple[str, float
     ----------
     plan : Plan
     errors : mapping of str to float
-        Of particles, by quantity [-].
+        Errors of particles, by quantity [-].
 
     Returns
     -------

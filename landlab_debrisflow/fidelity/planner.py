@@ -63,7 +63,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     raster = examine_raster(event, setup, pilots, sum(known) + cost.seconds, wishes.raster, notify)
     phases, warnings = _phases(event, last)
     if last.outflow > NOTABLE_OUTFLOW:
-        warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
+        warnings += (f"{percent(last.outflow)} of the volume leaves the grid: errors are those of the rest",)
     errors = errors_with(errors, count, finest) if count > finest else errors
     coarse = [WORDS[name] for name in wishes.hold if raster.errors.get(name, 0.0) > wishes.tolerance]
     if coarse:
@@ -133,7 +133,8 @@ def _choose_count(errors, costs: dict[int, Cost], wishes: Wishes) -> tuple[int, 
     asked = count_asked(errors, finest, wishes.tolerance, wishes.hold)
     count = next_count(asked, finest, wishes.max_particles)
     worst = max(wishes.hold, key=lambda name: errors[name] if errors[name] == errors[name] else -1.0)
-    rule = f"with {finest} the largest error of what is to be held is {percent(errors[worst])}, of {WORDS[worst]}"
+    largest = f"{percent(errors[worst])}, of {WORDS[worst]}"
+    rule = f"with {finest} the largest error of the quantities to be held is {largest}"
     rule += f", tolerance {100.0 * wishes.tolerance:g} %"
     if asked > finest:
         wanted = grouped(float(f"{asked:.3g}")) if math.isfinite(asked) else "more than any number"

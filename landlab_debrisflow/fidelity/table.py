@@ -1,4 +1,4 @@
-"""Rows, stated errors and notes of a plan or a report, as text and as a table for notebooks."""
+"""Rows, stated errors and notes of a plan or a statement, as text and as a table for notebooks."""
 
 import dataclasses
 import math
@@ -22,7 +22,7 @@ LEAST_CREEP = 0.005
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Table:
-    """Content of a plan or a report.
+    """Content of a plan or a statement.
 
     Attributes
     ----------

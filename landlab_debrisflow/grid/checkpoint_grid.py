@@ -36,8 +36,8 @@ def check_same(grid, dataset) -> None:
         node = other[0]
         raise InputError(
             f"load: {other.size} nodes of the grid have another status than in the checkpoint, the first is "
-            f"{where(grid, node)}: {status[node]}, there {written[node]}; set grid.status_at_node to what it was, or "
-            "load without a grid"
+            f"{where(grid, node)}: {status[node]}, there {written[node]}; set grid.status_at_node to the former "
+            "statuses, or load without a grid"
         )
     names = {data.attrs["field"] for data in dataset.values() if "field" in data.attrs}
     for field in NODE_FIELDS:

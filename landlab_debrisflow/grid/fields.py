@@ -88,8 +88,8 @@ NODE_FIELDS = (
     ),
     NodeField(
         "debris_flow__max_run_up", "out", "m",
-        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes of "
-        "what stood at their faces",
+        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes at "
+        "their faces",
     ),
     NodeField(
         "debris_flow__arrival_time", "out", "s",

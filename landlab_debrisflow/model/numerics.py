@@ -34,7 +34,7 @@ class Numerics:
         kind=int, words=(AUTO,),
     )  # fmt: skip
     tolerance: float | None = parameter(
-        "-", "error that a number of particles found by pilot runs may leave in what hold names; 0.05 if not set",
+        "-", "largest error of the quantities in hold, for a number of particles found by pilot runs; 0.05 if not set",
         None, (1e-3, 0.5), remedy="0.05 are 5 %",
     )  # fmt: skip
     hold: Any = parameter(

@@ -79,8 +79,8 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     needed = (*(prefix + variable.name for variable in p.variables), "awake", "ever", "time")
     if missing := [name for name in needed if name not in read]:
         raise InputError(
-            f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give what "
-            "to_dataset() of a run with the same setup wrote"
+            f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give a Dataset "
+            "that to_dataset() of a run with the same setup wrote"
         )
     for variable in p.variables:
         setattr(p, variable.name, np.array(read[prefix + variable.name], variable.dtype, order="C"))

@@ -25,7 +25,7 @@ PARTICLE_VARIABLES = (
     Variable("smoothing_length", "m", "SPH smoothing length"),
     Variable("next_smoothing_length", "m", "SPH smoothing length of the next step", written=False),
     Variable("light", "-", "whether it is much smaller than most of its release", bool, False, written=False),
-    Variable("usual_length", "m", "smoothing length of the others in the thickest of the release", written=False),
+    Variable("usual_length", "m", "usual smoothing length in the thickest part of the release", written=False),
     Variable("gradient_term", "-", "grad-h term Omega of the SPH sums", initial=1.0, written=False),
     Variable("thickening", "m s-1", "-h div v of the flow", written=False),
     Variable("reference_position", "m", "position when it last counted as changed", components=3, written=False),
@@ -81,7 +81,7 @@ def particle_variables(column, laws=()) -> tuple[Variable, ...]:
         If two of the variables have one name.
     """
     memory = Variable(
-        "column_memory", "-", "what the column law remembers", written=False,
+        "column_memory", "-", "memory of the column law", written=False,
         width=getattr(column, "memory_size", 0),
     )  # fmt: skip
     variables = [*PARTICLE_VARIABLES, memory]

@@ -1,5 +1,7 @@
 """Figures made of Datasets."""
 
+from .animation import animate, save_animation
+from .column import draw_column
 from .comparison import Layer, draw_maps
 from .files import save_figure
 from .hydrographs import draw_gauges, draw_hydrographs
@@ -8,9 +10,13 @@ from .overview import draw_overview
 from .section import draw_section
 from .thalweg import trace_thalweg
 from .time_distance import draw_time_distance
+from .tracks import draw_tracks
+from .volumes import draw_volumes
 
 __all__ = [
     "Layer",
+    "animate",
+    "draw_column",
     "draw_gauges",
     "draw_hydrographs",
     "draw_map",
@@ -18,6 +24,9 @@ __all__ = [
     "draw_overview",
     "draw_section",
     "draw_time_distance",
+    "draw_tracks",
+    "draw_volumes",
+    "save_animation",
     "save_figure",
     "trace_thalweg",
 ]

@@ -1,6 +1,7 @@
 """Frame of a map: ground, coordinates on the axes, scale bar."""
 
 import re
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,6 +14,9 @@ from .style import LABEL, NOTE, dress, halo
 
 KILOMETRES_FROM = 5000.0
 """Extent above which coordinates are told in km instead of m [m]."""
+
+NO_TICKS = 0.08
+"""Part of an axis at either end that has no ticks [-]."""
 
 CONTOUR = "#6b5a45"
 """Colour of contour lines."""
@@ -61,7 +65,7 @@ def draw_coordinates(axes: Axes, extent: Extent, reference: str = "", *, labels:
     unit, factor = unit_of_coordinates(extent)
     wide = extent.width >= extent.height
     for axis, count in ((axes.xaxis, 5 if wide else 3), (axes.yaxis, 3 if wide else 5)):
-        axis.set_major_locator(MaxNLocator(count, steps=[1, 2, 2.5, 5, 10]))
+        axis.set_major_locator(InnerTicks(count, steps=[1, 2, 2.5, 5, 10]))
         axis.set_major_formatter(FuncFormatter(lambda value, _: coordinate_text(value / factor)))
     dress(axes)
     for tick in axes.get_yticklabels():
@@ -70,6 +74,16 @@ def draw_coordinates(axes: Axes, extent: Extent, reference: str = "", *, labels:
     if labels:
         axes.set_xlabel(f"x [{unit}]{f', {reference}' if reference else ''}", fontsize=LABEL)
         axes.set_ylabel(f"y [{unit}]", fontsize=LABEL)
+
+
+class InnerTicks(MaxNLocator):
+    """Round places of ticks that are not so near to an end of an axis that labels of two axes would meet."""
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        """Return the places of ticks between two ends."""
+        ticks, margin = np.asarray(super().tick_values(vmin, vmax)), NO_TICKS * abs(vmax - vmin)
+        inner = ticks[(ticks >= min(vmin, vmax) + margin) & (ticks <= max(vmin, vmax) - margin)]
+        return inner if inner.size else ticks
 
 
 def unit_of_coordinates(extent: Extent) -> tuple[str, float]:

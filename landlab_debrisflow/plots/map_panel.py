@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Colormap, LogNorm, Normalize
 from matplotlib.image import AxesImage
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator
@@ -28,6 +29,7 @@ def draw_values(
     colours: Colormap,
     *,
     contours: bool = True,
+    missing: str = MISSING,
 ) -> AxesImage:
     """Draw values over the ground; where they are missing, the ground shows.
 
@@ -43,6 +45,8 @@ def draw_values(
     colours : matplotlib.colors.Colormap
     contours : bool
         Whether contour lines of the ground are drawn.
+    missing : str
+        Text of a map without values.
 
     Returns
     -------
@@ -58,7 +62,7 @@ def draw_values(
     axes.set(xlim=extent[:2], ylim=extent[2:], aspect="equal")
     if not np.isfinite(part.values).any():
         axes.text(
-            0.5, 0.5, MISSING, transform=axes.transAxes, ha="center", va="center", fontsize=LABEL, path_effects=halo()
+            0.5, 0.5, missing, transform=axes.transAxes, ha="center", va="center", fontsize=LABEL, path_effects=halo()
         )
     return image
 
@@ -80,10 +84,31 @@ def draw_colour_bar(
     unit : str
         Unit of the values.
     extent : Extent
+        Extent of the panel.
+    """
+    bar_beside(axes, image, norm, extend_of(norm, values), unit, extent)
+
+
+def bar_beside(axes: Axes, drawn: ScalarMappable, norm: Normalize, extend: str, unit: str, extent: Extent) -> None:
+    """Draw a colour bar beside a panel, with the unit above.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+        The panel.
+    drawn : matplotlib.cm.ScalarMappable
+        Image or lines that have the colours.
+    norm : matplotlib.colors.Normalize
+        Their scale.
+    extend : str
+        Ends with an arrow: "neither", "min", "max" or "both".
+    unit : str
+        Unit of the values.
+    extent : Extent
         Of the panel.
     """
     beside = axes_beside(axes)
-    bar = axes.figure.colorbar(image, cax=beside, extend=extend_of(norm, values), extendfrac=0.04)
+    bar = axes.figure.colorbar(drawn, cax=beside, extend=extend, extendfrac=0.04)
     if isinstance(norm, LogNorm):
         beside.yaxis.set_major_locator(LogLocator(10.0, numticks=6))
         beside.yaxis.set_major_formatter(LogFormatterSciNotation())
@@ -92,9 +117,8 @@ def draw_colour_bar(
         bar.update_ticks()
     bar.outline.set_linewidth(0.6)
     beside.tick_params(labelsize=TICK, width=0.6, length=2.5)
-    beside.set_title(
-        f"[{unit_text(unit)}]", fontsize=TICK, loc="left", pad=8.0 if bar.extend in ("max", "both") else 4.0
-    )
+    above = 8.0 if extend in ("max", "both") else 4.0
+    beside.set_title(f"[{unit_text(unit)}]", fontsize=TICK, loc="left", pad=above)
 
 
 def axes_beside(axes: Axes, gap: float = 0.07, width: float = 0.13) -> Axes:

@@ -1,6 +1,6 @@
 """Maps of one run over its relief: a quantity in map coordinates."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from ..core.checks import in_range
 from ..core.errors import InputError
@@ -17,8 +18,8 @@ from .extent import Extent, extent_around, panel_size, within
 from .ground import ELEVATION, elevation_of, on_increasing_axes, release_outline
 from .map_frame import draw_coordinates, draw_scale_bar, reference_name
 from .map_panel import draw_colour_bar, draw_isochrones, draw_values
-from .overlays import draw_outline, draw_shapes
-from .quantities import DIVERGING, TIME, ShownMap, shown_map
+from .overlays import draw_outline, draw_places, draw_shapes
+from .quantities import DIVERGING, PLAIN, TIME, ShownMap, reached_nodes, shown_map
 from .style import TITLE, figure_of, new_figure, plain_text
 
 LARGEST_PANEL = (7.0, 6.5)
@@ -39,6 +40,7 @@ def draw_map(
     contours: bool = True,
     outline: xr.DataArray | None = None,
     shapes: Any = None,
+    places: Mapping[str, ArrayLike] | None = None,
 ) -> Figure:
     """Draw the map of a quantity over a hillshade, in map coordinates.
 
@@ -65,7 +67,7 @@ def draw_map(
     least_depth : float
         Peaks and arrival are missing where the peak depth stayed below [m].
     extent : sequence of float, optional
-        West, east, south and north of the part shown [m]; by default all that is drawn, with a margin.
+        West, east, south and north of the part shown [m]; by default all that the flow reached, with a margin.
     margin : float, optional
         Width of the ground around it [m].
     contours : bool
@@ -74,6 +76,8 @@ def draw_map(
         Region whose rim is drawn; by default the release, if `before` or the file tells it.
     shapes : object, optional
         Buildings, roads or dams: a GeoDataFrame, geometries of shapely, or arrays of vertices, shape (n, 2) [m].
+    places : mapping of str to array_like, shape (2,) or (n, 2), optional
+        Points and lines with their names, such as gauges and sections: map coordinates [m].
 
     Returns
     -------
@@ -101,11 +105,15 @@ def draw_map(
     """
     shown = shown_map(maps, name, before=before, least_depth=least_depth)
     region = release_outline(maps, before) if outline is None else on_increasing_axes(outline)
-    place = chosen_extent(np.isfinite(shown.values.values), shown.values, region, extent, margin)
+    reached = reached_nodes(maps, least_depth)  # maps of a run have one extent, and can be laid upon each other
+    drawn = np.isfinite(shown.values.values) if reached is None else reached
+    place = chosen_extent(drawn, shown.values, region, extent, margin)
     if axes is None:
         width, height = panel_size(place, LARGEST_PANEL)
         axes = new_figure(max(width, 2.6) + 1.5, height + 1.0).add_subplot()
     draw_shown(axes, shown, relief_of(maps), place, region, limits=limits, contours=contours, shapes=shapes)
+    if places is not None:
+        draw_places(axes, places)
     draw_coordinates(axes, place, plain_text(reference_name(maps)))
     draw_scale_bar(axes, place, np.isfinite(within(shown.values, place).values))
     axes.set_title(plain_text(shown.quantity.words if title is None else title), loc="left", fontsize=TITLE)
@@ -135,12 +143,12 @@ def draw_shown(
     region : xarray.DataArray of bool, optional
         Region whose rim is drawn.
     limits, contours, shapes
-        As of `draw_map`.
+        As in `draw_map`.
     """
-    norm, scale = shown.norm(), shown.quantity.scale
+    norm, scale = shown.norm(region), shown.quantity.scale
     if limits is not None:
         norm.vmin, norm.vmax = checked_limits(limits, isinstance(norm, LogNorm))
-    colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, "plain"))
+    colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, PLAIN))
     image = draw_values(axes, shown.values, relief, place, norm, colours, contours=contours)
     draw_colour_bar(axes, image, norm, [shown.values.values], shown.quantity.unit, place)
     if scale == TIME:

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from numpy.typing import ArrayLike
 
 from ..core.errors import InputError
-from .style import halo
+from .style import NOTE, halo, plain_text
 
 
 def draw_outline(axes: Axes, region: xr.DataArray, *, color: str = "black", linestyle: str = "-") -> LineCollection:
@@ -22,7 +22,7 @@ def draw_outline(axes: Axes, region: xr.DataArray, *, color: str = "black", line
     region : xarray.DataArray of bool
         Over ``y`` and ``x``.
     color, linestyle : str
-        As of matplotlib.
+        Colour, as in matplotlib.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def draw_shapes(axes: Axes, shapes: Any, *, color: str = "black") -> LineCollect
         GeoDataFrame, geometry of shapely, GeoJSON mapping, or arrays of vertices of shape (n, 2) in map coordinates
         [m]; a sequence of them, or a mapping of names to them.
     color : str
-        As of matplotlib.
+        Colour, as in matplotlib.
 
     Returns
     -------
@@ -54,11 +54,33 @@ def draw_shapes(axes: Axes, shapes: Any, *, color: str = "black") -> LineCollect
     Raises
     ------
     InputError
-        If they have no coordinates.
+        If a shape has no coordinates.
     """
     lines = LineCollection(list(lines_of(shapes)), colors=color, linewidths=1.0, path_effects=halo(2.0), zorder=7)
     axes.add_collection(lines, autolim=False)
     return lines
+
+
+def draw_places(axes: Axes, places: Mapping[str, ArrayLike]) -> None:
+    """Draw points and lines with their names, such as gauges and sections.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    places : mapping of str to array_like, shape (2,) or (n, 2)
+        Map coordinates of a point, or of the vertices of a line, by name [m].
+    """
+    for name, place in places.items():
+        vertices = np.atleast_2d(np.asarray(place, float))[:, :2]
+        vertices = vertices[np.isfinite(vertices).all(axis=1)]
+        if vertices.size == 0:
+            continue
+        mark: dict[str, Any] = {"marker": "o", "markersize": 4.0} if len(vertices) == 1 else {"linewidth": 1.4}
+        axes.plot(*vertices.T, color="black", path_effects=halo(3.0), zorder=8, label="_place", **mark)
+        axes.annotate(
+            plain_text(name), vertices[np.argmax(vertices[:, 1])], xytext=(0.0, 3.0), textcoords="offset points",
+            ha="center", va="bottom", fontsize=NOTE, path_effects=halo(), zorder=9, annotation_clip=True,
+        )  # fmt: skip
 
 
 def lines_of(shapes: Any) -> Iterator[np.ndarray]:
@@ -67,7 +89,7 @@ def lines_of(shapes: Any) -> Iterator[np.ndarray]:
     Parameters
     ----------
     shapes : object
-        As of `draw_shapes`.
+        As in `draw_shapes`.
 
     Examples
     --------

@@ -12,7 +12,7 @@ from .extent import Extent, panel_size, within
 from .ground import release_outline
 from .map_frame import draw_coordinates, draw_scale_bar, reference_name, unit_of_coordinates
 from .maps import chosen_extent, draw_shown, relief_of
-from .quantities import OVERVIEW, map_names, shown_map
+from .quantities import OVERVIEW, map_names, reached_nodes, shown_map
 from .style import LABEL, TITLE, new_figure, number_text, plain_text
 
 WIDTH = 12.5
@@ -48,7 +48,7 @@ def draw_overview(
     title : str, optional
         Title of the figure; by default volumes [m3] and elapsed time [s], if the maps have them.
     least_depth, extent, margin, contours, shapes
-        As of `draw_map`.
+        As in `draw_map`.
 
     Returns
     -------
@@ -57,13 +57,14 @@ def draw_overview(
     Raises
     ------
     InputError
-        As of `draw_map`.
+        As in `draw_map`.
     """
     if names is None:
         names = [name for name in OVERVIEW if name in map_names(maps)] or map_names(maps)[:1] or OVERVIEW[:1]
     shown = [shown_map(maps, name, before=before, least_depth=least_depth) for name in names]
     region, raster = release_outline(maps, before), shown[0].values
-    drawn = np.logical_or.reduce([np.isfinite(one.values.values) for one in shown])
+    reached = reached_nodes(maps, least_depth)
+    drawn = np.logical_or.reduce([np.isfinite(one.values.values) for one in shown]) if reached is None else reached
     place = chosen_extent(drawn, raster, region, extent, margin)
     rows, columns = _arranged(len(shown), place)
     width, height = panel_size(place, (WIDTH / columns - 1.0, 6.0))

@@ -16,7 +16,8 @@ from .ground import elevation_change, on_increasing_axes
 CHANGE = "elevation_change"
 """Name of the map that is made of several."""
 
-LINEAR, DIVERGING, LOGARITHMIC, RATIO, TIME = "linear", "diverging", "logarithmic", "ratio", "time"
+LINEAR, DIVERGING, LOGARITHMIC, RATIO, TIME, PLAIN = "linear", "diverging", "logarithmic", "ratio", "time", "plain"
+"""Scales: from 0, about 0, of powers of ten, from 0 to 1, of time, and from the smallest value."""
 
 
 class Quantity(NamedTuple):
@@ -31,9 +32,9 @@ class Quantity(NamedTuple):
     colours : str
         Name of a matplotlib colour map.
     factor : float
-        By which values of the map are multiplied.
+        Factor by which values of the map are multiplied.
     scale : str
-        ``linear`` from 0, ``diverging`` about 0, ``logarithmic``, ``ratio`` from 0 to 1, or ``time``.
+        ``linear`` from 0, ``diverging`` about 0, ``logarithmic``, ``ratio`` from 0 to 1, ``time``, or ``plain``.
     least : float
         Values of smaller magnitude are not shown, in the unit of the map.
     """
@@ -66,7 +67,9 @@ QUANTITIES = {
     "basal_peclet_number": Quantity("Basal Péclet number, last erosion", "–", "PuRd", scale=LOGARITHMIC),
     "release_depth": Quantity("Release", "m", "YlOrBr", least=0.01),
     "released_depth": Quantity("Release", "m", "YlOrBr", least=0.01),
-    "soil__depth": Quantity("Depth of soil", "m", "YlGn"),
+    "soil__depth": Quantity("Depth of soil", "m", "YlGn", scale=PLAIN),
+    "topographic__elevation": Quantity("Elevation of the ground", "m", "cividis", scale=PLAIN),
+    "topographic__elevation_before": Quantity("Elevation of the ground before", "m", "cividis", scale=PLAIN),
 }
 """Quantities by name, without ``debris_flow__``; other maps are shown by their attributes."""
 
@@ -91,12 +94,14 @@ class ShownMap(NamedTuple):
     values: xr.DataArray
     quantity: Quantity
 
-    def norm(self) -> Normalize:
-        """Return the scale of the colours."""
+    def norm(self, scar: xr.DataArray | None = None) -> Normalize:
+        """Return the scale of the colours; the scar sets that of elevation changes only if all changes lie in it."""
         values, scale = [self.values.values], self.quantity.scale
+        if self.name == CHANGE and scar is not None and np.isfinite(beyond := np.where(scar, np.nan, values[0])).any():
+            values = [beyond]
         if scale == LOGARITHMIC:
             return log_norm(values)
-        norm = linear_norm(values, diverging=scale == DIVERGING, from_zero=scale not in (TIME, "plain"))
+        norm = linear_norm(values, diverging=scale == DIVERGING, from_zero=scale not in (TIME, PLAIN))
         if scale == RATIO and norm.vmax is not None and norm.vmax <= 1.0:
             norm.vmax = 1.0
         return norm
@@ -153,15 +158,29 @@ def shown_map(
         values = _of_name(maps, short, names, least_depth)
     quantity = QUANTITIES.get(short) or _declared(short, values)
     values = values.where(np.isfinite(values))
+    if quantity.scale == DIVERGING and short != CHANGE and float(values.min()) > -0.01 * float(abs(values).max()):
+        quantity = quantity._replace(scale=LINEAR, colours="BuGn")
     if quantity.scale == LOGARITHMIC:
         values = values.where(values > 0.0)
     elif quantity.scale == TIME:
         values = values.where(values >= 0.0)
-    else:
-        values = values.where(abs(values) >= quantity.least) if quantity.least else _without_nothing(values, short)
+    elif quantity.scale != PLAIN:
+        values = values.where((abs(values) >= quantity.least) & (values != 0.0))
     if quantity.scale == TIME and float(values.max()) > LONG_TIME:
         quantity = quantity._replace(unit="min", factor=1.0 / 60.0)
     return ShownMap(short, values * quantity.factor, quantity)
+
+
+def reached_nodes(maps: xr.Dataset, least_depth: float = LEAST_DEPTH) -> np.ndarray | None:
+    """Return the nodes that a flow reached with a least depth [m], of bool, shape (rows, columns).
+
+    None if there is none, or the maps have no peak depth.
+    """
+    if PEAK_DEPTH not in maps or set(maps[PEAK_DEPTH].dims) != {"y", "x"}:
+        return None
+    depth = on_increasing_axes(maps[PEAK_DEPTH]).values
+    reached = (depth >= least_depth) & (depth > 0.0)
+    return reached if reached.any() else None
 
 
 LONG_TIME = 1200.0
@@ -186,9 +205,4 @@ def _of_name(maps: xr.Dataset, short: str, names: list[str], least_depth: float)
 
 def _declared(short: str, values: xr.DataArray) -> Quantity:
     words = values.attrs.get("long_name") or short.replace("_", " ").strip()
-    return Quantity(f"{words[:1].upper()}{words[1:]}", values.attrs.get("units", ""), "viridis", scale="plain")
-
-
-def _without_nothing(values: xr.DataArray, short: str) -> xr.DataArray:
-    """Return values without zeros, of outputs that are 0 where nothing came."""
-    return values.where(values != 0.0) if short in QUANTITIES else values
+    return Quantity(f"{words[:1].upper()}{words[1:]}", values.attrs.get("units", ""), "viridis", scale=PLAIN)

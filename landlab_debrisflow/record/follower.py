@@ -179,4 +179,6 @@ def check_same_names(owner: str, state: Mapping[str, Any], names: Any) -> None:
         If the names of the places differ, or their order.
     """
     if (then := str(state["names"]).split("\n")) != (now := list(names)):
-        raise InputError(f"{owner}: the checkpoint has {', '.join(then)}, here are {', '.join(now)}; give the same")
+        raise InputError(
+            f"{owner}: the checkpoint has {', '.join(then)}, here are {', '.join(now)}; give those of the checkpoint"
+        )

@@ -128,7 +128,9 @@ class Snapshots:
             try:
                 self.write()
             except (OSError, InputError) as failure:
-                failure.add_note("Snapshots: all are kept; make room and call write(), or write(path) elsewhere")
+                failure.add_note(
+                    "Snapshots: all snapshots are kept; make room and call write(), or write(path) elsewhere"
+                )
                 raise
 
     def state(self) -> dict[str, Any]:

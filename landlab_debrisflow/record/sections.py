@@ -22,9 +22,9 @@ pore-pressure column, > 0 in the positive direction [m3]; depth [m], speed [m s-
 [Pa]."""
 
 MEANS = {
-    "depth": ("m", "vertical depth of the flow, mean over what crossed"),
-    "speed": ("m s-1", "speed of the flow, mean over what crossed"),
-    "pressure": ("Pa", "excess pore pressure at the base, mean over what crossed"),
+    "depth": ("m", "vertical depth of the flow, mean over the volume that crossed"),
+    "speed": ("m s-1", "speed of the flow, mean over the volume that crossed"),
+    "pressure": ("Pa", "excess pore pressure at the base, mean over the volume that crossed"),
 }
 
 
@@ -147,7 +147,8 @@ class Sections:
 
         ``volume`` is the volume that crossed in a bin [m3], ``discharge`` this volume over the length of the bin,
         ``solid_...`` of the grains alone; ``depth``, ``speed`` and ``basal_excess_pore_pressure`` are means weighted
-        with the volume, NaN where nothing crossed. ``crossed_volume`` and ``crossed_solid_volume`` are the sums.
+        with the volume, NaN where nothing crossed. ``crossed_volume`` and ``crossed_solid_volume`` are the sums,
+        ``line_x`` and ``line_y`` over ``vertex`` the lines [m].
         """
         names, events = list(self.lines), self.crossings
         count = max(int(np.ceil(self._time / self.bin * (1.0 - 1e-12))), 0)
@@ -181,6 +182,11 @@ class Sections:
         meaning = "direction in which crossing counts as positive, anticlockwise from east"
         data["positive_direction"] = "section", np.array(directions), variable_attributes("deg", meaning)
         middle = variable_attributes("s", "elapsed time, middle of the bin") | {"bounds": "time_bounds"}
+        most = max(len(vertices) for vertices in self.lines.values())
+        for k, axis in enumerate("xy"):
+            padded = [np.pad(line[:, k], (0, most - len(line)), constant_values=np.nan) for line in self.lines.values()]
+            described = variable_attributes("m", f"{axis} of the line; NaN behind its last vertex")
+            data[f"line_{axis}"] = ("section", "vertex"), np.array(padded), described
         coordinates = {
             "section": ("section", np.array(names, object), {"long_name": "name of the section"}),
             "time": ("time", 0.5 * (edges[1:] + edges[:-1]), middle),

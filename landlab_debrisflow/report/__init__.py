@@ -1,4 +1,4 @@
-"""Report of a run: one HTML page that needs nothing beside it, for people who decide and for those who check."""
+"""Report of a run: one HTML page that needs no other file."""
 
 from .write import write_report
 

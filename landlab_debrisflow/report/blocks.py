@@ -18,15 +18,20 @@ class Table:
     rows : sequence of sequences of str
     numbers : sequence of int
         Columns that hold numbers, which are flush right, counted from 0.
+    note : str
+        Sentence below the caption.
     """
 
     caption: str
     rows: Sequence[Sequence[str]]
     head: Sequence[str] = ()
     numbers: Sequence[int] = ()
+    note: str = ""
     kind = "table"
 
     def __post_init__(self) -> None:
+        _make_printable(self, "caption", "note")
+        object.__setattr__(self, "head", [printable(cell) for cell in self.head])
         object.__setattr__(self, "rows", [[printable(cell) for cell in row] for row in self.rows])
 
 
@@ -50,6 +55,9 @@ class Picture:
     caption: str
     moving: bool = False
     kind = "picture"
+
+    def __post_init__(self) -> None:
+        _make_printable(self, "text", "caption")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,6 +93,11 @@ class Verbatim:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "text", printable(self.text, lines=True))
+
+
+def _make_printable(block: object, *names: str) -> None:
+    for name in names:
+        object.__setattr__(block, name, printable(getattr(block, name)))
 
 
 Block = Table | Picture | Sentences | Verbatim

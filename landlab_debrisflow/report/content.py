@@ -14,12 +14,14 @@ from .blocks import Block, Section, Sentences, Table, Verbatim
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
 from .errors import error_blocks
+from .exposure import Exposed, exposed, exposure_table
 from .inputs import input_blocks
 from .ledger import ledger_blocks
+from .moving import moving_pictures
 from .outcome import outcome_of
 from .parameters import law_blocks, scene_blocks
-from .pictures import map_pictures
-from .summary import BEYOND, Exposed, exposed, state_of, summary_of
+from .pictures import column_pictures, map_pictures, section_pictures, series_pictures, volume_pictures
+from .summary import BEYOND, state_of, summary_of
 
 NOT_KEPT = "The version that made the run did not keep these."
 
@@ -32,6 +34,8 @@ class Content:
     ----------
     title : str
         Name of the scene.
+    kind : str
+        Kind of the page, day of the run and version.
     state : str
         At rest, still moving, not finished.
     alert : str
@@ -39,10 +43,11 @@ class Content:
     summary : Sentences
     sections : list of Section
     made : str
-        By which command, version and when the page was made.
+        Command, version and time with which the page was made.
     """
 
     title: str
+    kind: str
     state: str
     alert: str
     summary: Sentences
@@ -50,7 +55,7 @@ class Content:
     made: str
 
     def __post_init__(self) -> None:
-        for name in ("title", "state", "alert", "made"):
+        for name in ("title", "kind", "state", "alert", "made"):
             object.__setattr__(self, name, printable(getattr(self, name)))
 
 
@@ -75,14 +80,15 @@ def gather_content(results: Results) -> Content:
     maps = results.maps if results.finished else None
     exposure = exposed(results) if results.finished else None
     summary = [] if maps is None else summary_of(record, outcome_of(results, maps), exposure)
+    kind = f"Report of a run of {record.started[:10]}, landlab_debrisflow {record.version}"
     return Content(
-        title=scene_name(results), state=state, alert=alert, summary=Sentences(summary),
+        title=scene_name(results), kind=kind, state=state, alert=alert, summary=Sentences(summary),
         sections=list(_sections(results, maps, exposure)), made=_made(),
     )  # fmt: skip
 
 
 def scene_name(results: Results) -> str:
-    """Return the name of the scene of a run: that of its file, or of the directory of the results."""
+    """Return the name of the scene of a run: the name of its file, or of the directory of the results."""
     file = results.record.scene_file
     name = (file or str(results.directory.resolve())).replace("\\", "/").rstrip("/").rpartition("/")[2]
     return name.removesuffix(".yaml").removesuffix(".yml").removesuffix("_out") or name
@@ -97,14 +103,20 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     ])  # fmt: skip
     yield Section("remarks", "What was odd", list(_remarks(record)))
     if maps is not None:
-        yield Section("maps", "Maps", list(map_pictures(maps)))
+        yield Section("maps", "Maps", [*map_pictures(results, maps), *moving_pictures(results, maps)])
+        if sections := list(section_pictures(results, maps)):
+            yield Section("sections", "Along the flow", sections)
+        if series := list(series_pictures(results)):
+            yield Section("series", "At sections and gauges", series)
+        if columns := list(column_pictures(results)):
+            yield Section("columns", "Pore pressure in a column", columns)
         if exposure is not None:
-            yield Section("exposure", "Exposed polygons", [_exposure_table(exposure)])
-        yield Section("volumes", "Volumes", ledger_blocks(record.budget))
+            yield Section("exposure", "Exposed polygons", [exposure_table(exposure)])
+        yield Section("volumes", "Volumes", [*ledger_blocks(record.budget), *volume_pictures(results)])
     yield Section("input", "Input", input_blocks(record, maps))
     yield Section("scene", "The scene as it was given", scene_blocks(record))
     yield Section("parameters", "Laws and parameters", law_blocks(record, maps))
-    yield Section("provenance", "How this was made", list(_provenance(record)))
+    yield Section("provenance", "How this was made", list(_provenance(results)))
     yield Section("citation", "Citation", [Sentences([SENTENCE]), Verbatim(bibtex(record.version, _year(record)))])
 
 
@@ -123,13 +135,8 @@ def _remarks(record: RunRecord) -> Iterator[Block]:
             yield Sentences([f"{heading}: none."])
 
 
-def _exposure_table(exposure: Exposed) -> Table:
-    head = [name.replace("_", " ") for name in exposure.head]
-    return Table(caption="Peaks, first arrival and deposit in each polygon", head=head, rows=exposure.rows,
-                 numbers=range(2, len(head)))  # fmt: skip
-
-
-def _provenance(record: RunRecord) -> Iterator[Block]:
+def _provenance(results: Results) -> Iterator[Block]:
+    record = results.record
     rows = [
         ("package", f"landlab_debrisflow {record.version}"), ("started", record.started),
         ("digest of the scene and its files", record.digest), ("time steps", str(record.steps)),
@@ -143,9 +150,11 @@ def _provenance(record: RunRecord) -> Iterator[Block]:
     rows += [
         ("Python", str(found.get("python"))),
         ("machine", f"{found.get('machine')}, {found.get('system')}, {found.get('processors')} processors"),
-        *((str(name), str(version)) for name, version in libraries.items()),
+        ("libraries", ", ".join(f"{name} {version}" for name, version in libraries.items())),
     ]
     yield Table(caption="The run", rows=rows)
+    if record.statement is not None and results.report:
+        yield Verbatim(results.report)
 
 
 def _made() -> str:

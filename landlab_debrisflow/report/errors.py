@@ -39,5 +39,4 @@ def error_blocks(results: Results) -> list[Block]:
     return [
         Table(caption="Stated errors", head=head, rows=rows, numbers=(1, 2)),
         Sentences([MEANT]),
-        Verbatim(results.report),
     ]

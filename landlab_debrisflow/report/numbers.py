@@ -1,4 +1,4 @@
-"""Numbers in words for people who read a report: rounded, with thousands apart, never split from their units."""
+"""Numbers of a report in words: rounded, with thousands apart, never split from their units."""
 
 import math
 
@@ -23,7 +23,7 @@ def rounded(value: float, unit: str = "", digits: int = 3) -> str:
         words = grouped(math.copysign(math.floor(abs(value) / scale + 0.5), value) * scale)
     else:
         words = f"{value:.{digits}g}"
-    return f"{words} {unit}".strip().replace(" ", SPACE)
+    return f"{words}{'' if unit == '°' else ' '}{unit}".strip().replace(" ", SPACE)
 
 
 def volume(value: float) -> str:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from ..core.values import keys_of
 from ..physics.registry import LAWS
+from ..plots.style import unit_text
 from ..run.record import RunRecord
 from ..scene.keys import OutputKeys, ReleaseKeys, TerrainKeys
 from ..scene.law_entries import Entry, law_entries, other_entries
@@ -16,7 +17,7 @@ from ..scene.terrain_keys import Edit, Zone
 from .blocks import Block, Sentences, Table
 from .numbers import plain
 
-HEAD = ("parameter", "value", "unit", "from", "meaning")
+HEAD = ("parameter", "value", "from", "meaning")
 UNKNOWN = "not known"
 HIDDEN = {"directory", "checkpoint_interval", "series_interval", "variables", "format"}
 """Keys of the output that change no number of a report."""
@@ -73,9 +74,9 @@ def _scene_table(path: str, cls: type, values: Mapping[str, Any], record: RunRec
             continue
         meta = declared[key].metadata if key in declared else {}
         given = _origin(record, f"{path}.{key}", value, value, declared.get(key))
-        rows.append((key, plain(value), _unit(meta, value), given, str(meta.get("meaning", ""))))
+        rows.append((key, _value_words(value, meta), given, str(meta.get("meaning", ""))))
     caption = path.replace("terrain.", "terrain: ")
-    return Table(caption=caption, head=HEAD, rows=rows, numbers=(1,)) if rows else None
+    return Table(caption=caption, head=HEAD, rows=rows) if rows else None
 
 
 def _block(
@@ -86,17 +87,20 @@ def _block(
     `ran` are the values of the run, `asked` those of the scene; `path` are the keys above them.
     """
     declared = {field.name: field for field in fields(entry.cls)} if entry else {}
-    if entry and (entry.formula or entry.source):
+    note = ""
+    if entry is not None:
         source = f" Source: {entry.source}" if entry.source else ""
-        yield Sentences([f"{title}: {': '.join(filter(None, (entry.formula, entry.summary)))}{source}"])
+        note = f"{': '.join(filter(None, (entry.formula, entry.summary)))}{source}"
     rows = []
     for name, value in ran.items():
         field = declared.get(name)
         meta = field.metadata if field is not None else {}
         origin = _origin(record, f"{path}.{name}", value, asked.get(name, value), field)
-        rows.append((name, plain(value), _unit(meta, value), origin, str(meta.get("meaning", ""))))
+        rows.append((name, _value_words(value, meta), origin, str(meta.get("meaning", ""))))
     if rows:
-        yield Table(caption=title, head=HEAD, rows=rows, numbers=(1,))
+        yield Table(caption=title, head=HEAD, rows=rows, note=note)
+    else:
+        yield Sentences([f"{title}: {note or 'no parameters'}"])
 
 
 def _origin(record: RunRecord, key: str, value: Any, asked: Any, field: Any) -> str:
@@ -111,9 +115,11 @@ def _origin(record: RunRecord, key: str, value: Any, asked: Any, field: Any) -> 
     return "given" if given else "default"
 
 
-def _unit(meta: Mapping[str, Any], value: Any) -> str:
-    unit = str(meta.get("unit", ""))
-    return "" if unit == "-" or isinstance(value, str | bool) else unit
+def _value_words(value: Any, meta: Mapping[str, Any]) -> str:
+    """Return a value with its unit, if the value is a number or a list of numbers."""
+    unit = str(meta.get("unit", "-"))
+    words = isinstance(value, str | bool | dict) or (isinstance(value, list) and not isinstance(value[0], float | int))
+    return plain(value) if words or unit == "-" else f"{plain(value)} {unit_text(unit)}".replace(" °", "°")
 
 
 def _mapping(value: Any) -> dict[str, Any]:

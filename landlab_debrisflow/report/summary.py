@@ -1,14 +1,11 @@
-"""Summary of a run in a paragraph for people who decide, and how sure it is."""
+"""Summary of a run in a paragraph for laymen, with its stated errors."""
 
-import csv
 import math
-from pathlib import Path
-from typing import NamedTuple
 
-from ..core.errors import InputError
 from ..fidelity.table import WORDS, percent
 from ..run.record import FAILED, INTERRUPTED, RunRecord
 from ..run.results import Results
+from .exposure import Exposed, exposure_sentences
 from .numbers import area, duration, rounded, volume
 from .outcome import AFFECTED, Outcome
 
@@ -16,39 +13,6 @@ BEYOND = (
     "Errors of the parameters and of the terrain come on top, and are larger as a rule: see the five things to "
     "distrust. A computation is no observation."
 )
-
-
-class Exposed(NamedTuple):
-    """Polygons of a scene that may be exposed, as `exposure.csv` holds them.
-
-    Attributes
-    ----------
-    head : list of str
-        Names of the columns.
-    rows : list of list of str
-        A row for each polygon.
-    """
-
-    head: list[str]
-    rows: list[list[str]]
-
-    def column(self, name: str) -> list[str]:
-        """Return the cells of a column; empty if there is no such column."""
-        return [row[self.head.index(name)] for row in self.rows] if name in self.head else []
-
-
-def exposed(results: Results) -> Exposed | None:
-    """Return the table of exposed polygons; None if the scene has none; a damaged table raises an InputError."""
-    path = results.directory / "exposure.csv"
-    if not path.is_file():
-        return None
-    with Path(path).open(encoding="utf-8", newline="") as file:
-        head, *rows = list(csv.reader(file)) or [[]]
-    if "id" not in head:
-        raise InputError(
-            f"{path} is no table of exposed polygons; the file is damaged, run the scene anew with --overwrite"
-        )
-    return Exposed(head, [row for row in rows if len(row) == len(head)])
 
 
 def summary_of(record: RunRecord, outcome: Outcome, exposure: Exposed | None) -> list[str]:
@@ -71,17 +35,18 @@ def summary_of(record: RunRecord, outcome: Outcome, exposure: Exposed | None) ->
         f"{rounded(AFFECTED, 'm')} or more."
     )
     if record.at_rest:
-        found.append(f"All was at rest, or had left the map, after {duration(record.elapsed_time)}.")
+        left = ", or had left the map," if record.budget.get("outflow", 0.0) > 0.0 else ""
+        found.append(f"All was at rest{left} after {duration(record.elapsed_time)}.")
     else:
         found.append(
             f"It was still moving when the computation ended after {duration(record.elapsed_time)}: run-out, area and "
             "volumes are not final."
         )
-    return [*found, *_exposure(exposure), *_certainty(record)]
+    return [*found, *exposure_sentences(exposure), *_certainty(record)]
 
 
 def state_of(results: Results) -> tuple[str, str]:
-    """Return the state of a run as a heading, and sentences on a run that has not come to its end, or nothing."""
+    """Return the state of a run as a heading, and sentences on an unfinished run."""
     record = results.record
     if results.finished:
         return ("At rest" if record.at_rest else "Still moving at its end"), ""
@@ -123,13 +88,16 @@ def _way(outcome: Outcome) -> list[str]:
     if not math.isfinite(outcome.run_out):
         return []
     start = "the release" if math.isfinite(outcome.travel_angle) else "where it flowed in"
-    words = f"Its front came {rounded(outcome.run_out, 'm')} from the centre of {start}, measured on the map"
+    words = (
+        f"Its front, behind which 99 % of the volume lies, came {rounded(outcome.run_out, 'm')} from the centre of "
+        f"{start}, measured on the map"
+    )
     if math.isfinite(outcome.travel_angle):
         words += (
             f", and {rounded(outcome.fall_height, 'm')} below the highest point of the release (a travel angle of "
             f"{rounded(outcome.travel_angle, '°', 2)})"
         )
-    return [f"{words}; 99 % of what lies there is nearer."]
+    return [f"{words}."]
 
 
 IN_SUMMARY = ("run_out", "speed", "depth", "area", "eroded")
@@ -154,18 +122,6 @@ def _certainty(record: RunRecord) -> list[str]:
     if unknown:
         found.append(f"The error of {_joined(unknown)} is not known.")
     return found
-
-
-def _exposure(exposure: Exposed | None) -> list[str]:
-    if exposure is None:
-        return []
-    names, reached = exposure.column("id"), exposure.column("reached")
-    hit = [name for name, one in zip(names, reached, strict=False) if one == "True"]
-    count = len(exposure.rows)
-    if not hit:
-        return [f"Of the {count} polygons given as exposed it reached none."]
-    shown = ", ".join(hit[:10]) + (f" and {len(hit) - 10} more" if len(hit) > 10 else "")
-    return [f"Of the {count} polygons given as exposed it reached {len(hit)}: {shown}."]
 
 
 def _joined(words: list[str]) -> str:

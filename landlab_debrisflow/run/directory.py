@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
+"""Directory of the results of a run: one run at a time, no file of another run, nothing half written."""
 
 import contextlib
 import dataclasses
@@ -13,7 +13,7 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, PAGE, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
+from .files import CHECKPOINT, LOCK, PAGE, PICTURES, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
 TEMPORARY = re.compile(r"\.(run|checkpoint|checkpoint\.previous|maps_\d+)\.\d+\.(json|nc)")
@@ -79,7 +79,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the run that begins.
+            Record of the run that begins.
         overwrite : bool
             Whether the results of an earlier run may be removed; other files stay.
 
@@ -124,7 +124,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the scene as it is now.
+            Record of the scene as it is now.
 
         Raises
         ------
@@ -185,8 +185,11 @@ class OutputDirectory:
                 (self.path / SERIES).rmdir()
 
     def remove_page(self) -> None:
-        """Remove the report, which tells of a run as it was."""
+        """Remove report and pictures, which tell of a run as it was."""
         (self.path / PAGE).unlink(missing_ok=True)
+        names = self.record.results if self.record else []
+        for name in (name for name in names if name.startswith(f"{PICTURES}/")):
+            (self.path / name).unlink(missing_ok=True)
 
     def _remove_checkpoints(self) -> None:
         for path in self.checkpoints:

@@ -12,13 +12,13 @@ log = logging.getLogger("landlab_debrisflow")
 
 
 def remarks(scene: Any) -> dict[str, list[str]]:
-    """Return notes and doubts about a `Scene` by their names in a record; `check` prints the same."""
+    """Return notes and doubts about a `Scene` by their names in a record, as `check` prints them."""
     return {"notes": list(scene.notes), "doubts": list(scene_doubts(scene))}
 
 
 @contextlib.contextmanager
 def noted_warnings(directory: OutputDirectory) -> Iterator[None]:
-    """Add the warnings of the package in a block to those in the record of a run, each once.
+    """Add the warnings of the package in a block to the record of a run, each once.
 
     An interruption is no warning: the state of the record tells it.
     """

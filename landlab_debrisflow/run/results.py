@@ -129,7 +129,7 @@ class Results:
 
     @property
     def report(self) -> str:
-        """Particles, column, steps and stated errors of the run, as text; empty before its end."""
+        """Statement on a run by a plan as text: particles, column, steps, stated errors; empty before its end."""
         path = self.directory / REPORT
         return path.read_text(encoding="utf-8").rstrip() if path.is_file() else ""
 

@@ -13,7 +13,7 @@ from ..component import DebrisFlow
 from ..core.compilations import compilations
 from ..core.errors import InputError
 from ..fidelity.plan import Plan
-from ..fidelity.report import Report
+from ..fidelity.statement import Statement
 from ..record.monitor import COMPILING, Monitor
 from ..scene.releases import advance
 from .advance import check_mass
@@ -72,7 +72,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     ----------
     scene : Scene
     monitor : Monitor, optional
-        As of `run_scene`.
+        As in `run_scene`.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     InputError
         If there is no run of this scene, or the scene or a file of it has changed.
     OutputError, OSError, KeyboardInterrupt
-        As of `run_scene`.
+        As in `run_scene`.
     """
     path = scene.output_directory
     if not (path / RECORD).is_file():
@@ -200,5 +200,5 @@ def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> 
         (folder / REPORT).write_text(f"{_statement(flow)}\n", encoding="utf-8")
 
 
-def _statement(flow: DebrisFlow) -> Report:
+def _statement(flow: DebrisFlow) -> Statement:
     return dataclasses.replace(flow.report(), seconds=math.nan)  # left out, so that equal runs write equal files

@@ -52,7 +52,7 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
         if kind not in given:
             raise ParameterError(
                 f"load: the {kind} law of the checkpoint is a {written[kind].get('law')}, which no file can hold; give "
-                f"the same again: {kind}=..."
+                f"the same law again: {kind}=..."
             )
     setup = Setup.from_mapping(written | dict(given))
     now = setup.to_mapping()
@@ -61,9 +61,10 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
         if (different := _difference(written.get(name), now[name])) or (
             name in digests and _digest(name, law) != digests[name]
         ):
-            words = different or "it prints the same, but consists of something else"
+            words = different or "it prints as the same text, but has other contents"
             raise ParameterError(
-                f"load: {name} is not that of the checkpoint: {words}; give the same, or leave out what a file can hold"
+                f"load: {name} is not that of the checkpoint: {words}; give the value of the checkpoint, or leave "
+                "out laws that a file can hold"
             )
     return setup
 

@@ -59,7 +59,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
     edits : iterable of Edit
     ground : Ground
     extent : Lattice
-        Of the whole DEM, in which shapes have to lie.
+        Extent of the whole DEM, in which shapes have to lie.
     folder : Path
         Directory to which names of files are relative.
     notes : list of str
@@ -86,7 +86,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
 
 
 def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Raise the ground along a line to a crest, with sloping sides or upright ones; return a report.
+    """Raise the ground along a line to a crest, with sloping sides or upright ones; return a note.
 
     Every node within half a diagonal of a cell from the line gets the crest, so that it has no gap between nodes.
     """
@@ -96,9 +96,9 @@ def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
     width = edit.crest_width or (least if upright else CREST_WIDTH)
     if upright and width < least * (1.0 - 1e-9):
         raise InputError(
-            f"{shape.label} is {width:g} m thick, less than {FEWEST_ACROSS} nodes of {max(dx, dy):g} m: the flow would "
-            f"feel what is behind; give a spacing of at most {_rounded_down(width / FEWEST_ACROSS)} m, or a thicker "
-            "wall by crest_width"
+            f"{shape.label} is {width:g} m thick, less than {FEWEST_ACROSS} nodes of {max(dx, dy):g} m: sums over "
+            f"particles would reach through it; give a spacing of at most {_rounded_down(width / FEWEST_ACROSS)} m, "
+            "or a thicker wall by crest_width"
         )
     half = max(0.5 * width, 0.5 * math.hypot(dx, dy))
     stations, profile = _crest(edit, shape, ground)
@@ -164,13 +164,13 @@ def _check_thickness(shape: Shape, nodes: np.ndarray, ground: Ground, width: flo
         base = width + 2.0 * height / steepness
         raise InputError(
             f"{shape.label} is nowhere {FEWEST_ACROSS} nodes thick ({base:.3g} m at its base, nodes every "
-            f"{max(ground.lattice.spacing):g} m): the flow would feel what is behind; give a spacing of at most "
-            f"{_spacing_for(base)} m, or a wider crest by crest_width"
+            f"{max(ground.lattice.spacing):g} m): sums over particles would reach through it; give a spacing of "
+            f"at most {_spacing_for(base)} m, or a wider crest by crest_width"
         )
 
 
 def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
-    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return a report."""
+    """Dig out a polygon to a depth or to the elevation of a floor, with sloping sides inside; return a note."""
     lattice = ground.lattice
     nodes = nodes_inside(shape.geometry, lattice)
     if nodes.size == 0:
@@ -204,7 +204,7 @@ def _dig(edit: Edit, shape: Shape, ground: Ground) -> str:
 
 
 def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
-    """Close the nodes of buildings, or raise them by a height; return a report."""
+    """Close the nodes of buildings, or raise them by a height; return a note."""
     lattice = ground.lattice
     raised, closed, thin = 0, 0, []
     for shape in shapes:
@@ -227,7 +227,7 @@ def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
         widths = [_width(shape.geometry) for shape in thin]
         raise InputError(
             f"{len(thin)} of {len(shapes)} buildings, the first {thin[0].label}, are not {FEWEST_ACROSS} nodes thick, "
-            f"nodes are {max(lattice.spacing):g} m apart: the flow would feel what is behind; a spacing of "
+            f"nodes are {max(lattice.spacing):g} m apart: sums over particles would reach through it; a spacing of "
             f"{_spacing_for(min(widths))} m would do for all of them, {_spacing_for(float(np.median(widths)))} m for "
             "half; or leave them out by thin: leave_out"
         )

@@ -131,7 +131,7 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
             "use a larger DEM, or move the polygon"
         )
     if inside < 0.999 * whole:
-        kept = "the volume is kept" if "volume" in amount else "what lies there is left out"
+        kept = "the volume is kept" if "volume" in amount else "the part there is left out"
         notes.append(
             f"{shape.label}: {100.0 * (1.0 - inside / whole):.3g} % of it lie outside, on the edge of the grid or "
             f"without elevation; {kept}"
@@ -246,12 +246,14 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
     fails = depth > 0.0
     if np.count_nonzero(fails) > 1 and (depth[fails] == 1.0).all():
         notes.append(
-            f"{path.name}: every depth is exactly 1 m; if the raster marks what fails, rather than how deep, multiply "
-            "it by the depth, or turn it into polygons"
+            f"{path.name}: every depth is exactly 1 m; if the raster marks where ground fails, not how deep, "
+            "multiply it by the depth, or turn it into polygons"
         )
     usable = np.where(ground.core, depth, 0.0)
     if usable.max() <= 0.0:
-        raise InputError(f"{path.name} has no depth > 0 where the terrain may hold mass; look at values and place")
+        raise InputError(
+            f"{path.name} has no depth > 0 where the terrain may hold mass; check its values and its place"
+        )
     if lost := float((depth - usable).sum()) * ground.lattice.area:
         notes.append(f"{path.name}: {lost:.4g} m3 on the edge of the grid or without elevation are left out")
     return [Body(usable, notes)]

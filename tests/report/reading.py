@@ -39,7 +39,9 @@ class Page(HTMLParser):
 
     def table(self, caption):
         """Return the rows of a table as lists of cells, by its caption."""
-        start = next(k for k, (tag, _, text) in enumerate(self.elements) if tag == "caption" and text == caption)
+        start = next(
+            k for k, (tag, _, text) in enumerate(self.elements) if tag == "caption" and text.startswith(caption)
+        )
         rows = []
         for tag, _, text in self.elements[start + 1 :]:
             if tag == "table":

@@ -1,6 +1,7 @@
 """Runs that are not finished, of another version, or damaged: reported as such, or refused with what to do."""
 
 import json
+import shutil
 
 import pytest
 
@@ -8,7 +9,6 @@ from landlab_debrisflow.cli import exit_codes, main
 from landlab_debrisflow.core.errors import InputError
 from landlab_debrisflow.report import write_report
 from landlab_debrisflow.run.directory import OutputDirectory
-from landlab_debrisflow.run.maps import write_before
 from landlab_debrisflow.run.record import RunRecord
 from landlab_debrisflow.run.remarks import remarks
 from landlab_debrisflow.run.results import Results
@@ -25,7 +25,6 @@ def begun(tmp_path):
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(RunRecord.of(scene))
         directory.note(**remarks(scene))
-        directory.publish(lambda folder: write_before(folder, scene))
     return scene.output_directory
 
 
@@ -52,7 +51,9 @@ def test_an_unfinished_run_is_reported_as_such(begun, changes, words):
     read = read_page(write_report(begun))
     (alert,) = [text for _, given, text in read.elements if given.get("class") == "alert"]
     assert alert.startswith(words) and "run --overwrite begins it anew" in alert
-    assert "Summary" not in read.texts("h2") and dict(read.table("Release"))["volume"] == "1 130 m³"
+    assert "Summary" not in read.texts("h2") and next(
+        row[:3] for row in read.table("friction: voellmy") if row[0].startswith("turb")
+    ) == ["turbulent_coefficient", "300 m/s²", "given"]
     (begun / "checkpoint.nc").write_text("a checkpoint")
     assert "resume goes on with it" in write_report(begun).read_text()
 
@@ -60,12 +61,11 @@ def test_an_unfinished_run_is_reported_as_such(begun, changes, words):
 def test_a_record_of_the_version_before_is_read(begun):
     kept_now = ("given", "notes", "doubts", "warnings", "environment", "statement")
     change(begun, format=1, version="0.0.9", **dict.fromkeys(kept_now))
-    (begun / "before.nc").unlink()
     read = read_page(write_report(begun))
     words = " ".join(read.texts("p"))
     assert words.count("The version that made the run did not keep these.") >= 3
-    assert {row[0]: row[3] for row in read.table("friction: voellmy")}["cohesion"] == "default"  # by its value
-    assert {row[0]: row[3] for row in read.table("friction: voellmy")}["turbulent_coefficient"] == "not known"
+    assert {row[0]: row[2] for row in read.table("friction: voellmy")}["cohesion"] == "default"  # by its value
+    assert {row[0]: row[2] for row in read.table("friction: voellmy")}["turbulent_coefficient"] == "not known"
     assert dict(read.table("The run"))["package"] == "landlab_debrisflow 0.0.9"
 
 
@@ -83,13 +83,22 @@ def test_another_version_and_no_whole_record_are_refused(begun, changes, words):
         write_report(begun)
 
 
-@pytest.mark.parametrize("name", ["maps.nc", "before.nc"])
-def test_damaged_files_are_named(begun, name):
+@pytest.mark.parametrize("content", [b"", b"no map", b"\x89HDF\r\n\x1a\n" + bytes(500)])
+def test_damaged_maps_are_named(begun, content):
     change(begun, state="finished")
-    (begun / "maps.nc").write_bytes((begun / "before.nc").read_bytes())
-    (begun / name).write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(500))
-    with pytest.raises(InputError, match=rf"cannot read .*{name}: .*; the file is damaged, run the scene anew"):
+    (begun / "maps.nc").write_bytes(content)
+    with pytest.raises(InputError, match=r"cannot read .*maps.nc: .*; the file is damaged, run the scene anew"):
         write_report(begun)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["gauges.nc", "thalweg.nc", "exposure.csv"])
+def test_other_damaged_files_are_named(results, name, tmp_path):
+    folder = tmp_path / "damaged"
+    shutil.copytree(results.directory, folder)
+    (folder / name).write_bytes(b"\x89HDF" if name.endswith("nc") else b"\n")
+    with pytest.raises(InputError, match=rf"{name}.*the file is damaged, run the scene anew"):
+        write_report(folder)
 
 
 def test_lost_maps_are_named(begun):

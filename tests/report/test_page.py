@@ -25,10 +25,11 @@ def rendered(text):
     return render_page(
         Content(
             title=text,
+            kind=text,
             state=text,
             alert=text,
             summary=Sentences([text]),
-            sections=[Section("a", text, blocks)],
+            sections=[Section("a", "Of constants", blocks)],
             made=text,
         )
     )

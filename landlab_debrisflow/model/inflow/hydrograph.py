@@ -60,7 +60,9 @@ class Hydrograph:
             raise ParameterError(f"Hydrograph: line_start and line_end are the same point {self.line_end}; give a line")
         self._check_series()
         if self.volume == 0.0:
-            raise ParameterError("Hydrograph: discharge is 0 m3 s-1 at all times; leave it out, or give what flows in")
+            raise ParameterError(
+                "Hydrograph: discharge is 0 m3 s-1 at all times; leave the hydrograph out, or give a discharge > 0"
+            )
         if self._obliquity < 0.1:
             raise ParameterError(
                 f"Hydrograph: direction {self.direction:g} deg runs along the line, which nothing would cross; "

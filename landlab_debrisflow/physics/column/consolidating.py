@@ -15,12 +15,12 @@ class Consolidating:
 
     levels: int = parameter("-", "levels of a column, base and surface included", 11, (3, 1001), kind=int)
     loading_source: str = parameter(
-        "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
+        "-", "change of the pressure by a change of thickness", "overburden", choices=tuple(LOADING)
     )
     scheme: str = parameter("-", "how the equation is solved", "default", choices=tuple(MEMORY_SIZE))
     bed_contact: str = parameter(
-        "-", "whether the bed prescribes the pressure of a base that erodes, or what flows in", "dirichlet",
-        choices=BED_CONTACT,
+        "-", "whether the bed prescribes the pressure of a base that erodes, or only that of the soil that flows in",
+        "dirichlet", choices=BED_CONTACT,
     )  # fmt: skip
     tolerance: float = parameter(
         "-", "error over the load aimed at when columns are left alone, 0: never; by default 0.3/(levels - 1)^2",

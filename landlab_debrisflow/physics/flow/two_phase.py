@@ -29,7 +29,7 @@ class TwoPhase:
     Jackson (1967).
     """
 
-    drag: str = parameter("-", "what grains and water do to each other", "darcy", choices=("darcy", "anderson_jackson"))
+    drag: str = parameter("-", "drag between grains and water", "darcy", choices=("darcy", "anderson_jackson"))
     hydraulic_conductivity: float = parameter(
         "m s-1", "of Darcy's drag; by default that of the material's coefficient of consolidation and the stiffness",
         None, (1e-15, 1e6),

@@ -27,10 +27,10 @@ class Bingham:
     """
 
     yield_stress: float = parameter("Pa", "tau_0, whatever the normal stress", 500.0, (0.0, None), varies=True)
-    viscosity: float = parameter("Pa s", "of what yields: stress beyond yield over shear rate", 50.0, (1e-6, None),
-                                 varies=True)  # fmt: skip
+    viscosity: float = parameter("Pa s", "of the sheared layer: stress beyond yield over shear rate", 50.0,
+                                 (1e-6, None), varies=True)  # fmt: skip
     basal_friction_angle: float = parameter(
-        "deg", "what effective normal stress adds to the yield stress", 0.0, (0.0, 89.0), varies=True
+        "deg", "for the part of the yield stress that grows with effective normal stress", 0.0, (0.0, 89.0), varies=True
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:

@@ -40,7 +40,7 @@ class HerschelBulkley:
         "-", "n: < 1 thins under shear, 1 is Bingham; about 1/3 for muds (Coussot)", 1.0 / 3.0, (0.1, 2.0), varies=True
     )
     basal_friction_angle: float = parameter(
-        "deg", "what effective normal stress adds to the yield stress", 0.0, (0.0, 89.0), varies=True
+        "deg", "for the part of the yield stress that grows with effective normal stress", 0.0, (0.0, 89.0), varies=True
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:

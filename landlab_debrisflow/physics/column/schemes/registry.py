@@ -25,7 +25,7 @@ def check_scheme(law) -> None:
     if law.scheme == "lax_wendroff" and law.bed_contact == "flux":
         raise ParameterError(
             f"{type(law).__name__}: bed_contact must be 'dirichlet' with scheme 'lax_wendroff', got 'flux': "
-            "the paper's scheme knows a prescribed base only"
+            "the paper's scheme has a prescribed base only"
         )
 
 

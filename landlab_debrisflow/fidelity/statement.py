@@ -1,4 +1,4 @@
-"""Report of a run: particles, column and steps, cost, and stated errors."""
+"""Statement on a run: particles, column and steps, cost, and stated errors."""
 
 import dataclasses
 import math
@@ -17,7 +17,7 @@ NO_PLAN = "no plan: the error is not known; flow.plan(), before a run, tells it"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
-class Report(Printed):
+class Statement(Printed):
     """Particles, column and steps of a run, its cost, and its errors; printed as a table.
 
     Attributes
@@ -27,7 +27,7 @@ class Report(Printed):
     state : str
         How far the run came, in words.
     particles : int
-        Particles that there were in all.
+        Number of all particles of the run.
     steps : int
         Steps.
     seconds : float
@@ -50,7 +50,7 @@ class Report(Printed):
     source: str = NO_PLAN
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return the report as plain values: numbers, words and mappings; an error that is not known is None.
+        """Return the statement as plain values: numbers, words and mappings; an error that is not known is None.
 
         Returns
         -------
@@ -76,10 +76,10 @@ class Report(Printed):
             ("cost", self._cost_words()),
         ]
         if plan is None:
-            return Table(title="Report of a run", rows=[*rows, ("errors", self.source)])
+            return Table(title="Statement on a run", rows=[*rows, ("errors", self.source)])
         rows.append(("errors by", self.source))
         return Table(
-            title="Report of a run by a plan", rows=rows, errors=error_rows(plan, self.errors),
+            title="Statement on a run by a plan", rows=rows, errors=error_rows(plan, self.errors),
             raster=plan.rules["raster"][1], creep=plan.creep_words, notes=plan.warnings,
             not_held=plan.not_held_with(self.errors),
         )  # fmt: skip
@@ -89,16 +89,16 @@ class Report(Printed):
         return f"{duration_text(self.seconds)} of CPU time in {steps}" if math.isfinite(self.seconds) else steps
 
 
-def make_report(
+def make_statement(
     flow: Any, particles: int, seconds: float, plan: Plan | None, measured: Mapping[str, float] | None
-) -> Report:
-    """Return the report of a flow.
+) -> Statement:
+    """Return the statement on a flow.
 
     Parameters
     ----------
     flow : DebrisFlow
     particles : int
-        Number of particles that there were in all.
+        Number of all particles of the run.
     seconds : float
         CPU time of its calls [s].
     plan : Plan or None
@@ -108,7 +108,7 @@ def make_report(
 
     Returns
     -------
-    Report
+    Statement
     """
     diagnostics = flow.diagnostics
     values = {
@@ -118,12 +118,12 @@ def make_report(
         else f"{'at rest' if flow.at_rest else 'still moving'} at {flow.elapsed_time:.6g} s",
     }  # fmt: skip
     if plan is None:
-        return Report(**values)
+        return Statement(**values)
     if measured is None:
         source = "the plan, before the run"
         if diagnostics.steps:
             source += ": the event has not come to its end, or was not the only one"
-        return Report(**values, plan=plan, errors=plan.errors, source=source)
+        return Statement(**values, plan=plan, errors=plan.errors, source=source)
     errors = errors_after({**plan.runs, plan.particles: measured}, plan.particles, PILOTS[-1])
     source = "the pilot runs" + ("" if plan.particles == PILOTS[-1] else " and the change since the last of them")
-    return Report(**values, plan=plan, errors=errors, source=source)
+    return Statement(**values, plan=plan, errors=errors, source=source)
