@@ -102,7 +102,7 @@ def chart():
             most = np.nanmax(values)
             told = "none, to rounding" if most <= ROUNDING else f"{most:.2f} Pa at most"
             axis.set_title(f"{title}\n{words}: {told}" if words == "overshoot" else f"{words}: {told}", fontsize=10)
-    figure.supxlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [-]", fontsize=10)
+    axes[1, 1].set_xlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [-]", fontsize=10)
     figure.supylabel("Fourier number of a step at the start, $c_v\\,\\Delta t/\\Delta x^2$ [-]", fontsize=10)
     good = found.where(found.failed == 0)
     beyond = max(float(good.overshoot.max()), float(good.undershoot.max())) > bounds[-1]

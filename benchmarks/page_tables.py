@@ -34,9 +34,9 @@ def filled(text: str) -> str:
     return MARKED.sub(lambda found: f"{found[1]}{TABLES[found[2]]()}{found[3]}", text)
 
 
-def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table of Markdown; all columns but the first are numbers."""
-    lines = ["| " + " | ".join(heads) + " |", "|---|" + "---:|" * (len(heads) - 1)]
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], other: str = "---:") -> str:
+    """Return a table of Markdown; `other` tells how columns but the first are aligned, by default as numbers."""
+    lines = ["| " + " | ".join(heads) + " |", "|---|" + f"{other}|" * (len(heads) - 1)]
     return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
@@ -173,6 +173,7 @@ def speed() -> str:
     scenes, ways, starts = rows_of("The demo's valley"), rows_of("8 scenes"), rows_of("Import")
     peer, rasters = rows_of("com1DFA"), {row[0]: row for row in rows_of("One event")}
     equal = rows_of("At the error")
+    demos = result_files.read("key_figures")["CPU time of the demo [s]"]
     ways = {row[0]: row[1] for row in ways}
     rows = [
         ("sums over neighbours, million particle steps per second, 1e4 / 1e5 / 1e6 particles, one thread",
@@ -181,6 +182,8 @@ def speed() -> str:
         ("whole step, one thread", rates("whole step")),
         ("demo's valley to rest, " + " / ".join(row[0] for row in scenes) + " particles",
          " / ".join(row[1] for row in scenes) + " s"),
+        ("the two runs of the demo (41 levels), kernels compiled / read (in brackets the whole process)",
+         " / ".join(f"{one['runs']:.2g} ({one['process']:.2g})" for one in demos) + " s"),
         ("such valleys a minute on two cores: two processes / two threads",
          f"{ways['two processes']} / {ways['two threads']}"),
         ("import and first step beyond the import of Landlab, kernels read / compiled",
@@ -240,8 +243,8 @@ def provenance() -> str:
         known = "" if load is None or math.isnan(load) else f"{load:g}"
         machine = f"{told['processor']}, {told['cores']} cores"
         link = f"[{name}](../benchmarks/results/{result_files.path_of(name).name})"
-        rows.append((link, f"`{told['command']}`", told["date"], told["commit"], machine, known))
-    return table(["result", "command", "date", "commit", "machine", "load before"], rows)
+        rows.append((link, f"`{told['command']}`", told["date"], told["commit"], machine, known, told.get("note", "")))
+    return table(["result", "command", "date", "commit", "machine", "load before", "note"], rows, "---")
 
 
 TABLES = {

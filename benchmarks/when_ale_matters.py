@@ -112,21 +112,25 @@ def report() -> str:
     return "\n".join([head, *map(row_of_text, found["rows"])]) + "\n"
 
 
-def main(particles=500):
-    """Run everything, and keep the results after every valley."""
-    rows = []
+def main(particles=500, resume=False):
+    """Run everything, and keep the results after every pair; with `resume` go on with the result file."""
+    rows = result_files.read("when_ale_matters")["rows"] if resume else []
+    done = {(row["valley"], row["loading"], row["c_v"]) for row in rows}
     for valley in VALLEYS:
-        done = [loading for loading in LOADING if loading != "proportional" or not VALLEYS[valley]]
-        for loading, c_v in itertools.product(done, CONSOLIDATION):
+        sources = [loading for loading in LOADING if loading != "proportional" or not VALLEYS[valley]]
+        for loading, c_v in itertools.product(sources, CONSOLIDATION):
+            if (valley, loading, c_v) in done:
+                continue
             found = {name: float(value) for name, value in compare(valley, c_v, loading, particles).items()}
             rows.append({"valley": valley, "loading": loading, "c_v": c_v, **found})
             print(row_of_text(rows[-1]), flush=True)
-        result_files.keep("when_ale_matters", {"particles": particles, "rows": rows}, COMMAND)
+            result_files.keep("when_ale_matters", {"particles": particles, "rows": rows}, COMMAND)
     charts.make("when_ale_matters")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--particles", type=int, default=500)
+    parser.add_argument("--resume", action="store_true", help="go on with the result file")
     words = parser.parse_args()
-    main(words.particles)
+    main(words.particles, words.resume)

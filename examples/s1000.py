@@ -264,8 +264,8 @@ def collect(maps, change, observed, source):
 
 def draw(change, observed, source, relief):
     """Return the figure: observed and modelled change of elevation in the same colours."""
-    panels = {"observed (lidar)": observed} | {name.replace(", ", ",\n"): values for name, values in change.items()}
-    layer = Layer(panels, "change of elevation, red: lowered, blue: raised [m]", "RdBu", (-5.0, 5.0), threshold=0.2)
+    panels = {"observed (lidar)": observed} | change
+    layer = Layer(panels, "change of elevation, red: lowered, blue: raised [m]", "RdBu", (-3.0, 3.0), threshold=0.2)
     figure = draw_maps([layer], relief, outline=source)
     figure.suptitle("S-1000, December 2021: change of elevation; parameters from the literature, nothing calibrated")
     return figure

@@ -78,7 +78,6 @@ def test_tables_of_a_page_are_those_of_the_results(page):
     text = page.read_text(encoding="utf-8")
     assert set(page_tables.TABLES) == set(re.findall("<!-- table (\\w+) -->", text))
     assert page_tables.filled(text) == text
-    assert page_tables.filled(re.sub(r"\d", "7", text)) == re.sub(r"\d", "7", text) or "| " in text
     assert "<!-- table" not in page_tables.MARKED.sub("", text)
 
 
@@ -112,8 +111,8 @@ def test_arrays_are_kept_within_their_steps_and_read(tmp_path, monkeypatch):
 
 def test_an_unknown_figure_is_asked_back(capsys):
     with pytest.raises(SystemExit):
-        charts.main(["colum"])
-    assert "there is no figure 'colum' (did you mean 'column'?)" in capsys.readouterr().err
+        charts.main(["flw"])
+    assert "there is no figure 'flw' (did you mean 'flow'?)" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         charts.main(["--measure"])
     assert "name what is to be measured" in capsys.readouterr().err
