@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from landlab_debrisflow.grid.fields import NODE_FIELDS
-
 from .suspicions import suspicions
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -61,12 +59,6 @@ def test_laws_as_printed(read_through):
     assert names["grid"].at_node["bed__excess_pore_pressure"].max() > 0.0
     assert names["flow"].budget_by_phase["water"]["eroded"] > 0.0
     assert out.startswith("DebrisFlow: moving at 10 s") and "flow two_phase, friction coulomb" in out
-
-
-def test_table_of_fields_is_complete_and_true():
-    rows = re.findall(r"^\| `(\w+)` \| ([\w, ]+) \| (\S+) \|", README, re.MULTILINE)
-    declared = [(f.name, f.intent + (", optional" if f.optional else ""), f.unit) for f in NODE_FIELDS]
-    assert sorted(rows) == sorted(declared)
 
 
 @pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "docs/laws.md"])
