@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "docs" / "_site")]
 
-from values import VALUES  # noqa: E402  of docs/_site
+from docstrings import VALUES  # noqa: E402  of docs/_site
 
 import landlab_debrisflow  # noqa: E402
 from tests.numba_cache import NUMBA_CACHE  # noqa: E402
@@ -35,6 +35,7 @@ extensions = [
     "anchors",
     "expected",
     "cells",
+    "docstrings",
     "mathml",
 ]
 exclude_patterns = ["_build", "_site"]

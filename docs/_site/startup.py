@@ -26,6 +26,7 @@ shell = get_ipython()
 piped = shell.system
 shell.system = run_command
 shell.set_custom_exc((CommandFailedError,), lambda *_, **__: None)
+shell.run_line_magic("matplotlib", "inline")  # a figure is shown as a picture
 shell.InteractiveTB.set_mode("Minimal")
 warnings.formatwarning = lambda message, category, *_, **__: f"{category.__name__}: {message}\n"
 
