@@ -16,7 +16,7 @@ SHOWN = [
     *(ROOT / name for name in PAGES), *(ROOT / "notebooks").glob("*.ipynb"),
     *(ROOT / "examples").glob("*.py"),
 ]  # fmt: skip
-PUBLIC = {"exact", "laws", "plots", "record", "scene", "triggers"}
+PUBLIC = {"exact", "laws", "plots", "record", "report", "scene", "triggers"}
 """Modules of the package that are public, beside the package itself."""
 ANYWHERE = r"\b(?:what|who|whom|those|such(?! as)|likewise|others|nobody|somebody|everybody|the latter|the former)\b"
 """Words that lean on a sentence the reader does not see, wherever they stand."""

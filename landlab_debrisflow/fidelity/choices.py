@@ -32,7 +32,7 @@ class Choice(NamedTuple):
     Attributes
     ----------
     value : object
-        What was chosen.
+        The chosen value.
     words : str
         The choice in words.
     rule : str

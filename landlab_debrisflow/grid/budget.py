@@ -8,7 +8,7 @@ import numpy as np
 from .row_backup import RowBackup
 
 CARRIED_OVER = ("released", "inflow", "eroded")
-"""Terms of which an earlier component's volume keeps the phases it had then."""
+"""Terms whose volume from an earlier component keeps its split into grains and fluid."""
 
 
 class ModelVolumes(NamedTuple):

@@ -79,7 +79,7 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         if name not in dataset.variables:
             _refuse(f"it lacks the variable {name!r}")
         if name not in template.variables:
-            continue  # its form is looked at below
+            continue  # its form is checked below
         found, wanted = dataset.variables[name], template.variables[name]
         same = found.dims == wanted.dims and found.dtype.kind == wanted.dtype.kind
         sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}

@@ -142,7 +142,7 @@ def check_observers(observers) -> tuple:
 
 
 def check_continued(earlier, grid, inflow) -> None:
-    """Refuse to continue an earlier component that has not come to its end, or elsewhere.
+    """Refuse to continue an earlier component that still moves, or one of another grid.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Fields of a grid, checked, as plain arrays: everything of a grid that the model ever gets.
+"""Fields of a grid, checked, as plain arrays: the only part of a grid that the model gets.
 
 Arrays over nodes share the memory of the fields, so that erosion and deposit appear in them without a copy of the
-raster. Nothing is written here.
+raster. No field is written here.
 """
 
 import logging
@@ -36,7 +36,7 @@ class Terrain(NamedTuple):
     lower_left : tuple of float
         Map coordinates of the first node [m].
     changed : bool
-        Whether elevation or status differ from what the last call left, other than by what is released now.
+        Whether elevation or status have changed since the last call, other than by the release.
     """
 
     elevation: np.ndarray

@@ -3,16 +3,17 @@
 import numpy as np
 
 FASTER = 1.5
-"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+"""Largest ratio of a step to the one before: thrust and pore pressure begin to change with the square root of time."""
 
 FIRST = 1.0 / 64.0
 """First step after a release over the one that would be stable."""
 
 TO_STOP = 0.25
-"""Part of the time to stop, as the flow is slowing now, that a step may take; the time of rest is known to that."""
+"""Largest step over the time in which the flow would stop at its present deceleration: the time of rest is resolved to
+this fraction."""
 
 SLOWEST = 1.0 / 16.0
-"""But no less than this part of the one that would be stable: what swings turns, and does not stop."""
+"""Least step for this reason, over the stable one: a flow that oscillates turns round and does not stop."""
 
 
 class StepControl:
@@ -43,7 +44,7 @@ class StepControl:
         Parameters
         ----------
         stable : float
-            What stability and resolution allow [s].
+            Longest step that stability and resolution allow [s].
         energy : float
             Of the flow now [m5 s-2].
 

@@ -46,9 +46,9 @@ def plan_scene(scene: Any, notify: Callable[[str], None] | None = None, **wishes
     ----------
     scene : Scene
     notify : callable, optional
-        Is told, in words, what begins; by default the logger is.
+        Called with a text when a pilot run begins; by default the text is logged.
     **wishes
-        As of `Wishes`; tolerance and quantities to be held are those of the scene, if it has any.
+        Attributes of `Wishes`; tolerance and quantities to be held are by default those of the scene.
 
     Returns
     -------

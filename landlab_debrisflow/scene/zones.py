@@ -43,7 +43,7 @@ class VaryingParameter(NamedTuple):
     unit : str
         Unit as declared.
     values : tuple of float or None
-        Value in each zone of the scene, None where the zone does not say.
+        Value in each zone of the scene, None where the zone gives none.
     """
 
     kind: str
@@ -74,7 +74,7 @@ def varying_parameters(setup: Setup, zones: Iterable[Zone]) -> tuple[VaryingPara
     Parameters
     ----------
     setup : Setup
-        As the scene writes it.
+        Setup written in the scene.
     zones : iterable of Zone
 
     Returns

@@ -177,11 +177,13 @@ def similarity_scales(
     ndarray, shape (4,)
         ``g, f, dg/dt, df/dt`` [-, -, s-1, s-1].
     """
-    from scipy.integrate import solve_ivp  # takes a tenth of a second to load, and nothing else here needs it
+    from scipy.integrate import solve_ivp  # imported here because loading takes a tenth of a second
 
     pull, spread, hold = np.sin(slope), np.cos(slope) * height / length, np.cos(slope) * friction
-    second = np.array([2.0 * spread, 2.0 * spread * (pull - hold) / pull])  # g'' and f'' at 0, where f'/tau -> f''
-    begin, end = 1e-3, time * np.sqrt(gravity / length)  # the parabola is right to begin^4: 1e-14
+    # g'' and f'' at time 0, where f'/tau tends to f''
+    second = np.array([2.0 * spread, 2.0 * spread * (pull - hold) / pull])
+    # until `begin` the solution is a parabola, with an error of begin^4
+    begin, end = 1e-3, time * np.sqrt(gravity / length)
 
     def rates(tau, state):
         g, f, dg, df = state
