@@ -53,7 +53,7 @@ class Planning:
         max_cost : float, optional
             Longest CPU time of the run to come [s].
         max_duration : float
-            As of `run_until_rest` [s].
+            As in `run_until_rest` [s].
         raster : bool, optional
             Whether to run a pilot with every second node, too; by default if that costs little.
 
@@ -91,7 +91,7 @@ class Planning:
         Parameters
         ----------
         plan : Plan
-            Of the same scene.
+            Plan of the same scene.
 
         Raises
         ------

@@ -81,9 +81,10 @@ class Restart:
         path : str or os.PathLike
             The file.
         grid : RasterModelGrid, optional
-            Of the same shape, place and statuses: its fields get the values of the file. By default a new one.
+            Grid of the same shape, place and statuses: its fields get the values of the file. By default a new grid.
         observers : observer or sequence of them, optional
-            Of the same classes, in the same order, as the flow had when it was saved; they go on, too.
+            Observers of the same classes, in the same order, as the flow had when it was saved; the observers go on,
+            too.
         **setup
             Keywords of `DebrisFlow`. Needed only for laws that are not declared or have no name in `LAWS`, because no
             file can hold these. Any other keyword must have the value that the flow was saved with.

@@ -38,7 +38,7 @@ def release_probable_sites(
     least_area: float = 0.0,
     seed: int | np.random.Generator | None = None,
 ) -> float:
-    """Release sites whose probability of failure [-] is high enough: all of them, or those that are drawn.
+    """Release sites whose probability of failure [-] is high enough: all sites, or sites drawn at random.
 
     A site is a group of core nodes at or above the threshold that touch along a side, with ground to release. When
     sites are drawn, each fails as a whole, with the mean probability of its nodes: the area that is expected to fail is

@@ -44,9 +44,7 @@ class History:
         value, count = self._read(self.given(time), f" at t = {time:g} s"), self.value.size
         if value.size not in (1, count):
             shape = f"returned shape {value.shape} at t = {time:g} s"
-            refuse(
-                f"{self.name} {shape}; the function must return one number, or {count}, one per column, at every time"
-            )
+            refuse(f"{self.name} {shape}; a function must return one number, or {count}, one per column, at every time")
         return np.array(np.broadcast_to(value, (count,)))
 
     def _read(self, value, when=""):

@@ -27,7 +27,7 @@ def checked_coordinates(name: str, value: Any, form: str, named: bool = False) -
     Parameters
     ----------
     name : str
-        Of the parameter, for messages.
+        Name of the parameter, for messages.
     value : object
         Nested lists, or arrays; with `named` also a mapping of names to one feature each.
     form : {"points", "lines", "polygons", "table"}

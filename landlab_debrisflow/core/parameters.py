@@ -131,7 +131,7 @@ def on_nodes(obj: Any, fields: Mapping[str, Any]) -> Any:
     Parameters
     ----------
     obj : object
-        Of a class made by `declared`; anything else has no parameters.
+        Object of a class made by `declared`; anything else has no parameters.
     fields : mapping of str to ndarray
         Arrays over nodes, by the names that parameters may be given as.
 

@@ -149,7 +149,7 @@ def basal_consolidation(time: ArrayLike, start: str = LINEAR, layer: float = 1.0
     time : array_like
         ``c_v t / h^2`` [-], >= 0.
     start, layer
-        As of `consolidation`.
+        As in `consolidation`.
     modes : int
         Number of terms; 2000 leave an error of 1e-4 at time 0, and none soon after.
 
@@ -175,7 +175,7 @@ def consolidation_modes(count: int, start: str = LINEAR, layer: float = 1.0) -> 
     count : int
         Number of modes, the slowest first.
     start, layer
-        As of `consolidation`.
+        As in `consolidation`.
 
     Returns
     -------

@@ -50,7 +50,7 @@ class Event:
         setup : Setup
             Laws, material, numerics and inflow in place of the own ones.
         observers : sequence of observers
-            As of `DebrisFlow`.
+            As in `DebrisFlow`.
 
         Returns
         -------

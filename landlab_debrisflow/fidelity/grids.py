@@ -183,7 +183,7 @@ def _release(grid) -> tuple[np.ndarray, np.ndarray | None]:
 def _lay_release(grid, depth, momentum) -> None:
     """Lay a release of some depth, (rows, columns) [m], on ground and soil of a coarse grid.
 
-    `momentum` is that of `_release` over the nodes of the grid that it was made of.
+    `momentum` is that of `_release` over the nodes of the fine grid.
     """
     at, flat = grid.at_node, depth.ravel()
     for name in (ELEVATION, SOIL):

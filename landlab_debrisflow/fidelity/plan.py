@@ -56,7 +56,7 @@ class Plan(Printed):
     volume : float
         Volume that is released and flows in [m3].
     digests : dict of str to str
-        Of the setup and the ground that the plan is for.
+        Digests of the setup and the ground that the plan is for.
     warnings : tuple of str
         Doubts about the event that no choice of a plan removes.
     """
@@ -103,7 +103,7 @@ class Plan(Printed):
         Parameters
         ----------
         errors : mapping of str to float
-            Of particles, by quantity [-].
+            Errors of particles, by quantity [-].
 
         Returns
         -------
@@ -208,7 +208,7 @@ def error_rows(plan: Plan, errors: Mapping[str, float]) -> list[tuple[str, float
     ----------
     plan : Plan
     errors : mapping of str to float
-        Of particles, by quantity [-].
+        Errors of particles, by quantity [-].
 
     Returns
     -------

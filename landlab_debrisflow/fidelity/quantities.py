@@ -29,7 +29,7 @@ def origin_of(grid: Any, setup: Any) -> tuple[float, float]:
     grid : RasterModelGrid
         Before the first call.
     setup : Setup
-        Of the flow.
+        Setup of the flow.
 
     Returns
     -------
@@ -116,7 +116,7 @@ class Decay:
     Attributes
     ----------
     origin : tuple of float
-        As of `quantities`, taken when the component is built [m].
+        As in `quantities`, taken when the component is built [m].
     found : dict of float to dict
         `quantities` by level, at the last time that the energy fell below it.
     """

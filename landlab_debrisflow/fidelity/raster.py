@@ -68,7 +68,7 @@ def examine_raster(
     ----------
     event : Event
     setup : Setup
-        That of the pilot runs.
+        Setup of the pilot runs.
     pilots : mapping of int to MeasuredPilot
         Pilot runs with all nodes by number of particles.
     cost : float

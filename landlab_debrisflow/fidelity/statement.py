@@ -27,7 +27,7 @@ class Statement(Printed):
     state : str
         How far the run came, in words.
     particles : int
-        Particles that there were in all.
+        Number of all particles of the run.
     steps : int
         Steps.
     seconds : float
@@ -98,7 +98,7 @@ def make_statement(
     ----------
     flow : DebrisFlow
     particles : int
-        Number of particles that there were in all.
+        Number of all particles of the run.
     seconds : float
         CPU time of its calls [s].
     plan : Plan or None

@@ -27,7 +27,7 @@ REMEDY = "write the grid again, or give a GeoTIFF"
 
 
 def is_ascii_grid(path: Path, head: bytes) -> bool:
-    """Return whether the first bytes of a file are those of an ESRI ASCII grid, complete or not."""
+    """Return whether the first bytes of a file belong to an ESRI ASCII grid, complete or not."""
     return bool(re.match(rb"\s*(ncols|nrows|xll|yll|cellsize|dx|dy|nodata)", head, re.IGNORECASE)) or (
         path.suffix.lower() == ".asc" and not re.match(rb"\s*(north:|DSAA)", head)
     )

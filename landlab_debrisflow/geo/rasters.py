@@ -122,7 +122,7 @@ def read_window(
     shape : tuple of int, optional
         Rows and columns to which the values are thinned out while they are read.
     missing, lengths, notes
-        As of `read_raster`.
+        As in `read_raster`.
     """
     shape = window.shape if shape is None else shape
     if shape[0] * shape[1] > MOST_NODES:

@@ -59,7 +59,7 @@ def check_metric(lattice: Lattice, path: object) -> None:
     ----------
     lattice : Lattice
     path : Path or str
-        Of the file, for the message.
+        Path of the file, for the message.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def check_reference(lattice: Lattice, crs: str | None, path: Path) -> None:
     crs : str or None
         The one given, such as ``"EPSG:32633"``.
     path : Path
-        Of the file, for the message.
+        Path of the file, for the message.
 
     Raises
     ------

@@ -31,12 +31,12 @@ def read_onto(
     Parameters
     ----------
     path : str or Path
-        As of `read_raster`.
+        As in `read_raster`.
     lattice : Lattice
     crs : str, optional
         Coordinate reference system of a file that names none; by default that of the lattice is taken.
     lengths : bool
-        As of `read_raster`.
+        As in `read_raster`.
     notes : list of str, optional
         Remarks for the user are appended to it.
 

@@ -82,7 +82,7 @@ class VolumeBudget:
         core : ndarray of bool, shape (nodes,)
             Nodes that count.
         soil : RowBackup or None
-            Of the soil depth, as its first array; None: stop measuring.
+            Backup with the soil depth as its first array; None: stop measuring.
         """
         self._eroded = self.eroded
         self._core, self._soil = core, soil

@@ -109,7 +109,7 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
 
 
 def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
-    """Refuse numbers that stand for places in arrays where there are no such places."""
+    """Refuse numbers that stand for places in arrays and lie outside of them."""
     count, nodes, bodies = read[f"{prefix}x"].size, raster_shape[0] * raster_shape[1], read["bodies_peak"].size
     if not np.array_equal(np.sort(read[f"{prefix}place"]), np.arange(count)):
         _refuse(f"{prefix}place does not number the particles")

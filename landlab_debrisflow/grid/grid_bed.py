@@ -86,7 +86,7 @@ class GridBed:
         rows : RowBackup
             Keeps the rows that are changed.
         inflow : Inflow
-            Is aimed down the ground where its direction is not given.
+            Inflow to come; it gets the direction in which the ground falls, if none is given.
         time : float
             Time of the component [s].
 

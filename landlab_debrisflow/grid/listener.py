@@ -21,7 +21,7 @@ class CallListener:
     Parameters
     ----------
     flow : DebrisFlow
-        Is shown to its observers.
+        Component that is shown to its observers.
     writer : FieldWriter
         Writes the fields of the component.
     interruption : Interruption

@@ -76,7 +76,7 @@ class Outputs:
 
     @contextmanager
     def shown(self):
-        """Put the outputs into the fields of the grid; if the block raises, put the former values back."""
+        """Put the outputs into the fields of the grid; if the block raises, restore the fields."""
         before = _holders.get(self._grid, lambda: None)()
         self.show()
         try:
@@ -127,7 +127,7 @@ class Outputs:
         return _not_at_start(self._grid) if self._aside is None else self._aside
 
     def _warn_of(self, other) -> None:
-        """Warn once of debris that another component carries, and that no field of elevation holds."""
+        """Warn once of debris that another component carries: no field of elevation holds this debris."""
         if (volume := other._carried_volume()) and not self._warned:
             self._warned = True
             log.warning(

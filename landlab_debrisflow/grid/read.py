@@ -199,7 +199,7 @@ class GridReader:
         return Soil(self._field("soil__depth"), ratio, pressure, drained)
 
     def _field(self, name):
-        """Return the values of a field, sharing its memory, or None if the grid has no such field."""
+        """Return the values of a field, sharing its memory, or None if the grid lacks the field."""
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
     def _warn(self, release, soil, new_event, warned) -> tuple:

@@ -102,7 +102,7 @@ class FieldWriter:
 
     @contextmanager
     def present(self):
-        """Write the present into the fields for the time of the block, then put the former values back."""
+        """Write the present into the fields for the time of the block, then restore the fields."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         model, peak_maps, accounts = sim.state, state.peak_maps, {ERODED, DEPOSIT}
         outputs = {field.name for field in NODE_FIELDS if field.name.startswith(OUTPUT_PREFIX) and field.name in at}

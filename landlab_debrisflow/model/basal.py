@@ -178,13 +178,13 @@ def press_on_bed(first, velocity, sample, cosine, load, weighing):
     first : int
         Place of the first particle asked for.
     velocity : ndarray, shape (3, all)
-        Of all particles [m s-1].
+        Velocity of all particles [m s-1].
     sample : SurfaceSample
         Bed below all particles.
     cosine : ndarray, shape (all,)
         Cosine of the slope of the bed [-].
     load : BedLoad
-        Of the n particles asked for.
+        Load of the n particles asked for.
     weighing : Weighing
         Constants by which the flow weighs on the bed.
 

@@ -43,7 +43,7 @@ def find_bodies(x, y, z, support):
 
 @inner
 def _root(parent, i):
-    """Return the particle that stands for the body of particle `i`; shorten the way to it."""
+    """Return the particle that stands for the body of particle `i`; shorten the chain of parents to it."""
     while parent[i] != i:
         parent[i] = parent[parent[i]]
         i = parent[i]

@@ -68,7 +68,7 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
     velocity, push : ndarray, shape (3, n)
         Velocity [m s-1], and acceleration by forces between particles [m s-2].
     sample : SurfaceSample
-        Of the bed below the particles.
+        Surface of the bed below the particles.
     cosine : ndarray, shape (n,)
         Cosine of the slope of the bed [-].
     resistance : Resistance
@@ -106,7 +106,8 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
     Parameters
     ----------
     position : Position
-        Of which x and y are changed in place; z is the elevation of the bed, as it is now, below the old ones.
+        Position of the particles: x and y are changed in place; z is the present elevation of the bed at the old x and
+        y.
     velocity : ndarray, shape (3, n)
         Multiplied by `velocity_ratio` [m s-1]; the drift uses the mean of before and after, which keeps the pair
         erosion-drift second-order.
@@ -167,7 +168,7 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
     velocity : ndarray, shape (3, n)
         Changed in place [m s-1].
     sample : SurfaceSample
-        Of the bed below the particles.
+        Surface of the bed below the particles.
     raster : Raster
         Nodes, their statuses and spacing [m].
     touched_wall : ndarray of int8, shape (m,)

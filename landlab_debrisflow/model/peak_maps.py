@@ -109,7 +109,7 @@ class PeakMaps:
     arrival_depth : float
         Depth that counts as arrival, and for the peaks [m].
     time : float
-        Of the event, now [s].
+        Time of the event, now [s].
     """
 
     def __init__(self, raster: Raster, fields, arrival_depth: float, time: float):

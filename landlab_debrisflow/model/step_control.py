@@ -17,12 +17,12 @@ SLOWEST = 1.0 / 16.0
 
 
 class StepControl:
-    """Steps that follow how the flow starts and stops.
+    """Length of steps while the flow starts and stops.
 
     Attributes
     ----------
     step, speed : float
-        The last step [s], and the root of the energy of the flow at its beginning [m5/2 s-1].
+        The last step [s], and the root of the energy of the flow at the beginning of this step [m5/2 s-1].
     """
 
     def __init__(self):
@@ -46,7 +46,7 @@ class StepControl:
         stable : float
             Longest step that stability and resolution allow [s].
         energy : float
-            Of the flow now [m5 s-2].
+            Energy of the flow now [m5 s-2].
 
         Examples
         --------

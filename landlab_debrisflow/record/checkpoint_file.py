@@ -52,7 +52,7 @@ def write_checkpoint(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     path : str or os.PathLike
         The file.
     dataset : xarray.Dataset
-        Of numbers and texts.
+        Dataset of numbers and texts.
 
     Returns
     -------

@@ -81,7 +81,7 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
     Parameters
     ----------
     path : str or os.PathLike
-        The file wanted.
+        The file to be written.
     write : callable
         Called with the temporary path, which has the same suffix.
 

@@ -187,7 +187,7 @@ def chosen_particles(owner: str, particles: Any) -> np.ndarray:
     Raises
     ------
     InputError
-        If they are no whole numbers >= 0, or one is twice among them.
+        If a number is no whole number >= 0, or is given twice.
     """
     try:
         numbers = np.asarray(particles)

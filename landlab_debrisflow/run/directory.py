@@ -79,7 +79,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the run that begins.
+            Record of the run that begins.
         overwrite : bool
             Whether the results of an earlier run may be removed; other files stay.
 
@@ -124,7 +124,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the scene as it is now.
+            Record of the scene as it is now.
 
         Raises
         ------

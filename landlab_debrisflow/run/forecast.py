@@ -51,7 +51,7 @@ class Forecast:
     at_rest : bool
         Whether the flow comes to rest before `max_duration`.
     eroded, peak_depth, peak_speed : float
-        Of the pilot run [m3, m, m s-1].
+        Volume eroded, peak depth and peak speed of the pilot run [m3, m, m s-1].
     steps : float
         Number of time steps.
     seconds : float

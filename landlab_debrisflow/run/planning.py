@@ -57,7 +57,7 @@ def plan_scene(scene: Any, notify: Callable[[str], None] | None = None, **wishes
     Raises
     ------
     InputError, ParameterError, SimulationError, KeyboardInterrupt
-        As of `DebrisFlow.plan`.
+        As in `DebrisFlow.plan`.
     """
     known = wishes_of(scene.setup, **wishes)
     return make_plan(event_of_scene(scene), known, *(() if notify is None else (notify,)))

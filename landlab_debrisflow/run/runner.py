@@ -72,7 +72,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     ----------
     scene : Scene
     monitor : Monitor, optional
-        As of `run_scene`.
+        As in `run_scene`.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     InputError
         If there is no run of this scene, or the scene or a file of it has changed.
     OutputError, OSError, KeyboardInterrupt
-        As of `run_scene`.
+        As in `run_scene`.
     """
     path = scene.output_directory
     if not (path / RECORD).is_file():

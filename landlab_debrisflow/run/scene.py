@@ -94,7 +94,7 @@ class Scene:
         Parameters
         ----------
         mapping, folder, name
-            As of the class.
+            As for the class.
 
         Returns
         -------
@@ -229,7 +229,7 @@ class Scene:
         grid : RasterModelGrid, optional
             Grid to run on, which is changed; by default a new one.
         observers : observer or sequence of them
-            As of `DebrisFlow`.
+            As in `DebrisFlow`.
 
         Returns
         -------
@@ -246,7 +246,7 @@ class Scene:
         Parameters
         ----------
         **wishes
-            As of `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
+            As in `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
             ``notify`` is a function that is called with a text when a pilot run begins.
         """
         from .planning import plan_scene
@@ -275,7 +275,7 @@ class Scene:
         Raises
         ------
         InputError, ParameterError, OutputError, OSError, KeyboardInterrupt
-            As of `runner.run_scene`; after an interruption `resume` goes on.
+            As in `runner.run_scene`; after an interruption `resume` goes on.
         """
         from .runner import run_scene
 

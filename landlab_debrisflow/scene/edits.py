@@ -59,7 +59,7 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
     edits : iterable of Edit
     ground : Ground
     extent : Lattice
-        Of the whole DEM, in which shapes have to lie.
+        Extent of the whole DEM, in which shapes have to lie.
     folder : Path
         Directory to which names of files are relative.
     notes : list of str

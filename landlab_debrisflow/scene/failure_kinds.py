@@ -118,7 +118,7 @@ class Obstacle:
         self._answers: np.ndarray | None = None
 
     def solve(self, even: float, uneven: np.ndarray) -> np.ndarray:
-        """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), is always the same."""
+        """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), never changes."""
         load = even - uneven
         while True:
             if self._answers is None:

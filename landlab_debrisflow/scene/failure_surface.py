@@ -49,7 +49,7 @@ def failure_surface(
     mean_depth, largest_depth, volume : float, optional
         Exactly one of them: volume over area of the outline [m], largest depth at a node [m], or volume [m3].
     floor_fall : float
-        Of ``"tapered"``: fall of the floor over that of the ground above the lower rim, from 0, level, to less than 1.
+        For ``"tapered"``: fall of the floor over that of the ground above the lower rim, from 0, level, to less than 1.
         Where floor_fall times the slope of the ground is less than the friction, some of the mass stays.
 
     Returns

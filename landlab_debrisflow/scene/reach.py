@@ -39,7 +39,7 @@ def starting_shapes(
     releases : iterable of ReleaseKeys
     inflow : iterable of Hydrograph
     lattice : Lattice
-        Of the whole DEM.
+        Lattice of the whole DEM.
     folder : Path
         Directory to which names of files are relative.
 

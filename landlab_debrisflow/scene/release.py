@@ -22,7 +22,7 @@ def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
     inside : array_like, shape (nodes,) or (rows, columns)
         Nodes of the outline, as bool, or the fraction of every cell that lies inside.
     **keywords
-        As of `failure_surface`: the kind, and one of ``mean_depth``, ``largest_depth`` and ``volume``.
+        As in `failure_surface`: the kind, and one of ``mean_depth``, ``largest_depth`` and ``volume``.
 
     Returns
     -------
@@ -32,7 +32,7 @@ def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
     Raises
     ------
     InputError
-        As of `failure_surface`, or if `inside` does not fit the grid.
+        As in `failure_surface`, or if `inside` does not fit the grid.
     """
     outline = np.asarray(inside)
     if outline.size != grid.number_of_nodes:

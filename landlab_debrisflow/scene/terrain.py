@@ -46,9 +46,9 @@ def build_terrain(
     folder : Path
         Directory to which names of files are relative.
     releases : sequence of ReleaseKeys
-        From which ``window: reach`` starts.
+        Releases, from which ``window: reach`` starts.
     inflow : sequence of Hydrograph
-        From which it starts, too.
+        Inflow, from which ``window: reach`` starts, too.
     parameters : sequence of VaryingParameter
         As `varying_parameters` returns them.
 

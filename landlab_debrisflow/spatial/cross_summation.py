@@ -1,4 +1,4 @@
-"""SPH sums of the particles of one phase over those of the other.
+"""SPH sums of the particles of one phase over the particles of the other.
 
 Smoothing kernel, smoothing lengths and layout are those of `summation`, where the formulas and their reasons stand. A
 phase is a subset of the particles, in the cells of all of them.
@@ -22,7 +22,7 @@ _ZERO, _ONE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(4.0), _F(1e-12)
 
 
 class CrossPhaseInput(NamedTuple):
-    """State of all n particles, of either phase, that the sums over the other phase read.
+    """State of all n particles, of either phase, for the sums over the other phase.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ def sum_over_other_phase(
     Parameters
     ----------
     one, other : Cells
-        Of the phases, made by `cells_of_phase` of the same cells.
+        Cells of the phases, made by `cells_of_phase` of the same cells.
     given : CrossPhaseInput
         State of the particles of both phases.
     sums : CrossPhaseSums
@@ -146,7 +146,7 @@ def _sum(first, last, targets, sources, packed, packed_sources, sums):
     ----------
     first, last : int
     targets, sources : Cells
-        Of the phase that is summed for, and of the other.
+        Cells of the phase that is summed for, and of the other.
     packed, packed_sources : Packed
         Both phases, by `_pack`.
     sums : CrossPhaseSums

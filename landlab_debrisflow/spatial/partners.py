@@ -44,14 +44,14 @@ class Partners(NamedTuple):
 
 
 def find_partners(targets: Cells, sources: Cells, position: Position, volume, smoothing_length) -> Partners:
-    """Find the partners of some particles among others.
+    """Find the partners of the particles of one phase among the other phase.
 
     Parameters
     ----------
     targets, sources : Cells
-        Of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+        Cells of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
     position : Position
-        Of the n particles that have and may be partners; the cells may have more behind them.
+        Position of the n particles that have, or may be, partners; the cells may hold further particles.
     volume, smoothing_length : ndarray, shape (n,)
         [m3], [m]
     """

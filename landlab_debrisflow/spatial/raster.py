@@ -72,7 +72,7 @@ class Raster(NamedTuple):
 
 @inner
 def nearest_line(coordinate, spacing):
-    """Return the number, as a float, of the row or column nearest to a coordinate [m]; they go on beyond the edge."""
+    """Return the number of the row or column nearest to a coordinate [m], as a float, also beyond the edge."""
     return np.floor(coordinate / spacing + 0.5)
 
 

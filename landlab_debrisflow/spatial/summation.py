@@ -45,7 +45,7 @@ _ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12
 
 
 class SummationInput(NamedTuple):
-    """State of n particles that the sums read; particles beyond the size of `Sums` act on others only.
+    """State of n particles that the sums read; particles beyond the size of `Sums` act, and get no sums.
 
     Attributes
     ----------
@@ -208,11 +208,11 @@ def _sum(first, last, cells, packed, given, viscosity, sums):
     cells : Cells
         Cell list over the particles.
     packed : Packed
-        Of all particles, by `_pack`.
+        Values of all particles, by `_pack`.
     given : SummationInput
         With n particles.
     viscosity : float
-        Of shocks [-].
+        Strength of the viscosity of shocks [-].
     sums : Sums
         Written, for at most n particles.
     """

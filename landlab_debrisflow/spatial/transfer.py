@@ -105,7 +105,7 @@ def scatter(footprints: Footprints, values, sums, touched):
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles, or of more, the first n of which are meant.
+        Footprints of the n particles, or of more, of which the first n count.
     values : ndarray, shape (n, k)
         Amounts; the first must be > 0 where a particle counts.
     sums : ndarray, shape (nodes, k)
@@ -242,7 +242,7 @@ def _scatter(footprints, values, sums, touched):
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles at least.
+        Footprints of the n particles at least.
     values : ndarray, shape (n, k)
         Amounts, in any unit; particles whose first amount is not > 0 are left out.
     sums : ndarray, shape (nodes, k)

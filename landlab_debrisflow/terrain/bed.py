@@ -166,7 +166,7 @@ class Bed:
         Parameters
         ----------
         footprints : Footprints
-            Of these particles, and of others that follow them.
+            Footprints of these particles, and of others that follow them.
         demanded : ndarray, shape (n,)
             Volume asked for [m3].
 
@@ -194,10 +194,10 @@ class Bed:
         return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
     def depth_of(self, footprints: Footprints, volume):
-        """Return the nodes under some particles and the depth their volume [m3] would have there [m].
+        """Return the nodes under some particles, and the depth that their volume [m3] would have on these nodes [m].
 
-        The footprints are those of all particles; `volume`, shape (n,), is 0 for those that do not count. Both results
-        have one entry per node.
+        The footprints are those of all particles; `volume`, shape (n,), is 0 for particles that do not count. Both
+        results have one entry per node.
         """
         at = scatter(footprints, volume[:, None], self._demand, self._touched).copy()
         depth = self._demand[at, 0] / self.raster.area
@@ -219,7 +219,7 @@ def _erode(footprints, demanded, area, accounts, demand):
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles at least.
+        Footprints of the n particles at least.
     demanded : ndarray, shape (n,)
         Volume asked for [m3].
     area : float

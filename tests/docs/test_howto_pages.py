@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
-from landlab_debrisflow import Scene
 from landlab_debrisflow.grid.fields import NODE_FIELDS
 
 ROOT = Path(__file__).parents[2]
@@ -120,13 +120,12 @@ def test_many_runs_at_once_as_printed(monkeypatch, capsys, tmp_path):
     """Threads stand for processes, which take seconds to start; tests/test_processes.py sends the arguments."""
     (block,) = re.findall(r"^```python\n(.*?)^```", page("landlab_loops"), re.M | re.S)
     outline = [[400020, 5200140], [400045, 5200140], [400045, 5200160], [400020, 5200160]]
-    scene = Scene.from_mapping(
-        {
-            "terrain": {"example": "gully"}, "release": {"polygons": outline, "depth": 1.0},
-            "numerics": {"particle_count": 60}, "output": {"max_duration": 2.0},
-        }
-    )  # fmt: skip
-    monkeypatch.setattr(Scene, "from_file", lambda path: scene)
+    scene = {
+        "terrain": {"example": "gully"}, "release": {"polygons": outline, "depth": 1.0},
+        "numerics": {"particle_count": 60}, "output": {"max_duration": 2.0},
+    }  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    Path("scene.yaml").write_text(yaml.safe_dump(scene), encoding="utf-8")
     threads = ThreadPoolExecutor
     monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", lambda count, mp_context: threads(count))
     exec(compile(block, "landlab_loops.md", "exec"), {"__name__": "__main__"})

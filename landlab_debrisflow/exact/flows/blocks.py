@@ -24,7 +24,7 @@ def sliding_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     speed : float
@@ -61,7 +61,7 @@ def eroding_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     growth : float
@@ -109,7 +109,7 @@ def consolidating_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Friction coefficient without excess pore pressure [-].
     ratio : float

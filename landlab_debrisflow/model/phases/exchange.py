@@ -11,7 +11,7 @@ class Exchange:
     Attributes
     ----------
     partners : Partners or None
-        Of the grains among the water.
+        Partners of the grains among the water.
     generation : tuple of int or None
         `Particles.generation` for which they were found.
     age : int
@@ -76,9 +76,9 @@ def distribute_soil_water(partners, entrained, water_ratio, volume, velocity, ex
     water_ratio : float
         Water over grains in the soil [-].
     volume : ndarray, shape (n,)
-        That of the water is raised [m3].
+        Volume of the particles [m3]; that of the water is raised.
     velocity : ndarray, shape (3, n)
-        That of the water is lowered, like volume^-`exponent` [m s-1].
+        Velocity of the particles [m s-1]; that of the water is lowered, like volume^-`exponent`.
     exponent : float
         [-]
     """

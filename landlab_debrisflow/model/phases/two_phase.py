@@ -286,7 +286,7 @@ def _follow_source(pore_water, source, unit_weight, dt):
     source : ndarray, shape (n,) or (1,)
         [Pa s-1]
     unit_weight : float
-        Of water [N m-3].
+        Unit weight of water [N m-3].
     dt : float
         Duration of the step [s].
     """

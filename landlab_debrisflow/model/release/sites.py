@@ -110,7 +110,7 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Ras
     nodes, depth : ndarray, shape (cells,)
         As for `find_sites`.
     elevation : ndarray, shape (nodes,)
-        Of the ground after the failure [m].
+        Elevation of the ground after the failure [m].
     closed : ndarray of bool, shape (nodes,)
         Nodes over which nothing can leave.
     raster : Raster

@@ -45,7 +45,7 @@ def grow_by_flux(columns, selected, present, scheme, modes):
     scheme : Scheme
         Choices of the law.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     volumes, loads = present

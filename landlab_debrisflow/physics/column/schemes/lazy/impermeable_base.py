@@ -43,7 +43,7 @@ def to_modes(columns, selected, modes):
     selected : ndarray of int
         Indices of the columns.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     cells = profile.shape[1] - 1

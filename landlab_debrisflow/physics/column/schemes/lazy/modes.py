@@ -184,7 +184,7 @@ def diffuse_profile(profile, i, condition, diffusion, base, new_base, kink, load
     load_gain, source_gain : float
         The pressure at every grain gains ``load_gain * eta + source_gain``, evenly in time [Pa].
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     work : ndarray, shape (levels - 1,) or longer
         Scratch.
     """

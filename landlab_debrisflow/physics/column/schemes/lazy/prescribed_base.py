@@ -96,7 +96,7 @@ def grow(columns, selected, present, ending, scheme, modes):
     scheme : Scheme
         Choices of the law.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     volumes, loads = present
