@@ -2,10 +2,8 @@
 
 import concurrent.futures
 import re
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -128,9 +126,8 @@ def test_many_runs_at_once_as_printed(monkeypatch, capsys, tmp_path):
     }  # fmt: skip
     monkeypatch.chdir(tmp_path)
     Path("scene.yaml").write_text(yaml.safe_dump(scene), encoding="utf-8")
-    threads = {"ProcessPoolExecutor": lambda count, mp_context: ThreadPoolExecutor(count)}
-    pools = SimpleNamespace(**vars(concurrent.futures) | threads)
-    monkeypatch.setitem(sys.modules, "concurrent.futures", pools)
+    threads = ThreadPoolExecutor
+    monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", lambda count, mp_context: threads(count))
     exec(compile(block, "landlab_loops.md", "exec"), {"__name__": "__main__"})
     angles, speeds = np.array(numbers(capsys.readouterr().out)).reshape(3, 2).T
     assert angles.tolist() == [25.0, 28.0, 31.0] and np.all(np.diff(speeds) < 0.0)
