@@ -74,7 +74,7 @@ def draw_ground(panel, record):
 
 
 ISOLINES = (0.1, 0.5, 1.0, 1.5, 2.0, 3.0)
-"""Of depth, on the deposit [m]."""
+"""Contours of depth, on the deposit [m]."""
 
 
 def draw_maps_of(records):
@@ -93,7 +93,7 @@ def draw_maps_of(records):
         isolines |= titled(shown["deposit"][0], "deposit", c_v)
         pressure = {m: 1e-3 * r.maps.debris_flow__basal_excess_pore_pressure for m, r in pair.items()}
         largest = max(float(abs(values).max()) for values in pressure.values())
-        if largest > 0.01:  # else all of it has gone
+        if largest > 0.01:  # otherwise no mass is left
             words = f"basal excess pore pressure at {some.maps.attrs['elapsed_time']:.0f} s"
             layers.append(Layer(titled(pressure, words, c_v), "pressure [kPa]", "RdBu_r", (-largest, largest)))
         if all(("since", 0.0) in r.snapshots for r in pair.values()):

@@ -18,11 +18,12 @@ MODULES = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path i
 
 LEVEL = {
     "core": 0, "exact": 1, "spatial": 1, "terrain": 1, "physics": 2, "model": 3, "grid": 4,
-    "record": 5, "columns": 6, "plots": 6, "geo": 6, "scene": 7, "fidelity": 9, "run": 10, "cli": 11,
+    "record": 5, "columns": 6, "plots": 6, "geo": 6, "scene": 7, "fidelity": 9, "run": 10, "report": 11,
+    "cli": 12,
 }  # fmt: skip
 TOP = 8  # component and what stands beside it
 KNOWS_LANDLAB = {
-    "component", "restart", "grid/checks", "scene/tsing_shan", "plots/maps", "run/grids", "run/scene", "run/simulate",
+    "component", "restart", "grid/checks", "scene/tsing_shan", "run/grids", "run/scene", "run/simulate",
     "triggers", "fidelity/grids",
 }  # fmt: skip
 

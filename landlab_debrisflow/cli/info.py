@@ -9,11 +9,12 @@ from rich.table import Table
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, same_word
 from ..physics.registry import LAWS
+from ..scene.law_entries import HEADINGS, law_entries, other_entries
 from . import laws
 
 
 def add_command(commands) -> None:
-    """Add the command to a parser's."""
+    """Add the command to the commands of a parser."""
     info = commands.add_parser("info", help="list laws and parameters with formula, source, units, defaults and bounds")
     info.add_argument(
         "law", nargs="?", help="law, kind of law (friction, erosion, column, flow) or other keyword; by default all"
@@ -35,8 +36,8 @@ def _chosen(word: str | None) -> list:
     """Return entries with a remark: of a kind, of a name, or of every law if there is no word."""
     entries = [
         (entry, " (default)" if number == 0 else "")
-        for kind in LAWS for number, entry in enumerate(laws.law_entries(kind))
-    ] + [(entry, "") for entry in laws.other_entries()]  # fmt: skip
+        for kind in LAWS for number, entry in enumerate(law_entries(kind))
+    ] + [(entry, "") for entry in other_entries()]  # fmt: skip
     if word is None:
         return entries
     names = dict.fromkeys(name for entry, _ in entries for name in (*entry.title.split(": "), entry.title))
@@ -51,7 +52,7 @@ def _chosen(word: str | None) -> list:
 def _show(console, entry, remark=""):
     """Print formula, source and parameters of a declared class.
 
-    `console` is of rich, `entry` an `Entry` of cli/laws.py, `remark` text behind its title.
+    `console` is of rich, `entry` an `Entry` of scene/law_entries.py, `remark` text behind its title.
     """
     words = ": ".join(filter(None, (entry.formula, entry.summary)))
     console.print(f"[bold]{entry.title}{remark}[/bold]  {escape(words)}", highlight=False)
@@ -61,8 +62,8 @@ def _show(console, entry, remark=""):
         console.print("  no parameters\n", highlight=False)
         return
     table = Table(box=None, pad_edge=True, header_style="dim")
-    for heading in laws.HEADINGS:
-        table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names stay whole
+    for heading in HEADINGS:
+        table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names of parameters are not broken
     for row in entry.rows:
         table.add_row(*map(escape, row))
     console.print(table, "", highlight=False)

@@ -9,7 +9,7 @@ from pathlib import Path
 from .. import __version__
 from ..core.errors import InputError, OutputError, ParameterError, SimulationError
 from ..core.words import printable
-from . import info, scene_commands
+from . import info, plot, report, scene_commands
 from .exit_codes import CANNOT_WRITE, DIVERGED, DONE, INTERNAL_ERROR, SIGNALLED, USER_ERROR, epilog
 from .signals import ending_signals
 
@@ -52,7 +52,7 @@ def exit_code(command: Callable[[], int | None]) -> int:
             return _fail(error, USER_ERROR)
         except SimulationError as error:
             return _fail(error, DIVERGED)
-        except BrokenPipeError:  # whoever read standard output has ended, as `head` does
+        except BrokenPipeError:  # the reader of standard output has ended, as `head` does
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return DONE
         except OSError as error:
@@ -88,6 +88,8 @@ def _parser():
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
     scene_commands.add_commands(commands)
+    plot.add_command(commands)
+    report.add_command(commands)
     info.add_command(commands)
 
     demo = commands.add_parser("demo", help="run a valley like Tsing Shan with two models and compare them")

@@ -1,217 +1,210 @@
-"""Maps of an event, drawn from `flow.maps` Datasets (or files of them) over a hillshade.
+"""Maps of one run over its relief: a quantity in map coordinates."""
 
-Figures are plain matplotlib objects: no pyplot, no global state, no display needed.
-"""
-
-import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.collections import LineCollection
-from matplotlib.colors import LightSource
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
-from ..record.files import write_atomically
+from ..core.checks import in_range
+from ..core.errors import InputError
+from ..record.written_maps import LEAST_DEPTH
+from .colours import over_relief
+from .extent import Extent, extent_around, panel_size, within
+from .ground import ELEVATION, elevation_of, on_increasing_axes, release_outline
+from .map_frame import draw_coordinates, draw_scale_bar, reference_name
+from .map_panel import draw_colour_bar, draw_isochrones, draw_values
+from .overlays import draw_outline, draw_places, draw_shapes
+from .quantities import DIVERGING, PLAIN, TIME, ShownMap, reached_nodes, shown_map
+from .style import TITLE, figure_of, new_figure, plain_text
 
-KILOMETRES_FROM = 5000.0
-"""Extent above which axes are labelled in km instead of m [m]."""
-
-LIGHT = LightSource(azdeg=315, altdeg=45)
-
-
-class Layer(NamedTuple):
-    """One quantity, drawn for several runs with one colour scale.
-
-    Parameters
-    ----------
-    panels : mapping of str to xarray.DataArray
-        Title of each panel and its values over ``y`` and ``x``, all in the unit that the label names.
-    label : str
-        Text beside the colour bar, with the unit.
-    colours : str
-        Name of a matplotlib colour map.
-    limits : tuple of float, optional
-        Ends of the colour scale, in the unit of the values; by default 0 and the largest value shown.
-    threshold : float
-        Values of smaller magnitude are left transparent, in the unit of the values.
-    """
-
-    panels: Mapping[str, xr.DataArray]
-    label: str
-    colours: str = "viridis"
-    limits: tuple[float, float] | None = None
-    threshold: float = 0.01
+LARGEST_PANEL = (7.0, 6.5)
+"""Width and height that a single map may have [inch]."""
 
 
-def draw_maps(
-    layers: Sequence[Layer],
-    relief: xr.DataArray,
+def draw_map(
+    maps: xr.Dataset,
+    name: str = "max_depth",
     *,
+    before: xr.Dataset | xr.DataArray | None = None,
+    axes: Axes | None = None,
+    title: str | None = None,
+    limits: tuple[float, float] | None = None,
+    least_depth: float = LEAST_DEPTH,
+    extent: Sequence[float] | None = None,
+    margin: float | None = None,
+    contours: bool = True,
     outline: xr.DataArray | None = None,
-    contours: Sequence[float] = (),
-    margin: float = 50.0,
-    extent: tuple[float, float, float, float] | None = None,
+    shapes: Any = None,
+    places: Mapping[str, ArrayLike] | None = None,
 ) -> Figure:
-    """Draw layers as rows and runs as columns, over one hillshade.
+    """Draw the map of a quantity over a hillshade, in map coordinates.
+
+    Peaks and arrival are missing where the flow stayed thinner than a least depth, and everything is missing where
+    nothing came. The colour of small values lets the relief through.
 
     Parameters
     ----------
-    layers : sequence of Layer
-        One row of panels each.
-    relief : xarray.DataArray
-        Elevation over ``y`` and ``x`` [m] for the hillshade; NaN is left white.
+    maps : xarray.Dataset
+        As `DebrisFlow.maps` returns them, or read from the ``maps.nc`` of a run.
+    name : str
+        Name of a map, with or without ``debris_flow__``, such as ``max_depth``, ``max_speed``, ``arrival_time`` (with
+        isochrones), ``max_basal_pressure_ratio``, ``max_basal_peclet_number`` (on a logarithmic scale); or
+        ``elevation_change``: deposit and erosion.
+    before : xarray.Dataset or xarray.DataArray, optional
+        Maps or elevation before the event [m]; maps from a file of a run know it. Without, ``elevation_change`` is
+        deposit less erosion, in which the scar of the release is not.
+    axes : matplotlib.axes.Axes, optional
+        Axes to draw into; by default those of a new figure.
+    title : str, optional
+        Title of the map; by default the name of the quantity.
+    limits : tuple of float, optional
+        Ends of the colour scale, in the unit of the figure.
+    least_depth : float
+        Peaks and arrival are missing where the peak depth stayed below [m].
+    extent : sequence of float, optional
+        West, east, south and north of the part shown [m]; by default all that the flow reached, with a margin.
+    margin : float, optional
+        Width of the ground around it [m].
+    contours : bool
+        Whether contour lines of the ground are drawn.
     outline : xarray.DataArray of bool, optional
-        A region to be outlined, such as the source.
-    contours : sequence of float
-        Elevations to be drawn as lines [m].
-    margin : float
-        Width of ground shown around the drawn values [m].
-    extent : tuple of float, optional
-        West, east, south, north of the part shown, in the coordinates of `relief` [m]; by default all
-        nodes any layer shows, with `margin`.
+        Region whose rim is drawn; by default the release, if `before` or the file tells it.
+    shapes : object, optional
+        Buildings, roads or dams: a GeoDataFrame, geometries of shapely, or arrays of vertices, shape (n, 2) [m].
+    places : mapping of str to array_like, shape (2,) or (n, 2), optional
+        Points and lines with their names, such as gauges and sections: map coordinates [m].
 
     Returns
     -------
     matplotlib.figure.Figure
-    """
-    west, east, south, north = extent or _extent_of(layers, relief, outline, margin)
-    origin = (float(relief.x[0]), float(relief.y[0]))
-    unit, scale = ("km", 1e-3) if max(east - west, north - south) > KILOMETRES_FROM else ("m", 1.0)
-    count = max(len(layer.panels) for layer in layers)
-    figure = Figure(figsize=_figure_size((east - west) / (north - south), len(layers), count), layout="constrained")
-    grid = figure.subplots(len(layers), count, sharex=True, sharey=True, squeeze=False)
-    for row, layer in zip(grid, layers, strict=True):
-        low, high = layer.limits or (0.0, max(layer.threshold, *(float(v.max()) for v in layer.panels.values())))
-        for axes in row[len(layer.panels) :]:
-            axes.set_visible(False)
-        for axes, (title, values) in zip(row, layer.panels.items(), strict=False):
-            place = {"extent": _edges(relief, origin, scale), "origin": "lower", "interpolation": "nearest"}
-            axes.imshow(_hillshade(relief), cmap="gray", vmin=-0.7, vmax=1.25, **place)
-            shown = values.where(abs(values) >= layer.threshold).values
-            image = axes.imshow(shown, cmap=layer.colours, vmin=low, vmax=high, **place)
-            _draw_lines(axes, relief, outline, contours, origin, scale)
-            axes.set_title(title, fontsize="medium")
-            axes.set_aspect("equal")
-        beyond = max(float(abs(v).max()) for v in layer.panels.values()) > max(abs(low), abs(high)) * (1 + 1e-12)
-        ends = ("both" if low < 0.0 else "max") if beyond else "neither"
-        figure.colorbar(image, ax=list(row), label=layer.label, extend=ends, shrink=0.9, aspect=25, pad=0.01)
-    first = grid[0, 0]
-    first.set_xlim((west - origin[0]) * scale, (east - origin[0]) * scale)
-    first.set_ylim((south - origin[1]) * scale, (north - origin[1]) * scale)
-    _draw_scale_bar(first, unit)
-    corner = "" if origin == (0.0, 0.0) else f"x, y from the lower left node at ({origin[0]:.0f}, {origin[1]:.0f}) m. "
-    lines = "".join(f"{z:g} m contour dashed. " for z in contours)
-    source = "" if outline is None else "Source outlined."
-    figure.supxlabel(f"x [{unit}]", fontsize="medium")
-    figure.supylabel(f"y [{unit}]", fontsize="medium")
-    if note := (corner + lines + source).strip():
-        figure.text(0.995, 0.005, note, ha="right", va="bottom", fontsize="small", color="0.35")
-    return figure
-
-
-def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 150) -> Path:
-    """Write a figure, atomically; return where.
-
-    Parameters
-    ----------
-    figure : matplotlib.figure.Figure
-        As `draw_maps` returns it.
-    path : str or os.PathLike
-        The file; its suffix chooses the format, such as ``.png`` or ``.pdf``.
-    dpi : int
-        Dots per inch of what is not drawn as lines.
-
-    Returns
-    -------
-    pathlib.Path
-        Where the file is.
 
     Raises
     ------
     InputError
-        If it cannot be written.
+        If there is no such map, or the maps are not over ``y`` and ``x`` alone.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> x, y = np.arange(0.0, 300.0, 10.0), np.arange(0.0, 200.0, 10.0)
+    >>> depth = np.where(abs(y[:, None] - 100.0) + 0.0 * x < 30.0, 1.5, 0.0)
+    >>> maps = xr.Dataset(
+    ...     {"topographic__elevation": (("y", "x"), 0.3 * (300.0 - x) + 0.0 * y[:, None]),
+    ...      "debris_flow__max_depth": (("y", "x"), depth)},
+    ...     {"y": y, "x": x},
+    ... )
+    >>> figure = draw_map(maps, "max_depth")
+    >>> figure.axes[0].get_title(loc="left"), figure.axes[0].get_xlabel()
+    ('Peak depth', 'x [m]')
     """
-    return write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
+    shown = shown_map(maps, name, before=before, least_depth=least_depth)
+    region = release_outline(maps, before) if outline is None else on_increasing_axes(outline)
+    reached = reached_nodes(maps, least_depth)  # maps of a run have one extent, and can be laid upon each other
+    drawn = np.isfinite(shown.values.values) if reached is None else reached
+    place = chosen_extent(drawn, shown.values, region, extent, margin)
+    if axes is None:
+        width, height = panel_size(place, LARGEST_PANEL)
+        axes = new_figure(max(width, 2.6) + 1.5, height + 1.0).add_subplot()
+    draw_shown(axes, shown, relief_of(maps), place, region, limits=limits, contours=contours, shapes=shapes)
+    if places is not None:
+        draw_places(axes, places)
+    draw_coordinates(axes, place, plain_text(reference_name(maps)))
+    draw_scale_bar(axes, place, np.isfinite(within(shown.values, place).values))
+    axes.set_title(plain_text(shown.quantity.words if title is None else title), loc="left", fontsize=TITLE)
+    return figure_of(axes)
 
 
-def _hillshade(relief):
-    spacing = float(relief.x[1] - relief.x[0]), float(relief.y[1] - relief.y[0])
-    # rows run northwards here, matplotlib's light expects them southwards
-    return LIGHT.hillshade(relief.values[::-1], dx=spacing[0], dy=spacing[1])[::-1]
+def draw_shown(
+    axes: Axes,
+    shown: ShownMap,
+    relief: xr.DataArray | None,
+    place: Extent,
+    region: xr.DataArray | None = None,
+    *,
+    limits: tuple[float, float] | None = None,
+    contours: bool = True,
+    shapes: Any = None,
+) -> None:
+    """Draw a map over its ground with its colour bar, isochrones, the rim of a region, and shapes.
 
-
-def _edges(relief, origin, scale):
-    """Return the outer edges of the cells around the nodes: west, east, south, north.
-
-    `relief` is over ``y`` and ``x`` [m]; coordinates [m] are counted from `origin` and multiplied by `scale`.
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    shown : ShownMap
+    relief : xarray.DataArray or None
+        Elevation [m]; None: no ground.
+    place : Extent
+    region : xarray.DataArray of bool, optional
+        Region whose rim is drawn.
+    limits, contours, shapes
+        As in `draw_map`.
     """
-    x, y = (relief.x.values - origin[0]) * scale, (relief.y.values - origin[1]) * scale
-    half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
-    return x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y
+    norm, scale = shown.norm(region), shown.quantity.scale
+    if limits is not None:
+        norm.vmin, norm.vmax = checked_limits(limits, isinstance(norm, LogNorm))
+    colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, PLAIN))
+    image = draw_values(axes, shown.values, relief, place, norm, colours, contours=contours)
+    draw_colour_bar(axes, image, norm, [shown.values.values], shown.quantity.unit, place)
+    if scale == TIME:
+        draw_isochrones(axes, shown.values, place)
+    if region is not None:
+        draw_outline(axes, region)
+    if shapes is not None:
+        draw_shapes(axes, shapes)
 
 
-def _extent_of(layers, relief, outline, margin):
-    shown = np.zeros(relief.shape, bool) if outline is None else outline.values.astype(bool)
-    for layer in layers:
-        for values in layer.panels.values():
-            shown = shown | (abs(values.values) >= layer.threshold)
-    if not shown.any():
-        shown[:] = True
-    x, y = relief.x.values[shown.any(axis=0)], relief.y.values[shown.any(axis=1)]
-    return (
-        max(x[0] - margin, float(relief.x[0])), min(x[-1] + margin, float(relief.x[-1])),
-        max(y[0] - margin, float(relief.y[0])), min(y[-1] + margin, float(relief.y[-1])),
-    )  # fmt: skip
+def relief_of(maps: xr.Dataset) -> xr.DataArray | None:
+    """Return the elevation of maps over ``y`` and ``x`` [m], None if they have none."""
+    return elevation_of(maps) if ELEVATION in maps else None
 
 
-def _figure_size(aspect, rows, columns):
-    """Return width and height [inch] for panels as wide as they can be on a page.
+def chosen_extent(
+    drawn: np.ndarray,
+    raster: xr.DataArray,
+    region: xr.DataArray | None,
+    extent: Sequence[float] | None,
+    margin: float | None,
+) -> Extent:
+    """Return the extent given, or the one around the drawn nodes.
 
-    `aspect` is width over height of a panel; `rows` and `columns` are numbers of panels.
+    Parameters
+    ----------
+    drawn : ndarray of bool, shape (rows, columns)
+        Nodes that must be in it.
+    raster : xarray.DataArray
+        Over ``y`` and ``x``.
+    region : xarray.DataArray of bool or None
+        Further nodes that must be in it.
+    extent : sequence of float or None
+        West, east, south and north [m].
+    margin : float or None
+        Width of the ground around [m].
+
+    Raises
+    ------
+    InputError
+        If it is no rectangle.
     """
-    width = min(7.0, 14.0 / columns)
-    height = width / aspect
-    if height > 7.0:
-        width, height = 7.0 * aspect, 7.0
-    return max(columns * width + 1.6, 6.0), rows * (height + 0.45) + 0.6
+    if extent is not None:
+        values = tuple(float(value) for value in extent)
+        if len(values) != 4 or not (values[0] < values[1] and values[2] < values[3] and np.isfinite(values).all()):
+            raise InputError(f"plots: extent must be west < east and south < north [m], got {extent!r}")
+        return Extent(*values)
+    if margin is not None:
+        in_range("plots: margin", margin, 0.0, unit="m", error=InputError)
+    return extent_around(drawn if region is None else drawn | region.values.astype(bool), raster, margin)
 
 
-def _draw_lines(axes, relief, outline, contours, origin, scale):
-    x, y = (relief.x.values - origin[0]) * scale, (relief.y.values - origin[1]) * scale
-    if len(contours):
-        axes.contour(x, y, relief.values, levels=sorted(contours), colors="black", linewidths=0.8, linestyles="dashed")
-    if outline is not None:
-        axes.add_collection(LineCollection(_rim(outline.values, x, y), colors="black", linewidths=1.0))
-
-
-def _rim(mask, x, y):
-    """Return the cell edges between True and False, shape (edges, 2 ends, 2 coordinates).
-
-    `mask` is of bool, shape (rows, columns); `x` and `y` are the coordinates of its columns and rows.
-    """
-    mask = np.pad(mask.astype(bool), 1)
-    edge_x, edge_y = (np.append(a - 0.5 * (a[1] - a[0]), a[-1] + 0.5 * (a[1] - a[0])) for a in (x, y))
-    row, column = np.nonzero(mask[1:-1, 1:] != mask[1:-1, :-1])
-    upright = np.stack([edge_x[[column, column]], edge_y[[row, row + 1]]], axis=-1)
-    row, column = np.nonzero(mask[1:, 1:-1] != mask[:-1, 1:-1])
-    level = np.stack([edge_x[[column, column + 1]], edge_y[[row, row]]], axis=-1)
-    return np.concatenate([upright, level], axis=1).swapaxes(0, 1)
-
-
-def _draw_scale_bar(axes, unit):
-    """Draw a bar of a round length, about a fifth of the panel, into its lower left corner.
-
-    `axes` are of matplotlib, `unit` is "m" or "km".
-    """
-    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
-    target = 0.25 * (east - west)
-    power = 10.0 ** np.floor(np.log10(target))
-    length = max(m * power for m in (1, 2, 5) if m * power <= target)
-    x, y = west + 0.04 * (east - west), south + 0.06 * (north - south)
-    axes.plot([x, x + length], [y, y], color="black", linewidth=3, solid_capstyle="butt")
-    axes.text(
-        x + 0.5 * length, y + 0.015 * (north - south), f"{length:g} {unit}", ha="center", va="bottom", fontsize="small"
-    )
+def checked_limits(limits: tuple[float, float], logarithmic: bool) -> tuple[float, float]:
+    """Return the ends of a colour scale, lower and upper, or raise InputError if they are none."""
+    low, high = limits
+    if not (np.isfinite(low) and np.isfinite(high) and low < high and (low > 0.0 or not logarithmic)):
+        words = "two increasing numbers above 0" if logarithmic else "two increasing numbers"
+        raise InputError(f"plots: limits must be {words}, got {limits!r}")
+    return float(low), float(high)

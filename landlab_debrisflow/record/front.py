@@ -18,8 +18,9 @@ from .places import check_on_grid, line
 class Front(Follower):
     """Distance of the front along a thalweg against time.
 
-    Each particle is where the thalweg is nearest to it. The front is there where a fraction of the volume lies behind,
-    as in `measures`: a stray particle is none. What is beyond an end of the thalweg counts at that end.
+    The distance of a particle is that of the nearest point of the thalweg; beyond an end of the thalweg it is the
+    distance of that end. The front is the distance behind which a fraction of the volume lies, as in `measures`, so
+    that single particles far ahead do not count.
 
     Parameters
     ----------
@@ -44,7 +45,7 @@ class Front(Follower):
         self.fraction = float(fraction)
 
     def prepare(self, grid: Any, setup: Any) -> None:
-        """Note where the grid lies.
+        """Note the place of the grid on the map.
 
         Parameters
         ----------
@@ -81,7 +82,10 @@ class Front(Follower):
 
     @property
     def dataset(self) -> xr.Dataset:
-        """Front over ``time`` [s]: ``front_distance``, ``farthest_distance`` [m], ``front_elevation`` [m]."""
+        """Front over ``time`` [s]: ``front_distance``, ``farthest_distance`` [m], ``front_elevation`` [m].
+
+        ``thalweg_x`` and ``thalweg_y`` over ``vertex`` are the line [m].
+        """
         rows = self._rows.arrays()
         meanings = {
             "front_distance": f"distance along the thalweg behind which {100.0 * self.fraction:g} % of the volume lies",
@@ -91,13 +95,17 @@ class Front(Follower):
         data = {
             name: ("time", rows.get(name, np.empty(0)), variable_attributes("m", meanings[name])) for name in meanings
         }
+        data |= {
+            f"thalweg_{axis}": ("vertex", values, variable_attributes("m", f"{axis} of the thalweg, from the top down"))
+            for axis, values in zip("xy", self.thalweg.T, strict=True)
+        }
         return xr.Dataset(
             data, {"time": ("time", rows["time"], variable_attributes("s", "elapsed time"))}, file_attributes()
         )
 
 
 def distance_along(thalweg: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return how far along a line the place is that is nearest to each point.
+    """Return the distance along a line of the point on it that is nearest to each of some points.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Directory of the results of a run: of one run at a time, without files of another, nothing half written."""
+"""Directory of the results of a run: one run at a time, no file of another run, nothing half written."""
 
 import contextlib
 import dataclasses
@@ -13,7 +13,7 @@ from ..core.errors import InputError, OutputError
 from ..core.version import __version__
 from ..record.checkpoint_file import previous_path
 from ..record.files import check_directory
-from .files import CHECKPOINT, LOCK, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
+from .files import CHECKPOINT, LOCK, PAGE, PICTURES, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
 TEMPORARY = re.compile(r"\.(run|checkpoint|checkpoint\.previous|maps_\d+)\.\d+\.(json|nc)")
@@ -60,7 +60,7 @@ class OutputDirectory:
                 _remove_temporaries(path)
                 yield cls(path)
         finally:
-            with contextlib.suppress(OSError):  # it holds something, as it should
+            with contextlib.suppress(OSError):  # the directory is not empty after a run
                 path.rmdir()
 
     @property
@@ -70,8 +70,8 @@ class OutputDirectory:
 
     @property
     def checkpoints(self) -> list[Path]:
-        """Checkpoints that are there, the latest first."""
-        return [path for path in (self.checkpoint, previous_path(self.checkpoint)) if path.is_file()]
+        """Checkpoints in the directory, the latest first."""
+        return checkpoints_in(self.path)
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
         """Begin a run here: refuse to lose results, remove them if they may go, write its record.
@@ -79,7 +79,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the run that begins.
+            Record of the run that begins.
         overwrite : bool
             Whether the results of an earlier run may be removed; other files stay.
 
@@ -124,12 +124,12 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the scene as it is now.
+            Record of the scene as it is now.
 
         Raises
         ------
         InputError
-            If anything differs that changes results, or the scene is to end before what was computed.
+            If a difference changes results, or the scene is to end earlier than the run has come.
         """
         if found := self.record.differences(record, FREE):
             raise InputError(
@@ -153,12 +153,12 @@ class OutputDirectory:
             self.note(files=[*self.record.files, *new])
 
     def publish(self, write: Callable[[Path], object]) -> list[str]:
-        """Write files so that they appear here together, when all are complete; return their names.
+        """Write files that appear in the directory together, when all are complete; return their names.
 
         Parameters
         ----------
         write : callable
-            Called with an empty directory, into which it writes them.
+            Called with an empty directory, into which it writes the files.
         """
         temporary = self.path / UNFINISHED
         shutil.rmtree(temporary, ignore_errors=True)
@@ -181,19 +181,27 @@ class OutputDirectory:
         if any((self.path / f"{SERIES}{suffix}").exists() for suffix in SERIES_SUFFIX.values()):
             for path in self.path.glob(f"{SERIES}/maps_*.nc"):
                 path.unlink()
-            with contextlib.suppress(OSError):  # it holds something else
+            with contextlib.suppress(OSError):  # it holds other files
                 (self.path / SERIES).rmdir()
+
+    def remove_page(self) -> None:
+        """Remove report and pictures, which tell of a run as it was."""
+        (self.path / PAGE).unlink(missing_ok=True)
+        names = self.record.results if self.record else []
+        for name in (name for name in names if name.startswith(f"{PICTURES}/")):
+            (self.path / name).unlink(missing_ok=True)
 
     def _remove_checkpoints(self) -> None:
         for path in self.checkpoints:
             path.unlink()
 
     def remove_results(self) -> None:
-        """Remove the files that the recorded run wrote here; other files stay."""
+        """Remove the files that the recorded run wrote here, and the page made of them; other files stay."""
         shutil.rmtree(self.path / UNFINISHED, ignore_errors=True)
         if self.record is None:
             return
         self._remove_checkpoints()
+        self.remove_page()
         folder = self.path.resolve()
         for name in self.record.results:
             for path in sorted(self.path.glob(name)):
@@ -203,10 +211,16 @@ class OutputDirectory:
                     path.unlink()
                 elif path.suffix == ".zarr" and (path / "zarr.json").is_file():
                     shutil.rmtree(path)
-            with contextlib.suppress(OSError):  # it holds something else
+            with contextlib.suppress(OSError):  # it holds other files
                 if (parent := (self.path / name).parent) != self.path:
                     parent.rmdir()
         (self.path / RECORD).unlink(missing_ok=True)
+
+
+def checkpoints_in(directory: Path) -> list[Path]:
+    """Return the checkpoints in a directory of results, the latest first."""
+    latest = directory / CHECKPOINT
+    return [path for path in (latest, previous_path(latest)) if path.is_file()]
 
 
 def listed(words: list[str], most: int = 3) -> str:
@@ -229,7 +243,7 @@ def _remove_temporaries(directory: Path) -> None:
 
 @contextlib.contextmanager
 def _lock(directory: Path) -> Iterator[None]:
-    """Hold a lock on a directory, which ends with the process, however that ends."""
+    """Hold a lock on a directory until the block or the process ends, even if the process is killed."""
     try:
         import fcntl
     except ImportError:  # on Windows two runs in one directory are not noticed

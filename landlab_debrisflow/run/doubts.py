@@ -4,13 +4,13 @@ import dataclasses
 import math
 from collections.abc import Iterator
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import binary_dilation, minimum_filter
 
 from ..physics.erosion import NoErosion
 from ..scene.terrain import SOIL
-from .scene import Scene
 
 LEAST_ANGLE = 2.0
 """Angle of friction below which hardly any flow stops [deg]."""
@@ -22,7 +22,7 @@ COARSEST, FINEST = 3.0, 0.2
 """Spacing of particles over that of nodes, beyond which terrain or particles are not resolved [-]."""
 
 
-def scene_doubts(scene: Scene) -> Iterator[str]:
+def scene_doubts(scene: Any) -> Iterator[str]:
     """Yield doubts about angles, releases and resolution of a scene."""
     yield from _angle_doubts(scene.setup)
     erosion = scene.setup.erosion
@@ -58,7 +58,7 @@ def _angle_doubts(setup) -> Iterator[str]:
                 )
 
 
-def _release_doubts(scene: Scene, release, cell: float) -> Iterator[str]:
+def _release_doubts(scene: Any, release, cell: float) -> Iterator[str]:
     depth = release.depth
     failing = depth > 0.0
     count, volume = int(failing.sum()), float(depth.sum()) * cell
@@ -90,7 +90,7 @@ def _release_doubts(scene: Scene, release, cell: float) -> Iterator[str]:
 
 
 def below_lip(elevation: np.ndarray, depth: np.ndarray) -> tuple[float, float]:
-    """Return how much of a release lies in pits of the ground below it.
+    """Return the depth of a release that lies in pits of the ground below.
 
     The ground without the release is filled up to the level at which water would run out of it, by repeated minima
     over neighbours (Planchon & Darboux, 2001), and the filling counted where the release is and the ground had no pit.
@@ -145,6 +145,6 @@ def _filled(bed: np.ndarray) -> np.ndarray:
         water = lower
 
 
-def _cell_area(scene: Scene) -> float:
+def _cell_area(scene: Any) -> float:
     x, y = scene.terrain.x.values, scene.terrain.y.values
     return float(abs((x[1] - x[0]) * (y[1] - y[0])))

@@ -3,6 +3,7 @@
 from typing import Any
 
 RECORD, SCENE, MAPS, REPORT = "run.json", "scene.yaml", "maps.nc", "report.txt"
+PAGE = "report.html"
 CHECKPOINT = "checkpoint.nc"
 SERIES = "series"
 SERIES_SUFFIX = {"netcdf": ".nc", "zarr": ".zarr"}
@@ -11,12 +12,18 @@ LOCK = ".lock"
 UNFINISHED = ".unfinished"
 """Directory in that of the results where these are written before they appear."""
 
+PICTURES = "pictures"
+"""Directory in that of the results for pictures of them."""
+
+PICTURE_SUFFIXES = (".png", ".pdf", ".svg", ".gif", ".mp4")
+"""Endings of pictures."""
+
 SUFFIXES = (".nc", ".zarr", ".tif", ".qml", ".yaml", ".csv", ".gpkg")
 """Endings of the files that runs write."""
 
 
 def is_result(name: Any) -> bool:
-    """Return whether runs write files of a name into their directory; ``*`` may stand in the directory of the series.
+    """Return whether runs and pictures of them are written under a name; ``*`` may stand in that of a series of maps.
 
     Examples
     --------
@@ -27,4 +34,6 @@ def is_result(name: Any) -> bool:
         return False
     folder, _, last = name.rpartition("/")
     in_series = folder == SERIES
+    if folder == PICTURES:
+        return "*" not in last and last.endswith(PICTURE_SUFFIXES)
     return name == REPORT or ((in_series or (not folder and "*" not in last)) and last.endswith(SUFFIXES))

@@ -1,8 +1,7 @@
-"""Record of a run in its directory: scene, digests of its files, versions, and how far it came."""
+"""Record of a run in its directory: scene, digests of its files, versions, and progress."""
 
 import dataclasses
 import json
-from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -11,12 +10,15 @@ from ..core.errors import InputError
 from ..core.version import __version__
 from ..geo.rasters import checksum_of
 from ..record.files import write_atomically
-from ..scene.content import named_files
+from ..scene.content import leaves, named_files
 from ..scene.digest import digest
 from .files import is_result
 
-FORMAT = 1
-"""Version of the record."""
+FORMAT = 2
+"""Version of the record: 2 has the keys given, remarks, environment and statement; 1 has none of these."""
+
+READABLE = (1, FORMAT)
+"""Versions that are read."""
 
 RUNNING, INTERRUPTED, FAILED, FINISHED = "running", "interrupted", "failed", "finished"
 
@@ -37,13 +39,13 @@ class RunRecord:
     digest : str
         Digest of both.
     scene_file : str or None
-        The scene file, from the directory of the results; None for a scene that came from none.
+        The scene file, relative to the directory of the results; None for a scene without a file.
     state : str
-        ``running`` (or ended without a word), ``interrupted``, ``failed`` or ``finished``.
+        ``running`` (or killed), ``interrupted``, ``failed`` or ``finished``.
     elapsed_time : float
         Elapsed time at the end, or at the interruption [s].
     at_rest : bool
-        Whether all came to rest.
+        Whether the whole flow came to rest.
     steps : int
         Number of time steps.
     budget : dict of str to float
@@ -54,6 +56,15 @@ class RunRecord:
         Reason of a failure.
     plan : dict or None
         Plan as plain values, if the number of particles was left to one.
+    given : list of str or None
+        Keys of the scene that were given, with the keys above them in front, such as ``friction.cohesion``; others
+        have their defaults. None in this and the following: a version that did not keep it wrote the record.
+    notes, doubts, warnings : list of str or None
+        Remarks on files, what is odd in the scene (both as `check` prints them), and warnings while it ran.
+    environment : dict or None
+        Kind of machine and versions of libraries, of the process that ran last.
+    statement : dict or None
+        Particles, column, steps and stated errors as plain values, of a run by a plan that came to its end.
     """
 
     scene: dict[str, Any]
@@ -68,6 +79,12 @@ class RunRecord:
     files: list[str] = dataclasses.field(default_factory=list)
     reason: str = ""
     plan: dict[str, Any] | None = None
+    given: list[str] | None = None
+    notes: list[str] | None = None
+    doubts: list[str] | None = None
+    warnings: list[str] | None = None
+    environment: dict[str, Any] | None = None
+    statement: dict[str, Any] | None = None
     started: str = dataclasses.field(default_factory=lambda: _now())
     version: str = __version__
     format: int = FORMAT
@@ -77,7 +94,13 @@ class RunRecord:
         """Return the record of a `Scene` that is about to run."""
         mapping = json.loads(json.dumps(scene.to_mapping()))
         inputs = {name: checksum_of(path) for name, path in named_files(mapping, scene.folder).items()}
-        return cls(scene=mapping, inputs=inputs, digest=digest([mapping, inputs]), scene_file=scene_file)
+        return cls(
+            scene=mapping,
+            inputs=inputs,
+            digest=digest([mapping, inputs]),
+            scene_file=scene_file,
+            given=list(scene.given_keys),
+        )
 
     @classmethod
     def read(cls, path: Path) -> "RunRecord":
@@ -95,15 +118,17 @@ class RunRecord:
                 f"cannot read {path}: {error}; it is the record of a run, give another directory"
             ) from error
         names = {field.name: field for field in dataclasses.fields(cls)}
-        if not isinstance(values, dict) or values.get("format") != FORMAT:
+        if not isinstance(values, dict) or values.get("format") not in READABLE:
             found = values.get("format") if isinstance(values, dict) else None
             raise InputError(
                 f"{path} is no record of a run that this version ({__version__}) can read: format {found!r}, needed "
-                f"{FORMAT}; run the scene with another output directory"
+                f"{READABLE[0]} to {FORMAT}; read it with the version that wrote it, or run the scene with another "
+                "output directory"
             )
         kinds = {"scene": dict, "inputs": dict, "digest": str, "files": list, "state": str, "budget": dict}
         kinds |= {"elapsed_time": float | int, "at_rest": bool, "scene_file": str | None, "version": str}
-        kinds |= {"plan": dict | None}
+        kinds |= dict.fromkeys(("plan", "environment", "statement"), dict | None)
+        kinds |= dict.fromkeys(("given", "notes", "doubts", "warnings"), list | None)
         if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
             raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
         if not all(isinstance(volume, float | int) for volume in values["budget"].values()):
@@ -121,8 +146,8 @@ class RunRecord:
         write_atomically(path, lambda temporary: temporary.write_text(text + "\n", encoding="utf-8"))
 
     def differences(self, other: "RunRecord", free: tuple[str, ...] = ()) -> list[str]:
-        """Return in words where another record has another scene or other files, but for `free` keys."""
-        mine, theirs = dict(_leaves(self.scene)), dict(_leaves(other.scene))
+        """Return the differences of another record in scene and files, `free` keys left out, as text."""
+        mine, theirs = dict(leaves(self.scene)), dict(leaves(other.scene))
         keys = [key for key in dict.fromkeys([*mine, *theirs]) if mine.get(key) != theirs.get(key)]
         found = [
             f"{key} was {mine.get(key, 'not set')!r}, is {theirs.get(key, 'not set')!r}"
@@ -130,18 +155,6 @@ class RunRecord:
         ]  # fmt: skip
         names = dict.fromkeys([*self.inputs, *other.inputs])
         return found + [f"the file {name} changed" for name in names if self.inputs.get(name) != other.inputs.get(name)]
-
-
-def _leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every key of plain values, with the keys above it in front, and its value."""
-    if isinstance(values, Mapping):
-        for name, value in values.items():
-            yield from _leaves(value, f"{key}.{name}" if key else str(name))
-    elif isinstance(values, list) and any(isinstance(value, Mapping) for value in values):
-        for number, value in enumerate(values, 1):
-            yield from _leaves(value, f"{key} {number}")
-    else:
-        yield key, values
 
 
 def _now() -> str:

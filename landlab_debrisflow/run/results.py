@@ -8,6 +8,9 @@ import xarray as xr
 
 from ..core.errors import InputError
 from ..core.words import grouped
+from ..record.measures import ELEVATION, RELEASE
+from ..record.written_maps import ELEVATION_BEFORE, RELEASED_DEPTH
+from .directory import checkpoints_in
 from .files import MAPS, RECORD, REPORT
 from .record import FINISHED, RunRecord
 
@@ -29,7 +32,7 @@ class Results:
     Attributes
     ----------
     record : RunRecord
-        Scene, digests, versions, and how far the run came.
+        Scene, digests, versions and progress of the run.
     """
 
     directory: Path
@@ -49,7 +52,7 @@ class Results:
 
     @property
     def at_rest(self) -> bool:
-        """Whether all came to rest within the longest duration."""
+        """Whether the whole flow came to rest within the longest duration."""
         return self.record.at_rest
 
     @property
@@ -61,6 +64,11 @@ class Results:
     def budget(self) -> dict[str, float]:
         """Volumes at the end, as of `DebrisFlow.budget` [m3]."""
         return self.record.budget
+
+    @property
+    def checkpoints(self) -> list[Path]:
+        """Checkpoints from which a run can go on, the latest first."""
+        return checkpoints_in(self.directory)
 
     @property
     def files(self) -> list[Path]:
@@ -76,14 +84,52 @@ class Results:
         InputError
             If the run was not finished.
         """
-        if not (self.directory / MAPS).is_file():
+        if not self.finished and not (self.directory / MAPS).is_file():
             raise InputError(f"{self.directory} holds no maps: the run is {self.record.state}; resume it first")
-        with xr.open_dataset(self.directory / MAPS, decode_coords="all") as maps:
-            return maps.load()
+        return self.dataset("maps")
+
+    @property
+    def before(self) -> xr.Dataset | None:
+        """Ground before the event and depth of all releases, as `measures` takes them; None if not written."""
+        maps = self.maps
+        if ELEVATION_BEFORE not in maps:
+            return None
+        return maps[[ELEVATION_BEFORE, RELEASED_DEPTH]].rename({ELEVATION_BEFORE: ELEVATION, RELEASED_DEPTH: RELEASE})
+
+    def dataset(self, name: str) -> xr.Dataset:
+        """Return one of the files of the results, whole.
+
+        Parameters
+        ----------
+        name : str
+            Name of a NetCDF file without its ending, such as ``gauges``.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        InputError
+            If it is not there or cannot be read.
+        """
+        path = self.directory / f"{name}.nc"
+        if not path.is_file():
+            raise InputError(
+                f"{self.directory} holds no {path.name}: the run did not write it, or it was removed; run the scene "
+                "anew with --overwrite"
+            )
+        try:
+            with xr.open_dataset(path, engine="netcdf4", decode_coords="all", decode_timedelta=False) as data:
+                return data.load()
+        except (OSError, RuntimeError, ValueError) as error:
+            raise InputError(
+                f"cannot read {path}: {error}; the file is damaged, run the scene anew with --overwrite"
+            ) from error
 
     @property
     def report(self) -> str:
-        """Particles, column, steps and stated errors of the run, as text; empty before its end."""
+        """Statement on a run by a plan as text: particles, column, steps, stated errors; empty before its end."""
         path = self.directory / REPORT
         return path.read_text(encoding="utf-8").rstrip() if path.is_file() else ""
 

@@ -1,6 +1,7 @@
 """Content of a scene file: its mapping as checked values, and back."""
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -33,12 +34,15 @@ class SceneContent(NamedTuple):
         Duration, files and places of output.
     setup : Setup
         Laws, material, numerics and inflow as they are written, without the inflow at points.
+    given : tuple of str
+        Keys of the mapping whose values were given, see `given_keys`.
     """
 
     terrain: TerrainKeys
     release: tuple[ReleaseKeys, ...]
     output: OutputKeys
     setup: Setup
+    given: tuple[str, ...] = ()
 
 
 def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> SceneContent:
@@ -49,7 +53,7 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
     mapping : mapping
         Plain values by the keys of a scene.
     file : YamlFile, optional
-        Where they were read from, to name lines.
+        File from which the values were read, to name lines.
 
     Returns
     -------
@@ -80,7 +84,7 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
     setup = Setup(**given)
     with located(file, "terrain"):
         varying_parameters(setup, terrain.zones)
-    return SceneContent(terrain, release, output, setup)
+    return SceneContent(terrain, release, output, setup, tuple(given_keys(mapping)))
 
 
 def to_mapping(content: SceneContent) -> dict[str, Any]:
@@ -99,6 +103,49 @@ def to_mapping(content: SceneContent) -> dict[str, Any]:
         "terrain": _plain_keys(content.terrain), "release": release, "output": _plain_keys(content.output),
         **content.setup.to_mapping(),
     }  # fmt: skip
+
+
+def given_keys(mapping: Mapping[str, Any]) -> Iterator[str]:
+    """Yield the keys of a scene whose values were given, with the keys above them in front and a number in lists.
+
+    Parameters
+    ----------
+    mapping : mapping
+        Plain values by the keys of a scene; a law may be an object, all of whose parameters were given.
+
+    Examples
+    --------
+    >>> scene = {"friction": "voellmy", "release": [{"depth": 1.0}, {"volume": 9.0}], "inflow": {"times": [0.0]}}
+    >>> list(given_keys(scene))
+    ['friction', 'release 1.depth', 'release 2.volume', 'inflow 1.times']
+    """
+    for key, value in leaves(_with_lists(mapping)):
+        if dataclasses.is_dataclass(value):
+            yield from (f"{key}.{field.name}" for field in dataclasses.fields(value))
+        elif value is not None:
+            yield key
+
+
+LISTS = ("release", "inflow", "edits", "zones")
+"""Keys that take one mapping or a list of them."""
+
+
+def _with_lists(mapping: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a mapping in which one mapping that stands for a list of them is a list of one."""
+    inner = {key: _with_lists(value) if isinstance(value, Mapping) else value for key, value in mapping.items()}
+    return {key: [value] if key in LISTS and isinstance(value, Mapping) else value for key, value in inner.items()}
+
+
+def leaves(values: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every key of plain values, with the keys above it in front, and its value."""
+    if isinstance(values, Mapping):
+        for name, value in values.items():
+            yield from leaves(value, f"{key}.{name}" if key else str(name))
+    elif isinstance(values, list | tuple) and any(isinstance(value, Mapping) for value in values):
+        for number, value in enumerate(values, 1):
+            yield from leaves(value, f"{key} {number}")
+    else:
+        yield key, values
 
 
 def named_files(mapping: Mapping[str, Any], folder: Path) -> dict[str, Path]:
@@ -131,7 +178,7 @@ def named_files(mapping: Mapping[str, Any], folder: Path) -> dict[str, Path]:
 def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
-    except (OSError, ValueError):  # a word too long for a name, or with a null character
+    except (OSError, ValueError):  # not a name: too long, or with a null character
         return False
 
 

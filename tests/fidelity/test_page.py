@@ -38,7 +38,7 @@ def test_the_code_runs_as_printed():
     with contextlib.redirect_stdout(io.StringIO()) as out:
         for block in BLOCKS:
             exec(compile(block, "choosing.md", "exec"), names)
-    assert "Plan: " in out.getvalue() and "Report of a run by a plan" in out.getvalue()
+    assert "Plan: " in out.getvalue() and "Statement on a run by a plan" in out.getvalue()
     assert names["flow"].at_rest
     DebrisFlow(names["grid"], numerics=names["numerics"])
 

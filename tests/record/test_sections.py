@@ -137,7 +137,7 @@ def test_a_run_that_goes_on_ends_with_the_same_hydrograph():
     flow._observers = once, second
     flow.run_one_step(6.0)
     assert second.dataset.identical(once.dataset) and float(once.dataset.crossed_volume[0]) > 10.0
-    with pytest.raises(InputError, match="the checkpoint has a, here are b; give the same"):
+    with pytest.raises(InputError, match="the checkpoint has a, here are b; give those of the checkpoint"):
         Sections({"b": line_at(WEST)}).restore(state)
     for changed in ({"position": state["position"][:, :-1]}, {"identity": 0 * state["identity"]}):
         with pytest.raises(InputError, match="has arrays that do not fit each other"):

@@ -86,7 +86,7 @@ def test_a_run_uses_its_plan_and_reports(whole):
     plan = whole.record.plan
     assert plan["particles"] == 1000 and whole.record.scene["numerics"]["particle_count"] == "auto"
     assert whole.maps.attrs["numerics_particle_count"] == 1000 and whole.maps.attrs["numerics_preset"] == "fast"
-    assert "Report of a run by a plan" in whole.report and "run-out" in whole.report and "CPU" not in whole.report
+    assert "Statement on a run by a plan" in whole.report and "run-out" in whole.report and "CPU" not in whole.report
     assert (whole.directory / "report.txt") in whole.files
     assert (whole.directory / "columns.nc").is_file()
 
@@ -130,7 +130,7 @@ def test_check_prints_the_plan(tmp_path, capsys):
     out, err = capsys.readouterr()
     assert out.startswith("Plan: ") and "pilot run with 1000 particles" in err
     assert main.main(["run", str(path)]) == exit_codes.STILL_MOVING
-    assert "Report of a run by a plan" in capsys.readouterr().out
+    assert "Statement on a run by a plan" in capsys.readouterr().out
 
 
 @pytest.mark.slow

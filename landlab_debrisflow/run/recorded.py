@@ -1,0 +1,149 @@
+"""Records of a run, read for pictures: from its directory, its last checkpoint, or one file."""
+
+import dataclasses
+import logging
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from ..component import DebrisFlow
+from ..core.errors import InputError
+from ..record.combine import combine_maps
+from .files import MAPS, SERIES, SERIES_SUFFIX
+from .maps import EXPOSURE
+from .results import Results
+
+KINDS = ("series", "sections", "gauges", "thalweg", "budget", "columns", "tracks")
+"""Datasets of a run besides its maps, as their files are called."""
+
+log = logging.getLogger("landlab_debrisflow")
+
+
+@dataclasses.dataclass(frozen=True)
+class Recorded:
+    """Datasets of a run.
+
+    Attributes
+    ----------
+    path : Path
+        Directory or file that holds them.
+    maps : xarray.Dataset or None
+        Maps at the end, or at the last checkpoint.
+    datasets : dict of str to xarray.Dataset
+        The others, by the names of `KINDS`.
+    asked : tuple of str
+        Names of maps that the scene asks for.
+    shapes : GeoDataFrame or None
+        Exposed polygons.
+    """
+
+    path: Path
+    maps: xr.Dataset | None = None
+    datasets: dict[str, xr.Dataset] = dataclasses.field(default_factory=dict)
+    asked: tuple[str, ...] = ()
+    shapes: Any = None
+
+
+def read_recorded(path: Path) -> Recorded:
+    """Read the records of a run.
+
+    Parameters
+    ----------
+    path : Path
+        Directory of the results of a scene, or one file of results.
+
+    Raises
+    ------
+    InputError
+        If there are no results, or nothing of them can be drawn.
+    """
+    if path.is_file() or path.suffix == ".zarr":
+        return _of_file(path)
+    if not path.exists():
+        raise InputError(f"plot: {path} does not exist; give the directory of the results of a scene, or its maps.nc")
+    results = Results(path)
+    asked = tuple((results.record.scene.get("output") or {}).get("maps") or ())
+    if not (path / MAPS).is_file():
+        return _of_unfinished(results, asked)
+    datasets = {name: results.dataset(name) for name in KINDS if (path / f"{name}.nc").is_file()}
+    if (store := path / f"{SERIES}{SERIES_SUFFIX['zarr']}").is_dir():
+        datasets[SERIES] = _opened(store)
+    return Recorded(path, results.maps, datasets, asked, _shapes(path / f"{EXPOSURE}.gpkg"))
+
+
+def _of_unfinished(results: Results, asked: tuple[str, ...]) -> Recorded:
+    """Return the maps of the last checkpoint of an unfinished run, and the maps written during the run."""
+    path, state = results.directory, results.record.state
+    maps, failure = None, ""
+    for checkpoint in results.checkpoints:
+        try:
+            flow = DebrisFlow.load(checkpoint)
+        except InputError as error:
+            failure = str(error)
+            continue
+        maps = flow.maps
+        log.warning("the run in %s is %s: drawn is its last checkpoint, at %.6g s", path, state, flow.elapsed_time)
+        break
+    datasets = {}
+    if any((path / SERIES).glob("maps_*.nc")):
+        with tempfile.TemporaryDirectory() as folder:
+            datasets[SERIES] = _opened(combine_maps(path / SERIES, Path(folder) / f"{SERIES}.nc"))
+    if maps is None and not datasets:
+        raise InputError(
+            f"plot: {path} holds nothing to draw yet: the run is {state}"
+            f"{f', and {failure}' if failure else ' and has no checkpoint'}; landlab-debrisflow resume {path} goes on"
+        )
+    return Recorded(path, maps, datasets, asked)
+
+
+def _of_file(path: Path) -> Recorded:
+    """Return the Dataset of one file, as maps or as one of `KINDS`."""
+    if path.suffix not in (".nc", ".zarr"):
+        raise InputError(
+            f"plot: {path} is no file of results that can be drawn; give the directory of a run, or a NetCDF file of it"
+        )
+    dataset = _opened(path)
+    if kind := _kind(dataset):
+        return Recorded(path, datasets={kind: dataset})
+    if any(set(data.dims) == {"y", "x"} for data in dataset.values()):
+        return Recorded(path, dataset)
+    raise InputError(
+        f"plot: {path} holds nothing that can be drawn: it has {', '.join(map(str, dataset)) or 'no variables'}; give "
+        "maps over y and x, or another file of a run"
+    )
+
+
+def _kind(dataset: xr.Dataset) -> str | None:
+    """Return which of `KINDS` a Dataset is; None if it is none."""
+    signs = {
+        "sections": {"section", "discharge"}, "gauges": {"gauge", "depth"}, "thalweg": {"front_distance"},
+        "budget": {"released", "eroded", "moving"}, "columns": {"excess_pore_pressure", "level", "time"},
+        "tracks": {"particle", "x", "y", "speed"},
+    }  # fmt: skip
+    for kind, names in signs.items():
+        if names <= set(dataset.variables):
+            return kind
+    return "series" if any(set(data.dims) == {"time", "y", "x"} for data in dataset.values()) else None
+
+
+def _opened(path: Path) -> xr.Dataset:
+    """Return a Dataset from a NetCDF file or a Zarr store, whole."""
+    engine: Any = "zarr" if path.suffix == ".zarr" else "netcdf4"
+    try:
+        with xr.open_dataset(path, engine=engine, decode_coords="all", decode_timedelta=False) as data:
+            return data.load()
+    except (OSError, RuntimeError, ValueError, KeyError, ImportError) as error:
+        raise InputError(f"plot: cannot read {path}: {error}; it is damaged, or no such file") from error
+
+
+def _shapes(path: Path) -> Any:
+    """Return the exposed polygons of a run; None without any, or without the library that reads them."""
+    if not path.is_file():
+        return None
+    try:
+        import geopandas
+    except ImportError:
+        return None
+    return geopandas.read_file(path, engine="pyogrio")
