@@ -1,6 +1,5 @@
 """What noxfile.py and pyproject.toml say of the project is so."""
 
-import ast
 import re
 import tomllib
 from pathlib import Path
@@ -8,16 +7,6 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 NOXFILE = (ROOT / "noxfile.py").read_text(encoding="utf-8")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-
-
-def test_every_figure_of_the_pages_has_a_command():
-    assigned = next(node for node in ast.parse(NOXFILE).body if "FIGURES = " in ast.unparse(node))
-    figures = ast.literal_eval(assigned.value)
-    assert sorted(figures) == sorted(path.name for path in (ROOT / "docs").glob("*.png"))
-    for command in figures.values():
-        name = re.search(r"(?:-m (\S+)|(examples/\S+)|landlab-debrisflow)", command)
-        place = name[1].replace(".", "/") + ".py" if name[1] else name[2] or "landlab_debrisflow/cli/demo.py"
-        assert (ROOT / place).exists() or (ROOT / place.removesuffix(".py") / "__main__.py").exists(), command
 
 
 def test_every_dependency_has_a_lowest_version():

@@ -42,7 +42,7 @@ class Content:
     summary : Sentences
     sections : list of Section
     made : str
-        By which command, version and when the page was made.
+        Command, version and time with which the page was made.
     """
 
     title: str

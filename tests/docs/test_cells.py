@@ -53,7 +53,6 @@ def test_what_is_meant_to_go_wrong_is_shown(build):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("code, told", [("1 / 0", "ZeroDivisionError"), ("!exit 3", "!exit 3")])
-def test_what_goes_wrong_fails_the_build(build, code, told):
-    run, log = build(code)
-    assert run.returncode != 0 and told in log
+def test_a_command_that_fails_fails_the_build(build):
+    run, log = build("!exit 3")
+    assert run.returncode != 0 and "!exit 3" in log

@@ -1,9 +1,7 @@
 """The documentation site builds without a warning, with all its pages and notebooks executed, and its links lead on."""
 
 import importlib
-import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -16,18 +14,6 @@ sys.path.append(str(ROOT / "docs" / "_site"))
 import links  # noqa: E402  of docs/_site
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture(scope="session")
-def site(tmp_path_factory):
-    """Return the folder of the built site; the variable SITE names one that is built already."""
-    if "SITE" in os.environ:
-        return ROOT / os.environ["SITE"]
-    folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-n", "-j", "4", "-q", "docs", str(folder)]
-    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert found.returncode == 0, found.stderr[-10_000:]
-    return folder
 
 
 def test_links_lead_somewhere(site):
