@@ -1,6 +1,7 @@
 """Every habit is one command: ``nox -l`` lists them, ``nox -s test-fast`` runs one in an environment of its own."""
 
 import re
+import shutil
 import time
 import tomllib
 from pathlib import Path
@@ -33,31 +34,10 @@ PLAIN = [
 ]
 """Tests that take no more than minutes where kernels are plain Python."""
 
-FIGURES = {
-    "column.png": "python -m benchmarks.column",
-    "column_stability.png": "python -m benchmarks.column_stability",
-    "convergence.png": "python -m benchmarks.fidelity chart",
-    "demo.png": "landlab-debrisflow demo --output-dir docs",
-    "failure_surfaces.png": "python -m benchmarks.releases --figure",
-    "fidelity.png": "python -m benchmarks.fidelity chart",
-    "flow.png": "python -m benchmarks.flow",
-    "flow_stability.png": "python -m benchmarks.flow_stability",
-    "lazy_scheme.png": "python -m benchmarks.lazy_figure",
-    "paper_columns.png": "python examples/paper_columns.py --output docs/paper_columns.png",
-    "s1000.png": "python examples/s1000.py --output-dir docs",
-    "speed.png": "python -m benchmarks.speed",
-    "tsing_shan_columns.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
-    "tsing_shan_flow.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
-    "tsing_shan_maps.png": "python examples/tsing_shan.py --particles 1500 --output-dir docs",
-    "two_phase.png": "python -m benchmarks.two_phase",
-    "when_ale_matters.png": "python -m benchmarks.when_ale_matters",
-}
-"""The command that makes each figure of docs/; most run for minutes, and write their table, too."""
-
 
 @nox.session
 def test(session):
-    """Run all tests, doctests and notebooks."""
+    """Run all tests and doctests, and build the site, which runs notebooks and pages."""
     session.install("-e", ".[test]")
     session.run("python", "-m", "pytest", *session.posargs)
 
@@ -89,7 +69,8 @@ def test_nojit(session):
 @nox.session(python="3.11")
 def oldest(session):
     """Run the fast subset with the lowest versions that pyproject.toml allows."""
-    needed = [each for each in PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["test"] if "[geo]" not in each]
+    wanted = PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["docs"] + EXTRAS["test"]
+    needed = [each for each in wanted if "landlab_debrisflow[" not in each]
     lowest = [re.sub(r">=([\d.]+)(,[^;]*)?", r"==\1", each) for each in needed]
     session.install(*lowest)
     session.install("--no-deps", "-e", ".")
@@ -107,23 +88,48 @@ def check(session):
 
 
 @nox.session
+def build(session):
+    """Build wheel and source distribution, install the one and run the fast subset in the other; both are in dist/."""
+    session.install("build", "twine>=6.1")
+    work = Path(session.create_tmp()).resolve()
+    shutil.rmtree(work / "dist", ignore_errors=True)
+    session.run("python", "-m", "build", "--outdir", str(work / "dist"), ".")
+    (archive,), (wheel,) = (work / "dist").glob("*.tar.gz"), (work / "dist").glob("*.whl")
+    session.run("twine", "check", "--strict", str(archive), str(wheel))
+    session.install(f"landlab_debrisflow[test] @ {wheel.as_uri()}")
+    shutil.copytree(work / "dist", "dist", dirs_exist_ok=True)
+    shutil.unpack_archive(archive, work, filter="data")
+    session.chdir(work / archive.name.removesuffix(".tar.gz"))
+    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+
+
+@nox.session
 def docs(session):
-    """Check that the pages are true: the code they show, links, the page of laws, doctests, notebooks."""
+    """Build the documentation site, which executes pages and notebooks; check links, README and doctests."""
     session.install("-e", ".[test]")
+    site = Path("docs/_build/html")
+    session.run("python", "-m", "sphinx", "-W", "--keep-going", "-n", "-j", "4", "-q", "docs", str(site))
+    session.run("python", "docs/_site/links.py", str(site))
     pages = [
+        "tests/docs",
         "tests/test_readme.py",
         "tests/test_contributing.py",
         "tests/test_which_component.py",
         "tests/cli/test_laws.py",
     ]
-    session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", "notebooks")
+    session.run("python", "-m", "pytest", "-q", *pages, "landlab_debrisflow", env={"SITE": str(site)})
+    session.log(f"the site: {(site / 'index.html').resolve().as_uri()}")
 
 
 @nox.session
 def figures(session):
-    """Make figures of docs/ anew, those named: ``nox -s figures -- column.png``."""
-    if not session.posargs:
-        session.error("name figures of docs/: " + ", ".join(FIGURES))
+    """Draw figures and tables from the result files of benchmarks/, all or by name: ``nox -s figures -- column``."""
     session.install("-e", ".[test]")
-    for command in dict.fromkeys(FIGURES[name] for name in session.posargs):
-        session.run(*command.split())
+    session.run("python", "-m", "benchmarks.charts", *session.posargs)
+
+
+@nox.session
+def measure(session):
+    """Measure anew what figures are drawn from, minutes to hours: ``nox -s measure -- column``."""
+    session.install("-e", ".[test]")
+    session.run("python", "-m", "benchmarks.charts", "--measure", *session.posargs)

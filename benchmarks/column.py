@@ -6,19 +6,18 @@ numbers 1e-3 ... 1e4, against `validation/cases/column_reference.py`, a solver o
 400 flow steps per erosion time. Cost: CPU time of one thread per column and step over the whole history of
 a case, median of five; the schemes take turns, so that their ratios are of one run.
 
-Writes docs/column.png and benchmarks/column.txt.
+Keeps benchmarks/results/column.json, from which benchmarks/column.txt and docs/figures/column.png are made.
 """
 
 import argparse
 import statistics
 import time
 from itertools import pairwise
-from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from benchmarks import charts, result_files, style
 from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.column.driver import Columns, depth_mean
 from validation.cases.column_reference import CASES, FILE, PER_UNIT
@@ -140,29 +139,20 @@ def cost(name, scheme, levels, peclet, repeats=5):
     return statistics.median(times)
 
 
-def main() -> None:
-    lines, worst, dear = [], {}, {}
+COSTED = ("A_cold", "D_switches", "E_swing_overburden")
+"""Cases whose CPU time is measured."""
 
-    def put(line):
-        print(line, flush=True)
-        lines.append(line)
 
-    put("worst error over flow steps and eight Peclet numbers 1e-3 ... 1e4: of p_b over the bed's / of the depth mean")
-    put("case                               " + "".join(f"{s} {n}".rjust(20) for s in SCHEMES for n in LEVELS))
+def measure():
+    """Yield a row of every error and cost: case, scheme, levels, and values by Péclet number."""
     for name in CASES:
-        row = []
         for scheme in SCHEMES:
             for levels in LEVELS:
                 if scheme == "lax_wendroff" and levels == 41 and not name.startswith("A"):
-                    row.append("-")
                     continue
                 base, mean = errors(name, scheme, levels)
-                worst[name, scheme, levels] = base, mean
-                row.append(f"{np.nanmax(base):.1e} / {np.nanmax(mean):.1e}")
-        put(f"{name:35s}" + "".join(text.rjust(20) for text in row))
-    put("")
-    for name in ("A_cold", "D_switches", "E_swing_overburden"):
-        put(f"ns per column and step, {name}; Pe = " + "  ".join(f"{number:g}" for number in PECLET))
+                yield {"case": name, "scheme": scheme, "levels": levels, "base": base, "mean": mean}
+    for name in COSTED:
         for levels in LEVELS:
             for scheme in SCHEMES:
                 if scheme == "lax_wendroff" and (levels == 41 or name != "A_cold"):
@@ -170,60 +160,112 @@ def main() -> None:
                 used = affordable(scheme, levels)
                 found = np.full(PECLET.size, np.nan)
                 found[used] = [cost(name, scheme, levels, number) for number in PECLET[used]]
-                dear[name, scheme, levels] = found
-                put(f"  {levels:3d} {scheme:14s}" + "".join(f"{value:10.1f}" for value in found))
-    put("")
-    for levels in LEVELS:
-        put(
-            f"{levels} levels: {8 * (levels + ALE(levels=levels).memory_size + 2)} bytes per column, "
-            "its basal pressure included"
-        )
+                yield {"case": name, "scheme": scheme, "levels": levels, "cost": found}
+
+
+def cost_of_many() -> float:
+    """Return the CPU time per step of a million columns of 11 levels with their forcing [ns each]."""
     many = Run(CASES["A_cold"], "default", 11, np.array([10.0]), 1_000_000)
     begin = time.process_time()
     for k in range(1, 21):
         many.advance(k)
-    each = (time.process_time() - begin) / 20e6 * 1e9
-    put(f"1e6 columns, 11 levels, 20 steps with their forcing: {each:.0f} ns each")
-    Path(__file__).with_suffix(".txt").write_text("\n".join(lines) + "\n")
-    draw(worst, dear)
+    return (time.process_time() - begin) / 20e6 * 1e9
 
 
-def draw(worst, dear) -> None:
-    """Draw error against cost and against the Peclet number."""
-    figure, axes = plt.subplots(2, 2, figsize=(12, 9), constrained_layout=True)
-    colours = dict(zip(SCHEMES, ("tab:blue", "tab:cyan", "tab:orange", "tab:red"), strict=True))
+def kept():
+    """Return errors (base, mean) and costs by case, scheme and levels, and the cost of a million columns."""
+    found = result_files.read("column")
+    errors_kept, costs = {}, {}
+    for row in found["rows"]:
+        key = row["case"], row["scheme"], row["levels"]
+        if "cost" in row:
+            costs[key] = np.array(row["cost"])
+        else:
+            errors_kept[key] = np.array(row["base"]), np.array(row["mean"])
+    return errors_kept, costs, found["cost of many [ns]"]
+
+
+def report() -> str:
+    """Return the text of benchmarks/column.txt."""
+    worst, dear, many = kept()
+    heads = [(scheme, levels) for scheme in SCHEMES for levels in LEVELS]
+    lines = [
+        "worst error over flow steps and eight Peclet numbers 1e-3 ... 1e4: of p_b over the bed's / of the depth mean",
+        "case                               " + "".join(f"{s} {n}".rjust(20) for s, n in heads),
+    ]
+    for name in CASES:
+        pairs = (worst.get((name, *head)) for head in heads)
+        row = ["-" if pair is None else f"{np.nanmax(pair[0]):.1e} / {np.nanmax(pair[1]):.1e}" for pair in pairs]
+        lines.append(f"{name:35s}" + "".join(text.rjust(20) for text in row))
+    lines.append("")
+    for name in COSTED:
+        lines.append(f"ns per column and step, {name}; Pe = " + "  ".join(f"{number:g}" for number in PECLET))
+        for (case, scheme, levels), found in dear.items():
+            if case == name:
+                lines.append(f"  {levels:3d} {scheme:14s}" + "".join(f"{value:10.1f}" for value in found))
+    lines.append("")
+    for levels in LEVELS:
+        size = 8 * (levels + ALE(levels=levels).memory_size + 2)
+        lines.append(f"{levels} levels: {size} bytes per column, its basal pressure included")
+    lines.append(f"1e6 columns, 11 levels, 20 steps with their forcing: {many:.0f} ns each")
+    return "\n".join(lines) + "\n"
+
+
+NAMES = {"default": "default", "every step": "default, updated at every step", "upwind": "upwind, implicit",
+         "lax_wendroff": "Lax–Wendroff (the paper's)"}  # fmt: skip
+
+
+def chart():
+    """Return the figure: error against cost and against the Péclet number."""
+    worst, dear, _ = kept()
+    figure, axes = style.panels(2, 2, (12.0, 9.0))
+    colours = dict(zip(SCHEMES, (style.BLUE, style.SKY, style.ORANGE, style.RED), strict=True))
     marks = {11: "o", 21: "s", 41: "^"}
     once = ("A_cold", "A_warm")
     ordinary = [name for name in CASES if name[0] not in "EH"]
-    panels = (
-        (axes[0, 1], once, 0, "One stop of erosion, constant bed pressure"),
-        (axes[1, 0], ordinary, 0, "All cases but swinging loads and the classical law"),
-        (axes[1, 1], ordinary, 1, "The same cases, depth mean"),
+    shown = (
+        (axes[0, 1], once, 0, "Basal pressure after one stop of erosion"),
+        (axes[1, 0], ordinary, 0, "Basal pressure, all cases but swinging loads and the classical law"),
+        (axes[1, 1], ordinary, 1, "Depth mean of the pressure, the same cases"),
     )
     for scheme in SCHEMES:
         for levels in LEVELS:
-            look = {"marker": marks[levels], "color": colours[scheme], "label": f"{scheme}, {levels}", "alpha": 0.7}
+            mark = {"marker": marks[levels], "color": colours[scheme], "alpha": 0.8, "ms": 5}
+            label = f"{NAMES[scheme]}, {levels} levels"
             if ("A_cold", scheme, levels) in dear:
                 error = np.nanmax([worst[name, scheme, levels][0] for name in once], axis=0)
-                axes[0, 0].plot(dear["A_cold", scheme, levels], np.maximum(error, 1e-5), linestyle="", **look)
-            for axis, names, which, _ in panels:
+                axes[0, 0].plot(dear["A_cold", scheme, levels], np.maximum(error, FLOOR), ls="", label=label, **mark)
+            for axis, names, which, _ in shown:
                 if all((name, scheme, levels) in worst for name in names):
                     error = np.nanmax([worst[name, scheme, levels][which] for name in names], axis=0)
-                    axis.plot(PECLET, np.maximum(error, 1e-5), **look)
-    axes[0, 0].plot([15.0], [4e-3], "k*", ms=12, label="aim, 11 levels")
-    axes[0, 0].plot([25.0], [1.5e-3], "k+", ms=12, mew=2, label="aim, 21 levels")
-    axes[0, 0].set(xlabel="CPU time per column and step (ns)", title="One stop of erosion, a mark per Peclet number")
-    for axis in axes.ravel():
-        axis.set(xscale="log", yscale="log", ylabel="worst error over the bed's pressure (-)", ylim=(7e-6, 0.5))
-    for axis, *_, title in panels:
-        axis.set(xlabel="Peclet number (-)", title=title)
-    legends = [axis.get_legend_handles_labels() for axis in (axes[0, 1], axes[0, 0])]
-    named = {label: handle for handles, labels in legends for handle, label in zip(handles, labels, strict=True)}
-    title = "scheme, levels\n(below 1e-5:\ndrawn there)"
-    figure.legend(named.values(), named.keys(), loc="outside right center", title=title)
-    figure.savefig(Path(__file__).parents[1] / "docs" / "column.png", dpi=110)
+                    axis.plot(PECLET, np.maximum(error, FLOOR), label=label, lw=1.0, **mark)
+    words = {
+        "xscale": "log",
+        "yscale": "log",
+        "ylabel": "largest error over the bed's pressure [-]",
+        "ylim": (7e-6, 0.7),
+    }
+    title = "Basal pressure after one stop of erosion: one mark for each Péclet number"
+    style.finish(axes[0, 0], xlabel="CPU time per column and step [ns]", title=title, **words)
+    for axis, *_, title in shown:
+        style.finish(axis, xlabel="Péclet number of erosion [-]", title=title, **words)
+    note = f"errors below {FLOOR:g} are drawn there"
+    style.legend_below(figure, axes[0, 1], ncol=4, title=note)
+    return figure
+
+
+FLOOR = 1e-5
+
+
+def main() -> None:
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
+    rows = []
+    for row in measure():
+        print({name: np.nanmax(value) if isinstance(value, np.ndarray) else value for name, value in row.items()})
+        rows.append(row)
+    result_files.keep("column", {"rows": rows, "cost of many [ns]": cost_of_many()}, "python -m benchmarks.column")
+    charts.make("column")
 
 
 if __name__ == "__main__":
-    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     main()

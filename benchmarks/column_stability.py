@@ -1,28 +1,27 @@
 """Where the schemes of the pore-pressure column are stable: python -m benchmarks.column_stability
 
 A map over the cell Péclet number e_R dx/c_v at the base and the Fourier number of a step, c_v dt/dx^2, both with the
-first thickness, of 11 levels. A cold column erodes over a bed of 1 Pa until its thickness has doubled, but for 4000
-steps at most and 8 at least; then it stands over an impermeable base for as many steps, and then erodes as long over
-a bed of 0 Pa. The exact pressure stays between 0 and 1 Pa. Measured after every step: by how much the largest pressure
-is above 1 Pa, by how much the least is below 0, and whether anything is not a number: Lax-Wendroff gives up a column
-that would need more than 1e5 sub-steps in one step.
+first thickness, of 11 levels. A cold column erodes over a bed of 1 Pa until its thickness has doubled, for 4000 steps
+at most and 8 at least; then it stands over an impermeable base for as many steps, and then erodes as long over a bed of
+0 Pa. The exact pressure stays between 0 and 1 Pa. Measured after every step: by how much the largest pressure is above
+1 Pa, by how much the least is below 0, and whether anything is not a number: Lax-Wendroff gives up a column that would
+need more than 1e5 sub-steps in one step.
 
-Prints the worst of each scheme and writes docs/column_stability.png.
+Prints the worst of each scheme and keeps benchmarks/results/column_stability.nc, from which
+docs/figures/column_stability.png is drawn.
 """
 
+import argparse
 import time
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")  # draws to a file only
-
-import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
+from matplotlib import colormaps
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from benchmarks import charts, result_files, style
 from landlab_debrisflow.physics.column import ALE
 from landlab_debrisflow.physics.column.driver import Columns
 
@@ -32,7 +31,7 @@ PECLET = np.logspace(-3.0, 3.0, 37)  # of a cell
 FOURIER = np.logspace(-3.0, 4.0, 43)  # of a cell and a step
 MOST_STEPS, LEAST_STEPS, DOUBLED = 4000, 8, 2.0
 ROUNDING = 1e-12  # of 1 Pa
-FILE = Path(__file__).parents[1] / "docs" / "column_stability.png"
+COMMAND = "python -m benchmarks.column_stability"
 
 
 def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -65,7 +64,7 @@ def extremes(scheme: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return over.reshape(shape), under.reshape(shape), failed.reshape(shape)
 
 
-def table(results) -> str:
+def table(found) -> str:
     """Return the worst of each scheme, and where."""
 
     def worst(values):
@@ -75,51 +74,64 @@ def table(results) -> str:
         return f"{values[i, j]:.3f} at Pe {PECLET[j]:.0e}, Fo {FOURIER[i]:.0e}"
 
     lines = [f"{'scheme':13s} | {'overshoot [Pa]':31s} | {'undershoot [Pa]':31s} | not a number     | CPU time [s]"]
-    for scheme, (over, under, failed, seconds) in results.items():
-        share = f"{100.0 * failed.mean():.0f} % of the map" if failed.any() else "nowhere"
-        lines.append(f"{scheme:13s} | {worst(over):31s} | {worst(under):31s} | {share:16s} | {seconds:.0f}")
+    for scheme in SCHEMES:
+        one = found.sel(scheme=scheme)
+        failed = one.failed.values > 0
+        missing = f"{100.0 * failed.mean():.0f} % of the map" if failed.any() else "nowhere"
+        over, under = worst(one.overshoot.values), worst(one.undershoot.values)
+        lines.append(f"{scheme:13s} | {over:31s} | {under:31s} | {missing:16s} | {float(one.cpu):.0f}")
     return "\n".join(lines)
 
 
-def draw(results, file: Path) -> None:
-    """Draw overshoot above undershoot, a column for each scheme."""
+def chart():
+    """Return the figure: overshoot above undershoot, a column for each scheme."""
+    found = result_files.read_dataset("column_stability")
     bounds = [0.0, 0.01, 0.03, 0.1, 0.2, 0.3, 1.0]
-    colours = ListedColormap(np.vstack([[0.91, 0.94, 0.98, 1.0], plt.get_cmap("YlOrRd")(np.linspace(0.25, 1.0, 5))]))
+    colours = ListedColormap(np.vstack([[0.91, 0.94, 0.98, 1.0], colormaps["YlOrRd"](np.linspace(0.25, 1.0, 5))]))
     colours = colours.with_extremes(bad="0.35", over="black")
     norm = BoundaryNorm(bounds, colours.N)
-    figure, axes = plt.subplots(2, 3, figsize=(11.0, 7.4), sharex=True, sharey=True, layout="constrained")
-    for column, (scheme, (over, under, failed, _)) in enumerate(results.items()):
-        for row, (words, values) in enumerate((("overshoot", over), ("undershoot", under))):
-            axis, largest = axes[row, column], values.max()
-            axis.set(xscale="log", yscale="log")
+    figure, axes = style.panels(2, len(SCHEMES), (11.0, 7.6), sharex=True, sharey=True)
+    for column, (scheme, title) in zip(axes.T, SCHEMES.items(), strict=True):
+        failed = found.failed.sel(scheme=scheme).values > 0
+        for axis, words in zip(column, ("overshoot", "undershoot"), strict=True):
+            values = found[words].sel(scheme=scheme).values
             shown = np.ma.masked_where(failed, np.maximum(values, 0.0))
             mesh = axis.pcolormesh(PECLET, FOURIER, shown, cmap=colours, norm=norm, shading="nearest")
             axis.plot(PECLET, (LEVELS - 1) / PECLET, "k--", linewidth=1.0)
-            axis.set(xlim=PECLET[[0, -1]], ylim=FOURIER[[0, -1]])
-            found = "none, to rounding" if largest <= ROUNDING else f"{largest:.2f} Pa at most"
-            axis.set_title(f"{SCHEMES[scheme]}\n{words}: {found}" if row == 0 else f"{words}: {found}", fontsize=10)
-    axes[1, 1].set_xlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [–]", fontsize=10)
-    figure.supylabel("Fourier number of a step at the start, $c_v\\,\\Delta t/\\Delta x^2$ [–]", fontsize=10)
-    beyond = max(np.max(values[~failed]) for *both, failed, _ in results.values() for values in both) > bounds[-1]
+            axis.set(xscale="log", yscale="log", xlim=PECLET[[0, -1]], ylim=FOURIER[[0, -1]])
+            most = np.nanmax(values)
+            told = "none, to rounding" if most <= ROUNDING else f"{most:.2f} Pa at most"
+            axis.set_title(f"{title}\n{words}: {told}" if words == "overshoot" else f"{words}: {told}", fontsize=10)
+    axes[1, 1].set_xlabel("cell Péclet number at the start, $e_R\\,\\Delta x/c_v$ [-]", fontsize=10)
+    figure.supylabel("Fourier number of a step at the start, $c_v\\,\\Delta t/\\Delta x^2$ [-]", fontsize=10)
+    good = found.where(found.failed == 0)
+    beyond = max(float(good.overshoot.max()), float(good.undershoot.max())) > bounds[-1]
     end = "max" if beyond else "neither"
     bar = figure.colorbar(mesh, ax=axes, location="right", shrink=0.8, ticks=bounds, extend=end)
     bar.set_label("largest excursion beyond the exact bounds, 0 and 1 Pa [Pa]")
     marks = [
-        Line2D([], [], color="k", linestyle="--", label="thickness doubles in one step; more to the right"),
+        Line2D([], [], color="k", linestyle="--", label="thickness doubles in one step; to the right of it: more"),
         Patch(facecolor="0.35", label="not a number: needs more than 1e5 sub-steps in one step"),
     ]
     figure.legend(handles=marks, loc="outside lower center", frameon=False, ncols=2)
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    return figure
 
 
 def main() -> None:
-    results = {}
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
+    coordinates = {"scheme": list(SCHEMES), "fourier": FOURIER, "peclet": PECLET}
+    results = []
     for scheme in SCHEMES:
         start = time.process_time()
-        results[scheme] = (*extremes(scheme), time.process_time() - start)
-    print(table(results))
-    draw(results, FILE)
+        results.append((*extremes(scheme), time.process_time() - start))
+    over, under, failed, cpu = (np.array(values) for values in zip(*results, strict=True))
+    found = xr.Dataset(
+        {"overshoot": (tuple(coordinates), over.astype("f4")), "undershoot": (tuple(coordinates), under.astype("f4")),
+         "failed": (tuple(coordinates), failed.astype("i1")), "cpu": ("scheme", cpu)}, coordinates,
+    )  # fmt: skip
+    print(table(found))
+    result_files.keep_dataset("column_stability", found, COMMAND)
+    charts.make("column_stability")
 
 
 if __name__ == "__main__":

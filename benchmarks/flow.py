@@ -3,7 +3,8 @@
 Every case runs with the shipped engine through its public interface and one default setting; beside it the same
 engine with fixed smoothing lengths (the paper's class of SPH), a plain finite-volume scheme and, with --peer, an
 interpreter that has avaframe 2.1, com1DFA. Norms are defined in validation/measure.py, what is measured where in
-flow_planes.py, flow_basins.py, flow_blocks.py. Writes benchmarks/flow.txt and docs/flow.png.
+validation/cases. Keeps benchmarks/results/flow.json and, with --peer, flow_com1dfa.json, from which benchmarks/flow.txt
+and docs/figures/flow.png are made.
 
 One setting is not the default's: settling is off, so that there are particles to look at.
 
@@ -14,16 +15,17 @@ takes a whole body, and its errors are those of its raster.
 
 import argparse
 import math
+from dataclasses import asdict
 from functools import partial
-from pathlib import Path
 
-import matplotlib.pyplot as plt
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from benchmarks import charts, result_files, style
 from validation import comparison
 from validation.cases import basins, blocks, planes
+from validation.measure import Norms, Result
 from validation.rivals import com1dfa
 
 STRIPS = "Ritter", "Stoker", "Mangeney", "dam break 22/21"
@@ -48,10 +50,26 @@ def _cases():
 
 
 CASES = {name: rest for name, *rest in _cases()}
-LOOK = {
-    "ours": ("tab:blue", "o"), "fixed length": ("tab:orange", "s"), "finite volume": ("tab:green", "^"),
-    "com1DFA": ("tab:red", "D"),
+MARKS = {
+    "ours": (style.BLUE, "o", "this package"),
+    "fixed length": (style.ORANGE, "s", "SPH with a fixed smoothing length"),
+    "finite volume": (style.GREEN, "^", "finite volumes, second order"),
+    "com1DFA": (style.RED, "D", "AvaFrame com1DFA 2.1"),
+}
+TITLES = {
+    "Ritter": "Ritter: dam break, dry and level", "Stoker": "Stoker: dam break on standing water",
+    "Mangeney": "Mangeney: dam break, dry slope", "dam break 22/21": "dam break, slope 22°, friction 21°",
+    "similarity": "similarity solution, slope 35°", "cap 30 deg": "spreading cap, slope 30°",
+    "Thacker planar": "Thacker: basin, level surface", "Thacker curved": "Thacker: basin, curved surface",
+    "circular dam, wet": "circular dam on standing water", "circular dam, dry": "circular dam, dry",
 }  # fmt: skip
+
+
+def kept() -> list[Result]:
+    """Return the results of the files, com1DFA between the cases of the chart and those without a rival."""
+    rows, peer = (result_files.read(name)["results"] for name in ("flow", "flow_com1dfa"))
+    rows = sorted([*rows, *peer], key=lambda row: (row["case"] not in CASES, row["method"] == "com1DFA"))
+    return [Result(**row | {"h": Norms(*row["h"]), "hu": Norms(*row["hu"])}) for row in rows]
 
 
 def charted(quick, put):
@@ -95,7 +113,7 @@ def order(results, result):
 
 
 def tables(results, console) -> None:
-    """Print errors, then what is special to each case."""
+    """Print errors, then the measures that only one case has."""
     errors = Table(title="Relative errors (definitions: validation/measure.py)", title_justify="left")
     words = ("case", "method", "along", "all", "steps", "CPU s", "M/s")
     words += (*(f"{norm} {field}" for field in ("h", "hu") for norm in ("L1", "L2", "max")), "order")
@@ -108,7 +126,7 @@ def tables(results, console) -> None:
             row = [r.case, r.method, str(r.along), str(r.particles), str(r.steps), f"{r.cpu:.3g}", f"{r.rate:.2f}"]
             errors.add_row(*row, *numbers, "" if math.isnan(now) else f"{now:.2f}")
     console.print(errors)
-    special = Table(title="What is special to a case (ours, fixed length, com1DFA)", title_justify="left")
+    special = Table(title="Measures of single cases (ours, fixed length, com1DFA)", title_justify="left")
     for word in ("case", "method", "all", "steps", "CPU s", "measures"):
         special.add_column(
             word, no_wrap=word != "measures", justify="right" if word in ("all", "steps", "CPU s") else "left"
@@ -120,53 +138,56 @@ def tables(results, console) -> None:
     console.print(special)
 
 
-def draw(results, path) -> None:
-    """Draw error against CPU time, one panel per case."""
-    figure, axes = plt.subplots(2, 5, figsize=(15.5, 6.6), sharey=True, constrained_layout=True)
+def report() -> str:
+    """Return the text of benchmarks/flow.txt."""
+    return charts.printed(lambda console: tables(kept(), console), width=190)
+
+
+def chart():
+    """Return the figure: error against CPU time, one panel per case."""
+    results = kept()
+    figure, axes = style.panels(2, 5, (15.5, 7.0), sharey=True, sharex=True)
     for axis, case in zip(axes.ravel(), CASES, strict=True):
-        for method, (colour, mark) in LOOK.items():
+        for method, (colour, mark, words) in MARKS.items():
             these = [r for r in results if (r.case, r.method) == (case, method)]
             times = [max(r.cpu, 1e-3) for r in these]
-            axis.plot(times, [100.0 * r.h.l1 for r in these], color=colour, marker=mark, ms=5, lw=1.3, label=method)
-            axis.plot(
-                times, [100.0 * r.hu.l1 for r in these], color=colour, marker=mark, ms=5, lw=0.9, ls=":", mfc="none"
-            )
-        axis.set(xscale="log", yscale="log", ylim=(0.1, 100.0), xlim=(8e-4, 40.0))
-        axis.set_title(
-            case + (", per 12 rows" if case in ("Ritter", "Stoker", "Mangeney", "dam break 22/21") else ""), fontsize=10
-        )
-        axis.grid(alpha=0.3)
+            mark_of = {"color": colour, "marker": mark, "ms": 5}
+            axis.plot(times, [100.0 * r.h.l1 for r in these], lw=1.3, label=words, **mark_of)
+            axis.plot(times, [100.0 * r.hu.l1 for r in these], lw=0.9, ls=":", mfc="none", **mark_of)
+        words = TITLES[case] + ("\n(time of 12 rows)" if case in STRIPS else "")
+        style.finish(axis, xscale="log", yscale="log", ylim=(0.1, 100.0), xlim=(2e-3, 40.0), title=words)
+        axis.set_yticks([0.1, 1.0, 10.0, 100.0], ["0.1", "1", "10", "100"])
+        axis.set_xticks([0.01, 0.1, 1.0, 10.0], ["0.01", "0.1", "1", "10"])
     for axis in axes[:, 0]:
-        axis.set_ylabel("relative L1 error (%)")
+        axis.set_ylabel("relative L1 error [%]")
     for axis in axes[1]:
-        axis.set_xlabel("CPU time, one thread (s)")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncol=5, frameon=False,
-                  title="solid: h, dotted and open: hu; more particles or cells to the right")  # fmt: skip
-    figure.savefig(path, dpi=80)
+        axis.set_xlabel("CPU time, one thread [s]")
+    words = "Full lines and marks: thickness h. Dotted, open: momentum hu. More particles or cells to the right."
+    style.legend_below(figure, axes[0, 0], ncol=4, title=words)
+    return figure
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="few particles only; writes nothing")
+    parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     options = parser.parse_args()
-    console = Console(record=True, width=190)
+    console = Console(width=190)
 
     def put(result):
         console.log(f"{result.case}, {result.method}, {result.along}: {result.cpu:.2f} CPU s")
         return result
 
-    results = charted(options.quick, put)
-    if options.peer:
-        results += [put(result) for result in com1dfa.results(options.peer, options.quick)]
-    results += uncharted(options.quick, put)
-    console.export_text()  # forget the log
-    tables(results, console)
-    if not options.quick:
-        root = Path(__file__).parents[1]
-        (root / "benchmarks" / "flow.txt").write_text(console.export_text())
-        draw(results, root / "docs" / "flow.png")
+    results = [*charted(options.quick, put), *uncharted(options.quick, put)]
+    peer = [put(result) for result in com1dfa.results(options.peer, options.quick)] if options.peer else []
+    if options.quick:
+        tables([*results, *peer], console)
+        return
+    result_files.keep("flow", {"results": [asdict(r) for r in results]}, "python -m benchmarks.flow")
+    if peer:
+        command = "python -m benchmarks.flow --peer PYTHON"
+        result_files.keep("flow_com1dfa", {"results": [asdict(r) for r in peer]}, command)
+    charts.make("flow")
 
 
 if __name__ == "__main__":

@@ -8,30 +8,23 @@ included); the largest rise of the energy of the whole body, per weight, until s
 square of the speed at the end; the residual of the volume. (Without pressure the energy of the thickness is no part of
 the account.)
 
-Writes benchmarks/flow_stability.txt and, if all cases are run, docs/flow_stability.png: the energy gained against the
-length of the step.
+If all cases are run, they are kept in benchmarks/results/flow_stability.json with the energy gained against the length
+of the step; from it benchmarks/flow_stability.txt and docs/figures/flow_stability.png are made.
 """
 
 import argparse
 import math
 import sys
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")  # draws to a file only
-
-import matplotlib.pyplot as plt
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks import charts, result_files, style
 from landlab_debrisflow.core.errors import SimulationError
-from landlab_debrisflow.model import time_step
 from validation.cases import stability as scenes
 from validation.watch import NoThrust, Scene
 
-HERE = Path(__file__).parent
 LIMIT = 1.22
 """Longest stable step in smoothing lengths over celerity (docs/decisions.md, Flow 2)."""
 
@@ -99,7 +92,7 @@ def measure(name, scene):
     )  # fmt: skip
 
 
-def held(height):
+def lip(height):
     """Return the lip of the surface over the edge of a cliff [m] and the part of the body that stays behind it [-]."""
     scene = Scene(scenes.cliff(height), 30.0, 10.0, count=800).run()
     x = np.linspace(95.0, 100.0, 101)  # from the last node above to the first below
@@ -115,71 +108,100 @@ def gains(factors, viscosity, count=2000):
 
     The limit by node spacing, which would hold the longer steps back, is lifted.
     """
-    found, fraction = [], time_step.TERRAIN_FRACTION
+    found = []
     for factor in factors:
-        time_step.TERRAIN_FRACTION = 1e3
         scene = Scene(scenes.bowl(), scenes.period(), count=count, looks=20, numerics={"shock_viscosity": viscosity})
-        object.__setattr__(scene.flow.setup.numerics, "courant_number", factor * LIMIT)  # past the check
+        numerics = scene.flow.setup.numerics
+        for name, number in (("courant_number", factor * LIMIT), ("advective_courant_number", 1e3)):
+            object.__setattr__(numerics, name, number)  # past the check
         try:
             scene.run()
         except SimulationError:  # the end of what has blown up
             found.append(math.nan)
             continue
-        finally:
-            time_step.TERRAIN_FRACTION = fraction
         left = scene.flow.budget["outflow"] > 0.0
         found.append(math.nan if left else max(scene.watch.gain, 1e-9) / 0.0344)
     return found
 
 
+FACTORS = np.array([0.25, 0.35, 0.49, 0.6, 0.7, 0.82, 0.9, 1.0, 1.15, 1.35, 1.6, 2.0])
+"""Lengths of the step over the limit [-]."""
+
+VISCOSITIES = {0.5: "D", 1.0: "o", 3.0: "^"}
+CLIFFS = (10.0, 50.0, 100.0, 200.0)
+
+
 def chart():
-    """Draw what the length of the step does to the energy."""
-    factors = np.array([0.25, 0.35, 0.49, 0.6, 0.7, 0.82, 0.9, 1.0, 1.15, 1.35, 1.6, 2.0])
-    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
-    for viscosity, marker in ((0.5, "D"), (1.0, "o"), (3.0, "^")):
-        words = f"{viscosity:g}" + (", steps shortened" if viscosity > 1.0 else "")
-        axes.plot(factors, gains(factors, viscosity), marker=marker, ms=5, lw=1.2, label=words)
-    axes.axvline(1.0 / LIMIT, color="0.4", lw=1, ls=":")
-    axes.axvline(0.6 / LIMIT, color="0.4", lw=1, ls="--")
-    top = {"xycoords": ("data", "axes fraction"), "rotation": 90, "va": "top", "ha": "right", "fontsize": 8}
-    axes.annotate("default ", (0.6 / LIMIT, 0.98), **top)
-    axes.annotate("largest allowed ", (1.0 / LIMIT, 0.98), **top)
-    axes.set(
-        yscale="log", ylim=(1e-5, 300.0), xlabel="time step over the limit, 1.22 smoothing lengths / celerity [-]",
-        ylabel="energy gained / kinetic energy [-]",
-        title="Thacker's bowl, curved surface, 2000 particles, one period",
+    """Return the figure: the energy gained against the length of the step."""
+    rows = result_files.read("flow_stability")["energy gained"]
+    figure, axes = style.panels(1, 1, (7.6, 4.9))
+    axis = axes[0, 0]
+    for row, colour in zip(rows, (style.BLUE, style.ORANGE, style.GREEN), strict=True):
+        viscosity = row["shock viscosity"]
+        words = f"{viscosity:g}" + (" (default)" if viscosity == 1.0 else "")
+        words += ", steps shortened" if viscosity > 1.0 else ""
+        mark = {"marker": VISCOSITIES[viscosity], "ms": 5, "lw": 1.2, "color": colour}
+        axis.plot(row["step over limit"], row["gained"], label=words, **mark)
+    place = {"xycoords": ("data", "axes fraction"), "rotation": 90, "va": "top", "ha": "right", "fontsize": 9}
+    for number, line, words in ((1.0, ":", "longest allowed"), (0.6, "--", "default")):
+        axis.axvline(number / LIMIT, color="0.4", lw=1, ls=line)
+        axis.annotate(f"{words} ", (number / LIMIT, 0.98), **place)
+    style.finish(
+        axis, yscale="log", ylim=(1e-5, 300.0), xlabel="time step over the stability limit [-]",
+        ylabel="energy gained in one period\nover the kinetic energy [-]",
+        title="Basin of Thacker with a curved surface, 2000 particles; lines end where a run became unstable",
     )  # fmt: skip
-    axes.title.set_fontsize(10)
-    axes.legend(title="shock viscosity", loc="lower right", fontsize=8, title_fontsize=8)
-    axes.grid(alpha=0.3)
-    figure.savefig(HERE.parent / "docs" / "flow_stability.png", dpi=130)
+    title = f"shock viscosity (limit of the step: {LIMIT:g} smoothing lengths over celerity)"
+    style.legend_below(figure, axis, ncol=3, title=title)
+    return figure
+
+
+def table(rows, title="Where flow models fail") -> Table:
+    """Return the table of cases."""
+    made = Table(title=title, title_justify="left")
+    for heading in HEADINGS:
+        made.add_column(heading, justify="left" if heading == "case" else "right")
+    for row in rows:
+        made.add_row(*row)
+    return made
+
+
+def report() -> str:
+    """Return the text of benchmarks/flow_stability.txt."""
+    found = result_files.read("flow_stability")
+
+    def show(console):
+        console.print(table(found["cases"]))
+        for row in found["cliffs"]:
+            console.print(
+                f"cliff of {row['height [m]']:g} m, 10 deg: surface up to {row['above its edge [m]']:.1f} m above its "
+                f"edge, {row['stays behind it']:.0%} stays behind it"
+            )
+
+    return charts.printed(show, width=180)
 
 
 def main(words):
-    table = Table(title="Where flow models fail", title_justify="left")
-    for heading in HEADINGS:
-        table.add_column(heading, justify="left" if heading == "case" else "right")
-    for name, build in cases():
-        if not words or any(word in name for word in words):
-            table.add_row(*measure(name, build()))
+    rows = [measure(name, build()) for name, build in cases() if not words or any(word in name for word in words)]
     if words:
-        Console(width=180).print(table)
+        Console(width=180).print(table(rows))
         return
-    lines = []
-    for height in (10.0, 50.0, 100.0, 200.0):
-        lip, part = held(height)
-        lines.append(
-            f"cliff of {height:g} m, 10 deg: surface up to {lip:.1f} m above its edge, {part:.0%} stays behind it"
-        )
-    with (HERE / "flow_stability.txt").open("w", encoding="utf-8") as file:
-        for console in (Console(width=180), Console(file=file, width=180)):
-            console.print(table, *lines, sep="\n")
-    chart()
+    cliffs = []
+    for height in CLIFFS:
+        above, behind = lip(height)
+        cliffs.append({"height [m]": height, "above its edge [m]": above, "stays behind it": behind})
+    gained = [
+        {"shock viscosity": viscosity, "step over limit": FACTORS, "gained": gains(FACTORS, viscosity)}
+        for viscosity in VISCOSITIES
+    ]
+    data = {"cases": rows, "cliffs": cliffs, "energy gained": gained}
+    result_files.keep("flow_stability", data, "python -m benchmarks.flow_stability")
+    charts.make("flow_stability")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("words", nargs="*", help="of the names of cases; by default all are run and written down")
+    parser.add_argument("words", nargs="*", help="of the names of cases; by default all are run and kept")
     words, names = parser.parse_args().words, [name for name, _ in cases()]
     if words and not any(word in name for word in words for name in names):
         parser.error(f"no case has {' or '.join(words)} in its name; there are: {'; '.join(names)}")

@@ -4,8 +4,7 @@ A square of 40 m on planes of 20 and 30 degrees that end in a level 190 m below 
 Voellmy friction, no erosion, 1000 particles. "Source" is the square and 20 m below it. Then the scars of three kinds in
 the polygon of S-1000 (folder of its rasters in $DEBRISFLOW_DATA), of the observed volume, against the observed one.
 
-Prints the tables and writes them into benchmarks/releases.txt; --figure draws docs/failure_surfaces.png and nothing
-else.
+Prints the tables and writes them into benchmarks/releases.txt. Their figure: benchmarks/failure_surfaces.py.
 """
 
 import argparse
@@ -15,11 +14,6 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-import matplotlib
-
-matplotlib.use("Agg")  # draws to a file only
-
-import matplotlib.pyplot as plt
 import numpy as np
 from landlab import RasterModelGrid
 from landlab.io import esri_ascii
@@ -30,7 +24,6 @@ from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.scene import failing_depth, lay_on_top
 
 HERE = Path(__file__).parent
-FIGURE = HERE.parent / "docs" / "failure_surfaces.png"
 KINDS = ("uniform", "tapered", "sloping_local_base_level", "ellipsoid")
 WORDS = {"sloping_local_base_level": "base level"}
 CENTRE, HALF, DEEPEST = (40.0, 80.0), 20.0, 2.0  # of the square [m]
@@ -163,80 +156,8 @@ def table_of_s1000() -> Table | str:
     return table
 
 
-# ---- figure ----
-
-
-def draw(file: Path) -> None:
-    """Draw long sections and maps of the kinds on a plane of 30 degrees and, if there are rasters, of S-1000."""
-    found = read_s1000()
-    rows_of_axes = 2 if found is None else 3
-    figure, axes = plt.subplots(
-        rows_of_axes, len(KINDS), figsize=(12.0, 5.4 if found is None else 9.0), layout="constrained",
-        height_ratios=[0.6, 1.0, 1.2][:rows_of_axes], squeeze=False,
-    )  # fmt: skip
-    grid, inside = square_on_plane(30.0, 1.0)
-    for column, kind in enumerate(KINDS):
-        depth = failing_depth(grid, inside, kind=kind, mean_depth=2.0).reshape(grid.shape)
-        draw_section(axes[0, column], grid, depth)
-        axes[0, column].set_title(f"{WORDS.get(kind, kind)}: {depth.max():.1f} m at the deepest", fontsize=10)
-        shown = draw_map(axes[1, column], grid, depth, 4.0, (10.0, 70.0, 50.0, 110.0))
-    figure.colorbar(shown, ax=axes[1], label="depth [m]")
-    axes[0, 0].set_ylabel("elevation [m]")
-    axes[1, 0].set_ylabel("y [m]; 2 m on average, plane of 30°", fontsize=9)
-    if found is not None:
-        grid, observed = found
-        scar, volume = observed > 0.0, observed.sum() * S1000_CELL**2
-        rows, columns = np.nonzero(scar.reshape(grid.shape))
-        west, south = grid.xy_of_lower_left
-        box = (
-            west + S1000_CELL * (columns.min() - 2), west + S1000_CELL * (columns.max() + 2),
-            south + S1000_CELL * (rows.min() - 2), south + S1000_CELL * (rows.max() + 2),
-        )  # fmt: skip
-        bodies = {"observed": observed} | {
-            WORDS.get(kind, kind): failing_depth(grid, scar, kind=kind, volume=volume) for kind in KINDS[1:]
-        }
-        for axis, (name, depth) in zip(axes[2], bodies.items(), strict=True):
-            last = draw_map(axis, grid, depth.reshape(grid.shape), 16.0, box)
-            axis.set_title(f"S-1000, {name}: {depth.max():.1f} m", fontsize=10)
-            axis.set(xticks=[], yticks=[])
-        figure.colorbar(last, ax=axes[2], label="depth [m]")
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
-
-
-def draw_section(axis, grid, depth) -> None:
-    """Draw ground and floor along the middle row, and the level of the lower lip."""
-    x, z = grid.x_of_node.reshape(grid.shape), grid.at_node["topographic__elevation"].reshape(grid.shape)
-    row, near = grid.shape[0] // 2, slice(10, 75)
-    along, ground, floor = x[row, near], z[row, near], (z - depth)[row, near]
-    axis.fill_between(along, floor, ground, color="tab:orange", alpha=0.5)
-    axis.plot(along, ground, "k", lw=1.0)
-    axis.plot(along, floor, "tab:red", lw=1.2)
-    lip = ground[np.flatnonzero(depth[row, near])[-1] + 1]
-    axis.axhline(lip, color="0.4", lw=0.8, ls=":")
-    axis.text(along[0], lip, "lower lip", fontsize=8, va="bottom", color="0.3")
-    axis.set(aspect="equal", xlabel="x [m]")
-
-
-def draw_map(axis, grid, depth, most: float, box):
-    """Draw a depth within a box (west, east, south, north) [m], with contours of the ground."""
-    x, y = (values.reshape(grid.shape) for values in (grid.x_of_node, grid.y_of_node))
-    ground = np.where(grid.status_at_node == grid.BC_NODE_IS_CLOSED, np.nan, grid.at_node["topographic__elevation"])
-    shown = axis.pcolormesh(
-        x, y, np.ma.masked_equal(depth, 0.0), cmap="YlOrRd", vmin=0.0, vmax=most, shading="nearest"
-    )  # fmt: skip
-    levels = np.arange(np.nanmin(ground) // 5 * 5.0, np.nanmax(ground), 5.0)
-    axis.contour(x, y, ground.reshape(grid.shape), levels, colors="0.5", linewidths=0.5)
-    axis.set(aspect="equal", xlim=box[:2], ylim=box[2:])
-    return shown
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--figure", action="store_true", help="draw docs/failure_surfaces.png only")
-    if parser.parse_args().figure:
-        draw(FIGURE)
-        return
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
     logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)  # pits are expected here
     with (HERE / "releases.txt").open("w", encoding="utf-8") as file:
         consoles = Console(width=120), Console(file=file, width=120)

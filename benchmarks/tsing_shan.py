@@ -3,28 +3,25 @@
 Both models with both coefficients of consolidation, with each source of loading, on the stand-in terrain of
 `examples/tsing_shan.py`, with 1500, 5000 and 20 000 particles and several offsets of terrain and release against the
 nodes. Of two runs that differ only in particles and offset, the difference is noise; it is printed beside every claim.
-Writes benchmarks/tsing_shan.txt, after every pair of runs anew.
+Keeps every pair of runs in benchmarks/results/tsing_shan.json as soon as it is there, and makes
+benchmarks/tsing_shan.txt of it.
 
     python -m benchmarks.tsing_shan --particles 1500 --offsets 2
+
+A long series is done in parts: ``--resume`` reads the file, and what stands there is not run again.
 """
 
 import argparse
-import io
 import itertools
-import pickle
-import sys
-from pathlib import Path
 
 import numpy as np
-from rich.console import Console
 from rich.table import Table
 
-from landlab_debrisflow.record import write_atomically
+from benchmarks import charts, result_files
+from benchmarks.example_scripts import load
 from landlab_debrisflow.scene import tsing_shan_valley
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
-import tsing_shan
-from tsing_shan_record import MEASURES, first_difference
+tsing_shan, record = load("tsing_shan"), load("tsing_shan_record")
 
 OFFSETS = ((0.0, 0.0), (0.5, 0.0), (0.0, 0.5), (0.25, 0.25))
 """Of the valley against the nodes, east and north, in parts of the spacing."""
@@ -41,7 +38,7 @@ LEVELS = (11, 41, 161, 321)
 
 SHOWN = (0.0, 4.0, 8.0, 128.0)
 """Times since the front left erodible ground, of the marked particle [s]."""
-OUTPUT = Path(__file__).with_suffix(".txt")
+COMMAND = "python -m benchmarks.tsing_shan"
 
 
 def compare(c_v, loading, particles, offset, levels=tsing_shan.LEVELS):
@@ -53,16 +50,16 @@ def compare(c_v, loading, particles, offset, levels=tsing_shan.LEVELS):
     )
     return {
         "ALE": ale.measures | marked(ale), "classical": classical.measures | marked(classical),
-        "apart": first_difference(ale, classical),
+        "apart": record.first_difference(ale, classical),
     }  # fmt: skip
 
 
-def marked(record):
+def marked(run):
     """Return base and depth mean of the pressure of the marked particle over its liquefaction pressure, by time."""
     values = {}
     for since in SHOWN:
-        if ("since", since) in record.snapshots:
-            pressure, load = record.marked_column(("since", since))
+        if ("since", since) in run.snapshots:
+            pressure, load = run.marked_column(("since", since))
             values[f"base {since:g}"] = pressure[0] / load
             values[f"mean {since:g}"] = 0.5 * (pressure[1:] + pressure[:-1]).mean() / load
     return values
@@ -91,7 +88,7 @@ def tables(found):
         table.add_column("", no_wrap=True)
         for particles, offset in pairs:
             table.add_column(f"{particles}\n{offset[0]:g} {offset[1]:g}", justify="right", no_wrap=True)
-        for key, (words, form) in (MEASURES | marked_words(pairs)).items():
+        for key, (words, form) in (record.MEASURES | marked_words(pairs)).items():
             cells = (" ".join(form.format(pair[model][key]) for model in tsing_shan.COLUMNS) for pair in pairs.values())
             table.add_row(words, *cells)
         table.add_row("first difference in any bit at [s]", *(f"{pair['apart']:.1f}" for pair in pairs.values()))
@@ -100,7 +97,7 @@ def tables(found):
 
 def marked_words(pairs):
     """Return words and format of the pressures of the marked particle."""
-    names = [name for name in next(iter(pairs.values()))["ALE"] if name not in MEASURES]
+    names = [name for name in next(iter(pairs.values()))["ALE"] if name not in record.MEASURES]
     return {name: (f"marked: {name.split()[0]} / p_liq, {name.split()[1]} s after", "{:.3f}") for name in names}
 
 
@@ -122,24 +119,39 @@ def noise(found):
             ale, classical = (np.array([pair[model][name] for pair in pairs]) for model in tsing_shan.COLUMNS)
             d, deviation = ale - classical, max(ale.std(), classical.std())
             mean, least, largest = (format(value, form) for value in (d.mean(), d.min(), d.max()))
-            difference = f"{mean} ({least}, {largest})"
+            words, difference = record.MEASURES[name][0].strip(), f"{mean} ({least}, {largest})"
             table.add_row(
-                f"{c_v:g}", loading, str(len(pairs)), MEASURES[name][0].strip(), difference, format(deviation, form)
+                f"{c_v:g}",
+                loading,
+                str(len(pairs)),
+                record.MEASURES[name][0].strip(),
+                difference,
+                format(deviation, form),
             )
     return table
 
 
-def write(found, output):
-    """Write all tables, the comparison of the models with the noise first, then every run."""
-    console = Console(file=io.StringIO(), width=260)
-    for table in tables(found):
-        console.print(table, highlight=False, markup=False)
-    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
-    write_atomically(output, lambda path: path.write_text("\n".join(lines) + "\n"))
+def kept() -> dict:
+    """Return the pairs of the result file by (c_v, loading, particles, offset), or by (loading, levels)."""
+    found = {}
+    for row in result_files.read("tsing_shan")["rows"]:
+        pair = {name: row[name] for name in ("ALE", "classical", "apart")}
+        found[tuple(tuple(word) if isinstance(word, list) else word for word in row["key"])] = pair
+    return found
 
 
-def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
-    """Run everything, the smallest first, and write the tables after every pair.
+def report() -> str:
+    """Return the text of benchmarks/tsing_shan.txt: the comparison of the models with the noise, then every run."""
+
+    def show(console):
+        for table in tables(kept()):
+            console.print(table, highlight=False, markup=False)
+
+    return charts.printed(show, width=260)
+
+
+def main(particles=PARTICLES, offsets=None, resume=False):
+    """Run everything, the smallest first, and keep it after every pair.
 
     Parameters
     ----------
@@ -147,12 +159,10 @@ def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
         Numbers of particles.
     offsets : int, optional
         How many of `OFFSETS`; all by default.
-    output : path
-        Where the tables go.
-    keep : path, optional
-        File of results, which is read first and added to: so that a long series can be done in parts.
+    resume : bool
+        Go on with the result file, which has been begun.
     """
-    found = pickle.loads(keep.read_bytes()) if keep and keep.exists() else {}
+    found = kept() if resume else {}
     cases = {
         (c_v, loading, count, offset): (c_v, loading, count, offset)
         for count, offset, loading, c_v in itertools.product(
@@ -167,16 +177,16 @@ def main(particles=PARTICLES, offsets=None, output=OUTPUT, keep=None):
         if key in found:
             continue
         found[key] = compare(*case)
-        if keep:
-            keep.write_bytes(pickle.dumps(found))
-        write(found, output)
+        rows = [{"key": list(name), **pair} for name, pair in found.items()]
+        result_files.keep("tsing_shan", {"rows": rows}, COMMAND)
+        print(key, flush=True)
+    charts.make("tsing_shan")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--particles", type=int, nargs="+", default=PARTICLES)
     parser.add_argument("--offsets", type=int, help="how many of them; by default all")
-    parser.add_argument("--output", type=Path, default=OUTPUT)
-    parser.add_argument("--keep", type=Path, help="file of results, read first and added to")
+    parser.add_argument("--resume", action="store_true", help="go on with the result file")
     words = parser.parse_args()
-    main(words.particles, words.offsets, words.output, words.keep)
+    main(words.particles, words.offsets, words.resume)

@@ -1,58 +1,107 @@
 """Two phases of the engine against the converged finite-volume reference: ``python -m benchmarks.two_phase``.
 
-The strips and the errors are those of `validation.cases.two_phase_strips`. Also writes docs/two_phase.png.
+The strips and the errors are those of `validation.cases.two_phase_strips`. Keeps two_phase_errors.json and two_phase.nc
+in benchmarks/results, from which benchmarks/two_phase.txt and docs/figures/two_phase.png are made.
 """
 
 import argparse
-from pathlib import Path
 
+import xarray as xr
+
+from benchmarks import charts, result_files, style
 from validation.cases import two_phase_strips as strips
 
 COUNTS = (500, 2000, 8000)
+SHOWN = ("cap", "collapse")
+"""Cases of the figure."""
+
+EVERY = 4
+"""One cell of the reference in so many is kept."""
+
+QUANTITIES = ("h_s", "h_w", "h_s v_s", "h_w v_w")
+COMMAND = "python -m benchmarks.two_phase"
 
 
-def draw(flows, path) -> None:
-    """Draw depths and velocities of both phases: particles over the reference."""
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(len(flows), 2, figsize=(10.0, 3.2 * len(flows)), layout="constrained", squeeze=False)
-    for (name, flow), row in zip(flows.items(), axes, strict=True):
-        found = strips.reference(name)
-        for phase, colour in zip(strips.PHASES, ("#a0522d", "#1f77b4"), strict=True):
-            s, h, v, _ = strips.profile(flow, phase)
-            depth, velocity = (getattr(found, f"{quantity}_{phase[0]}")[-1] for quantity in "hv")
-            wet = depth > 1e-3
-            for axis, at_particles, exact in ((row[0], h, depth), (row[1], v, velocity)):
-                axis.plot(s, at_particles, ".", color=colour, markersize=2, alpha=0.4, rasterized=True)
-                axis.plot(found.x[wet], exact[wet], color=colour, linewidth=1.2, label=phase)
-        for axis, label in zip(row, ("thickness of the phase [m]", "velocity down the plane [m/s]"), strict=True):
-            axis.set(xlabel="distance down the plane [m]", ylabel=label)
-            axis.set_title(f"{name}, {strips.CASES[name].time:g} s, {s.size} particles of each phase", fontsize=9)
-        row[0].legend(title="lines: finite volumes", fontsize=8, title_fontsize=8)
-    figure.savefig(path, dpi=120)
-
-
-def main(counts=COUNTS) -> None:
-    """Print the table and draw the figure."""
-    print(
-        f"relative L1 errors against finite volumes of {strips.CELLS} cells; N particles of each phase, "
-        f"{strips.ACROSS} across"
-    )
-    print(f"{'case':16s}{'N':>6s}{'steps':>7s}{'CPU s':>8s}" +
-          "".join(f"{name:>9s}" for name in ("h_s", "h_w", "h_s v_s", "h_w v_w")))  # fmt: skip
-    drawn = {}
+def measure(counts):
+    """Return the rows of the table, and flows of the cases of the figure with the second of the counts."""
+    rows, drawn = [], {}
     for name in strips.PLACES:
         strips.run(name, 100)  # loads or compiles
         for count in counts:
             flow, cpu, steps = strips.run(name, count)
-            print(f"{name:16s}{count:6d}{steps:7d}{cpu:8.2f}" + "".join(f"{e:9.4f}" for e in strips.errors(flow, name)),
-                  flush=True)  # fmt: skip
-            if name != "tight_friction" and count == counts[min(1, len(counts) - 1)]:
+            errors = dict(zip(QUANTITIES, strips.errors(flow, name), strict=True))
+            rows.append({"case": name, "particles": count, "steps": steps, "CPU [s]": cpu, **errors})
+            print(rows[-1], flush=True)
+            if name in SHOWN and count == counts[min(1, len(counts) - 1)]:
                 drawn[name] = flow
-    draw(drawn, Path(__file__).parents[1] / "docs" / "two_phase.png")
+    return rows, drawn
+
+
+def profiles(flows) -> xr.Dataset:
+    """Return place, thickness and velocity of particles, and of the reference, by case and phase."""
+    found = xr.Dataset()
+    for name, flow in flows.items():
+        reference = strips.reference(name)
+        found[f"{name}_x"] = (f"{name}_cell", reference.x[::EVERY])
+        found[f"{name}_x"].attrs["time"] = strips.CASES[name].time
+        for phase in strips.PHASES:
+            for quantity, values in zip("shv", strips.profile(flow, phase)[:3], strict=True):
+                found[f"{name}_{phase}_{quantity}"] = (f"{name}_{phase}", values)
+            for quantity in "hv":
+                values = getattr(reference, f"{quantity}_{phase[0]}")[-1][::EVERY]
+                found[f"{name}_{phase}_{quantity}_reference"] = (f"{name}_cell", values)
+    return found
+
+
+def report() -> str:
+    """Return the text of benchmarks/two_phase.txt."""
+    lines = [
+        f"relative L1 errors against finite volumes of {strips.CELLS} cells; N particles of each phase, "
+        f"{strips.ACROSS} across",
+        f"{'case':16s}{'N':>6s}{'steps':>7s}{'CPU s':>8s}" + "".join(f"{name:>9s}" for name in QUANTITIES),
+    ]
+    for row in result_files.read("two_phase_errors")["rows"]:
+        head = f"{row['case']:16s}{row['particles']:6d}{row['steps']:7d}{row['CPU [s]']:8.2f}"
+        lines.append(head + "".join(f"{row[name]:9.4f}" for name in QUANTITIES))
+    return "\n".join(lines) + "\n"
+
+
+def chart():
+    """Return the figure: thickness and velocity of both phases, particles over the reference."""
+    found = result_files.read_dataset("two_phase")
+    names = [name for name in SHOWN if f"{name}_x" in found]
+    figure, axes = style.panels(len(names), 2, (11.0, 3.4 * len(names) + 0.4))
+    for name, row in zip(names, axes, strict=True):
+        x = found[f"{name}_x"]
+        for phase, colour, words in zip(strips.PHASES, (style.RED, style.BLUE), ("grains", "water"), strict=True):
+            wet = found[f"{name}_{phase}_h_reference"] > 1e-3
+            for axis, quantity in zip(row, "hv", strict=True):
+                dots = found[f"{name}_{phase}_s"], found[f"{name}_{phase}_{quantity}"]
+                axis.plot(*dots, ".", color=colour, markersize=2, alpha=0.35, rasterized=True)
+                line = found[f"{name}_{phase}_{quantity}_reference"]
+                axis.plot(x[wet], line[wet], color=colour, linewidth=1.4, label=words)
+        size = found.sizes[f"{name}_solid"]
+        title = f"{name}, {x.attrs['time']:g} s after the release, {size} particles of each phase"
+        for axis, label in zip(row, ("own thickness of the phase [m]", "velocity down the plane [m/s]"), strict=True):
+            style.finish(axis, xlabel="distance down the plane [m]", ylabel=label, title=title)
+    style.legend_below(figure, axes[0, 0], ncol=2, title="lines: finite volumes, converged; dots: particles")
+    return figure
+
+
+def main(counts=COUNTS) -> None:
+    """Measure, keep, and draw."""
+    rows, flows = measure(counts)
+    if tuple(counts) != COUNTS:
+        return
+    result_files.keep("two_phase_errors", {"rows": rows}, COMMAND)
+    found = profiles(flows)
+    steps = {name: 1e-3 if name.endswith(("_x", "_s")) else 2e-4 for name in found.data_vars}
+    steps |= {name: 1e-3 for name in steps if "_v" in name}
+    result_files.keep_dataset("two_phase", found, COMMAND, steps)
+    charts.make("two_phase")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("counts", nargs="*", type=int, default=COUNTS, help="numbers of particles of each phase")
+    parser.add_argument("counts", nargs="*", type=int, default=COUNTS, help="particles of each phase; keeps nothing")
     main(tuple(parser.parse_args().counts))

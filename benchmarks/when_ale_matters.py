@@ -2,23 +2,20 @@
 
 Both models on the stand-in terrain of `examples/tsing_shan.py`, with coefficients of consolidation from 1e-5 to
 10 m2/s, other slopes and other erodible lengths, with and without loading. Pastor et al. (2022) leave this open.
-Writes benchmarks/when_ale_matters.txt and docs/when_ale_matters.png.
+Keeps benchmarks/results/when_ale_matters.json, from which benchmarks/when_ale_matters.txt and
+docs/figures/when_ale_matters.png are made.
 """
 
 import argparse
 import itertools
-import sys
-from pathlib import Path
 
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from landlab_debrisflow.plots import save_figure
-from landlab_debrisflow.record import write_atomically
+from benchmarks import charts, result_files, style
+from benchmarks.example_scripts import load
 from landlab_debrisflow.scene import tsing_shan_valley
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "examples"))  # examples are scripts, not a package
-import tsing_shan
+tsing_shan = load("tsing_shan")
 
 CONSOLIDATION = (1e-5, 1e-3, 1e-2, 0.1, 0.4, 1.0, 4.0, 10.0)  # [m2 s-1]
 
@@ -44,7 +41,8 @@ LEVELS = {1e-5: 321, 1e-3: 161}
 and loading the difference is 64, 161, 169, 172 m with 41, 161, 321, 641 levels (-82 m with 11). ALE: 1207 to 1203 m."""
 
 COLUMNS = "valley", "loading", "c_v", "Pe_b", "ALE", "classical", "difference", "relative", "outflow", "soil left"
-OUTPUT = Path(__file__).with_suffix(".txt"), Path(__file__).parents[1] / "docs" / "when_ale_matters.png"
+COLOURS = dict(zip(VALLEYS, ("black", "0.6", style.SKY, style.BLUE, style.GREEN, style.ORANGE), strict=True))
+COMMAND = "python -m benchmarks.when_ale_matters"
 
 
 def compare(valley, c_v, loading, particles):
@@ -63,63 +61,76 @@ def compare(valley, c_v, loading, particles):
     }  # fmt: skip
 
 
-def draw(found):
-    """Return the chart: difference in metres, and over the run-out with ALE; without runs that left the grid."""
-    figure = Figure(figsize=(11.0, 5.2), layout="constrained")
-    axes = figure.subplots(1, 2, sharex=True)
-    colours = dict(zip(VALLEYS, ("k", "0.6", "tab:cyan", "tab:blue", "tab:green", "tab:orange"), strict=True))
-    for (valley, loading), (panel, name) in itertools.product(
-        dict.fromkeys(key[:2] for key in found), zip(axes, ("difference", "relative"), strict=True)
-    ):
-        inside = [f for key, f in found.items() if key[:2] == (valley, loading) and f["outflow"] == 0.0]
-        points = sorted((f["Pe_b"], f[name]) for f in inside)
-        style = {"color": colours[valley], "marker": "o", "ms": 5, "lw": 0.8}
+def chart():
+    """Return the figure: difference in metres, and over the run-out with ALE; without runs that left the grid."""
+    rows = result_files.read("when_ale_matters")["rows"]
+    figure, axes = style.panels(1, 2, (12.0, 6.2), sharex=True)
+    panels = dict(zip(("difference", "relative"), axes[0], strict=True))
+    for valley, loading in dict.fromkeys((row["valley"], row["loading"]) for row in rows):
+        inside = [row for row in rows if (row["valley"], row["loading"], row["outflow"]) == (valley, loading, 0.0)]
         fill, line = LOADING[loading]
-        panel.plot(*zip(*points, strict=True), ls=line, fillstyle=fill, **style)
-    for panel, words in zip(
-        axes, ("run-out, ALE less classical [m]", "the same over the run-out with ALE [-]"), strict=True
-    ):
-        panel.axhline(0.0, color="0.8", lw=0.8, zorder=0)
-        panel.axvline(1.0, color="0.8", lw=0.8, zorder=0)
-        where = "basal Péclet number $e_R h / c_v$ of what erodes\nas the front leaves erodible ground"
-        panel.set(xscale="log", xlabel=where, ylabel=words)
-    handles = [Line2D([], [], color=colour, marker="o", label=valley) for valley, colour in colours.items()]
-    handles += [
-        Line2D([], [], color="0.3", marker="o", fillstyle=fill, ls=line, label=f"loading source {loading}")
+        mark = {"color": COLOURS[valley], "marker": "o", "ms": 5, "lw": 0.8, "ls": line, "fillstyle": fill}
+        for name, panel in panels.items():
+            points = sorted((row["Pe_b"], row[name]) for row in inside)
+            panel.plot(*zip(*points, strict=True), **mark)
+    words = (
+        "run-out with the ALE column less that with\nthe classical column [m]",
+        "the same difference over the run-out\nwith the ALE column [-]",
+    )
+    for panel, label in zip(panels.values(), words, strict=True):
+        panel.axhline(0.0, color="0.7", lw=0.8, zorder=0)
+        panel.axvline(1.0, color="0.7", lw=0.8, zorder=0)
+        where = "basal Péclet number $e_R h / c_v$ of the eroding flow\nas its front leaves erodible ground [-]"
+        style.finish(panel, xscale="log", xlabel=where, ylabel=label)
+    valleys = [Line2D([], [], color=colour, marker="o", label=valley) for valley, colour in COLOURS.items()]
+    loadings = [
+        Line2D([], [], color="0.3", marker="o", fillstyle=fill, ls=line, label=loading)
         for loading, (fill, line) in LOADING.items()
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, frameon=False)
-    figure.suptitle("When ALE matters: run-out of the front beyond erodible ground")
+    below = {"frameon": False, "fontsize": 9}
+    figure.legend(handles=valleys, loc="outside lower left", ncols=3, title="valley", **below)
+    figure.legend(handles=loadings, loc="outside lower right", ncols=3, title="loading source of the column", **below)
+    figure.suptitle("Run-out of the front beyond erodible ground")
     return figure
 
 
-def row(key, values):
+def row_of_text(row):
     """Return one line of the text file."""
-    valley, loading, c_v = key
-    numbers = (f"{values[name]:{form}}" for name, form in zip(
-        COLUMNS[3:], ("10.3g", "10.0f", "10.0f", "10.1f", "10.3f", "10.0f", "10.2f"), strict=True))  # fmt: skip
-    return f"{valley:<22}{loading:<12}{c_v:>8g}" + "".join(numbers)
+    forms = ("10.3g", "10.0f", "10.0f", "10.1f", "10.3f", "10.0f", "10.2f")
+    numbers = (f"{row[name]:{form}}" for name, form in zip(COLUMNS[3:], forms, strict=True))
+    return f"{row['valley']:<22}{row['loading']:<12}{row['c_v']:>8g}" + "".join(numbers)
 
 
-def main(particles=500, output=OUTPUT):
-    """Run everything, and write text and figure after every valley."""
-    found = {}
+def report() -> str:
+    """Return the text of benchmarks/when_ale_matters.txt."""
+    found = result_files.read("when_ale_matters")
     head = (
-        f"{particles} particles; run-out of the front beyond erodible ground [m]; Pe_b: median by volume of what "
-        "erodes\nas the front leaves erodible ground; outflow [m3]; least soil left where there was any [m]\n"
+        f"{found['particles']} particles; run-out of the front beyond erodible ground [m]; Pe_b: median by volume of "
+        "what erodes\nas the front leaves erodible ground; outflow [m3]; least soil left where there was any [m]\n"
         f"{COLUMNS[0]:<22}{COLUMNS[1]:<12}{COLUMNS[2]:>8}" + "".join(f"{name:>10}" for name in COLUMNS[3:])
     )
+    return "\n".join([head, *map(row_of_text, found["rows"])]) + "\n"
+
+
+def main(particles=500, resume=False):
+    """Run everything, and keep the results after every pair; with `resume` go on with the result file."""
+    rows = result_files.read("when_ale_matters")["rows"] if resume else []
+    done = {(row["valley"], row["loading"], row["c_v"]) for row in rows}
     for valley in VALLEYS:
-        done = [loading for loading in LOADING if loading != "proportional" or not VALLEYS[valley]]
-        for loading, c_v in itertools.product(done, CONSOLIDATION):
-            found[valley, loading, c_v] = compare(valley, c_v, loading, particles)
-        lines = [head, *(row(key, values) for key, values in found.items())]
-        write_atomically(output[0], lambda path, lines=lines: path.write_text("\n".join(lines) + "\n"))
-        save_figure(draw(found), output[1], dpi=110)
+        sources = [loading for loading in LOADING if loading != "proportional" or not VALLEYS[valley]]
+        for loading, c_v in itertools.product(sources, CONSOLIDATION):
+            if (valley, loading, c_v) in done:
+                continue
+            found = {name: float(value) for name, value in compare(valley, c_v, loading, particles).items()}
+            rows.append({"valley": valley, "loading": loading, "c_v": c_v, **found})
+            print(row_of_text(rows[-1]), flush=True)
+            result_files.keep("when_ale_matters", {"particles": particles, "rows": rows}, COMMAND)
+    charts.make("when_ale_matters")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--particles", type=int, default=500)
+    parser.add_argument("--resume", action="store_true", help="go on with the result file")
     words = parser.parse_args()
-    main(words.particles)
+    main(words.particles, words.resume)

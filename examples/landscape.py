@@ -3,10 +3,11 @@
     python examples/landscape.py
 
 Every year the ground is lifted, weathers and creeps (ExponentialWeatherer, DepthDependentDiffuser), and rivers work on
-it (FlowAccumulator, SpaceLargeScaleEroder). Now and then slopes fail, soil in a storm (LandslideProbability) or with
-the rock below (BedrockLandslider); what fails runs down as a debris flow until it rests. The table says what every
-component did to soil and rock, and how well its own account of it closes. Rivers and failing rock make pores, so their
-grains balance; weathering makes soil of the volume of the rock, so its volume does.
+it (FlowAccumulator, SpaceLargeScaleEroder). From time to time slopes fail, soil in a storm (LandslideProbability) or
+soil with the rock below (BedrockLandslider); the failed mass runs down as a debris flow until it rests. The table lists
+the changes of soil and rock by every component, and the residual of its own account. Rivers and failing rock turn rock
+into soil with pores, so that their grains balance; weathering makes soil of the same volume as the rock, so that its
+volume balances.
 """
 
 import argparse
@@ -37,8 +38,9 @@ PEAKS = ["debris_flow__max_depth", "debris_flow__max_speed"]
 
 SPACING = 10.0  # m
 UPLIFT = 1e-3  # m/yr
-POROSITY = 0.4  # of soil, debris and river sediment
-STORM, COLLAPSE = 5, 10  # years of the first storm and of the first look for failing rock; both come back every ten
+POROSITY = 0.4  # porosity of soil, debris and river sediment
+# years of the first storm and of the first search for failing rock; both are repeated every ten years
+STORM, COLLAPSE = 5, 10
 SLOPE_STRENGTH = {  # for LandslideProbability; a transmissivity of 10 m2/day is used where the conductivity is 0
     "soil__transmissivity": 10.0,
     "soil__saturated_hydraulic_conductivity": 0.0,
@@ -91,17 +93,17 @@ class Entry(NamedTuple):
 
 
 class Ledger:
-    """Measures soil and rock at core nodes before and after everything that changes them."""
+    """Measures soil and rock at core nodes before and after each change."""
 
     def __init__(self, grid):
         self.grid, self.entries = grid, {}
 
     @contextmanager
     def account(self, name, solid=1.0):
-        """Enter what happens in the block under a name.
+        """Enter the changes in the block under a name.
 
-        Yields a list for the volumes [m3] that came in over the edges, as the component reports them; `solid` is how
-        much of such a volume is grains [-].
+        Yields a list for the volumes [m3] that came in over the edges, as the component reports them; `solid` is the
+        fraction of grains in these volumes [-].
         """
         at, core, area = self.grid.at_node, self.grid.core_nodes, self.grid.dx * self.grid.dy
         before, reported, cpu = [at[key][core].copy() for key in (SOIL, ROCK, Z)], [], time.process_time()
@@ -119,8 +121,8 @@ class Ledger:
         )  # fmt: skip
 
     def table(self, years) -> Table:
-        """Return what every component did."""
-        shown = Table(title=rf"What changed in {years} years \[m3]", title_justify="left")
+        """Return the accounts of all components."""
+        shown = Table(title=rf"Changes in {years} years \[m3]", title_justify="left")
         headings = "soil", "rock", "over edges", "moved", "residual", "of grains", r"z-rock-soil \[m]", r"CPU \[s]"
         for heading in ("", *headings):
             shown.add_column(heading, justify="right" if heading else "left")
@@ -147,7 +149,7 @@ class Landscape:
     def __init__(self, rows: int, columns: int, particles: int, seed: int):
         self.grid = grid = build_valley(rows, columns)
         self.ledger, self.draws = Ledger(grid), np.random.default_rng(seed)
-        # the inputs of BedrockLandslider; both routers write the same fields of water, so each runs before its reader
+        # inputs of BedrockLandslider; both routers write the same fields of water, so each runs just before its reader
         self.hill_router = PriorityFloodFlowRouter(grid, flow_metric="D8", separate_hill_flow=True, suppress_out=True)
         self.router = FlowAccumulator(grid, "topographic__elevation", "FlowDirectorD8",
                                       depression_finder="DepressionFinderAndRouter")  # fmt: skip
@@ -194,7 +196,7 @@ class Landscape:
             edge.append(-sum(self.rivers.run_one_step(1.0)))
 
     def release_soil(self) -> float:
-        """Let sites fail as likely as LandslideProbability says; return their volume [m3]."""
+        """Let sites fail with the probability of LandslideProbability; return their volume [m3]."""
         grid = self.grid
         with self.ledger.account("trigger: soil"):
             grid.at_node["topographic__slope"][:] = grid.calc_slope_at_node(Z)
@@ -210,7 +212,7 @@ class Landscape:
             return release_bedrock_landslides(self.rock_slopes, 10.0, porosity=POROSITY)
 
     def run_event(self, year: int, trigger: str, volume: float) -> None:
-        """Run what fails to rest and keep its own peaks."""
+        """Run the failed mass to rest and keep the peaks of the event."""
         if volume == 0.0:
             return
         flow, before = self.flow, self.flow.budget
@@ -218,7 +220,8 @@ class Landscape:
             flow.new_event()
             flow.run_until_rest()
             edge.append(before["outflow"] - flow.budget["outflow"])
-        peaks = flow.maps[PEAKS].drop_attrs().expand_dims(year=[year])  # its attributes are those of the flow
+        # without attributes, which are those of the flow
+        peaks = flow.maps[PEAKS].drop_attrs().expand_dims(year=[year])
         self.events.append(peaks.assign(trigger=("year", [trigger]), released=("year", [volume])))
 
 
@@ -234,7 +237,7 @@ def main(years: int = 100, rows: int = 100, columns: int = 100, particles: int =
     particles : int
         Number of particles of each event.
     seed : int
-        Of all that is drawn.
+        Seed of the random numbers.
 
     Returns
     -------
@@ -253,7 +256,7 @@ def main(years: int = 100, rows: int = 100, columns: int = 100, particles: int =
     if landscape.events:
         flows = landscape.ledger.entries["debris flows"]
         console.print(
-            f"debris flows close to {abs(flows.residual) / flows.moved:.0e} of what they moved", highlight=False
+            f"debris flows close to {abs(flows.residual) / flows.moved:.0e} of the volume they moved", highlight=False
         )
     for event in landscape.events:
         told = f"year {event.year.item():3}, {event.trigger.item():8}: {event.released.item():8.0f} m3, peak depth"

@@ -2,9 +2,10 @@
 
     python examples/obstacle.py --output obstacle.png
 
-Buildings are closed nodes: nothing gets in, and their faces show what ran against them. The dam is raised terrain: it
-is run up, and overtopped if it is too low. Both leave the peak impact pressure, density x speed^2, and the run-up,
-the height of the surface above the lowest bed that the matter came over (landlab_debrisflow/model/peak_maps.py).
+Buildings are closed nodes: no debris gets in, and their faces show the impact of the flow. The dam is raised terrain,
+which a flow runs up, and overtops if it is too low. Results are the peak impact pressure, density x speed^2, and the
+run-up, the height of the surface above the lowest bed that the debris came over
+(landlab_debrisflow/model/peak_maps.py).
 """
 
 import argparse
@@ -61,7 +62,7 @@ def buildings(grid):
 
 
 def main(output=None, particles: int = 2000) -> dict[str, dict[str, float]]:
-    """Run both, print what was found, and draw it if `output` is given.
+    """Run both cases, print their measures, and draw the figure if `output` is given.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def main(output=None, particles: int = 2000) -> dict[str, dict[str, float]]:
 
 
 def measure(flow) -> dict[str, float]:
-    """Return what a designer would ask of one run: name with unit, and value."""
+    """Return the measures of one run for the design of obstacles: name with unit, and value."""
     x = flow.grid.x_of_node
     at_buildings, on_dam, before_dam, beyond = (
         measures(flow, inside=part)

@@ -2,29 +2,30 @@
 
     python examples/paper_columns.py --output paper_columns.png
 
-A column without pressure, h0 thick, erodes at a constant rate e_R ground whose pressure is p_b. Lines are exact,
-markers numbers, by the scheme of the paper (`lax_wendroff`, with the steps of eq. 50) and by the default one. All is
-the ALE model: captions and text know no classical model in these figures.
+A column without pressure, h0 thick, erodes at a constant rate e_R ground whose pressure is p_b. Lines are exact
+solutions; markers are solutions by the scheme of the paper (`lax_wendroff`, with the steps of eq. 50) and by the
+default scheme. All columns are ALE columns: captions and text of the paper mention no classical model for these
+figures.
 
 Eq. 48 can be read in two ways, for eq. 49 puts the top at x = h0 and eq. 48 at x = h = h0 + e_R t:
 
 - growing: the column grows and its top is at x = h; x is shown over the present h;
 - fixed: h stays h0, as in a column that spreads as fast as it erodes.
 
-The text decides for the growing one. In figure 7 the profile goes on steepening towards p_b everywhere but at the
-surface. The growing one does; the fixed one stops at erf(a (1 - x/h)) / erf(a), a^2 = Pe/2, and its profiles of the
-last three times are the same. Figure 8 cannot decide: at t/T_c = 0.5 both are within 0.5 % of the line 1 - x/h. To take
-the growing h in eq. 48 and the top at h0 together is no third reading: grains would leave through the surface, where
-the speed, and so the Péclet number, is 0 by eq. 51.
+The text of the paper fits the growing column only. It says that in figure 7 the profile steepens on, towards p_b
+everywhere except at the surface. The growing column does; the fixed column stops at erf(a (1 - x/h)) / erf(a), a^2 =
+Pe/2, and its profiles of the last three times are the same. Figure 8 cannot decide: at t/T_c = 0.5 both are within 0.5
+% of the line 1 - x/h. The growing h in eq. 48 together with the top at h0 is no third reading: grains would leave
+through the surface, where the speed, and so the Péclet number, is 0 by eq. 51.
 
-How the paper was read where it leaves other choices:
+Readings of the paper where it leaves further choices:
 
 - Depth: eqs. 56 to 58 hold for y/h in [0, 1]; the front is at the depth y/h = 1/(1 + t/T_e), not y/h0.
 - Time: over T_c = h0^2/c_v in figures 7 to 9; over T_e = h0/e_R in figure 6, t e_R/h0 (eq. 53 has it inverted).
 - Pressure: over p_b, which is 1 in the paper's unit rho_w g h0.
 - Péclet number: e_R h0/c_v, with the initial thickness; that of figure 8 is 0.01, which is printed as 001.
 - Times: those of figure 7 are used in figures 8 and 9 too, for which the text names none but 0.5.
-- Figure 6 is a sketch with one time, as far as its caption tells; times here are ours.
+- Figure 6 is a sketch with one time, as far as its caption tells; the times here are chosen for this example.
 """
 
 import argparse
@@ -48,20 +49,20 @@ COEFFICIENT = 1e-3  # c_v [m2 s-1]; figures 7 to 9
 EROSION_RATE = 0.01  # e_R [m s-1]; figure 6
 
 TIMES = (0.01, 0.05, 0.1, 0.5, 1.0, 5.0)
-"""Of figures 7 to 9, over the consolidation time [-]."""
+"""Times of figures 7 to 9, over the consolidation time [-]."""
 
 PECLET = {"Fig. 7": 10.0, "Fig. 8": 0.01, "Fig. 9": 1.0}
 
 SCHEMES = ("default", "lax_wendroff")
 
 FRONT_TIMES = (0.25, 1.0, 3.0)
-"""Of the profiles of figure 6 (A), over the erosion time [-]."""
+"""Times of the profiles of figure 6 (A), over the erosion time [-]."""
 
 FRONT_PATH = np.array([0.25, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0])
-"""Of the fronts of figure 6 (B), over the erosion time [-]; those of the profiles are among them."""
+"""Times of the fronts of figure 6 (B), over the erosion time [-]; they include the times of the profiles."""
 
 TELLING = 0.8
-"""Height over thickness at which the readings are told apart [-]."""
+"""Height over thickness at which the two readings are compared [-]."""
 
 
 def main(output=None, levels=11):
@@ -198,7 +199,7 @@ def height_where(profile, level, value):
 
 
 def smearing(level, profiles):
-    """Return the mean over the height of what the pressure differs from a step, at the worst time."""
+    """Return the largest error of the pressure over all times: its mean difference over the height to a step."""
     fine = (np.arange(10_000) + 0.5) / 10_000
     steps = fine < columns.front(FRONT_PATH)[:, None]
     pairs = zip(profiles, steps, strict=True)
@@ -206,12 +207,12 @@ def smearing(level, profiles):
 
 
 def overshoot(profiles):
-    """Return by how much pressures leave the range between 0 and that of the bed."""
+    """Return the largest excess of pressures over the range between 0 and that of the bed."""
     return float(max(profiles.max() - 1.0, -profiles.min()))
 
 
 def front_error(level, profiles):
-    """Return how far the front is from where it should be, over the thickness, at the worst time."""
+    """Return the largest error of the position of the front over all times, over the thickness."""
     found = [height_where(profile, level, 0.5) for profile in profiles]
     return float(abs(found - columns.front(FRONT_PATH)).max())
 
@@ -232,7 +233,7 @@ def error_table(errors, levels):
 
 
 def reading_table():
-    """Return what tells the two readings of eq. 48 apart, from exact solutions."""
+    """Return the difference of the two readings of eq. 48, from exact solutions."""
     table = Table(title="Readings of eq. 48, exact", title_justify="left")
     table.add_column("")
     for reading in EXACT:

@@ -34,7 +34,7 @@ BASAL_FRICTION_ANGLE = float(np.degrees(np.arctan(0.6)))
 
 PRESSURE_RATIO = 0.3
 """Excess pore pressure over its liquefaction value, in bed and body [-]. With tan(phi) = 0.6 on the buoyant weight the
-apparent friction becomes 0.21, the value the prototype's runs took as that of the literature."""
+apparent friction becomes 0.21, the value from the literature in the runs of the prototype."""
 
 GROWTH_RATE = 1e-3
 """Middle, on a logarithmic scale, of the 5e-4 to 3e-3 m-1 of the literature on McDougall & Hungr's law (2005); Pastor
@@ -55,8 +55,8 @@ EROSION = {"law": "growth", "growth_rate": GROWTH_RATE}
 MATERIAL = {"bed_pressure_ratio": PRESSURE_RATIO, "initial_pressure_ratio": PRESSURE_RATIO}
 
 LOADING = {"": "overburden", ", prop. loading": "proportional"}
-"""What thinning does to pore pressure is an open question of the model and no parameter: both sets run with the default
-(a body that thins loses its pressure) and with the other answer (it keeps its pressure ratio)."""
+"""The pore pressure of a flow that thins is an open question of the model and no parameter: both sets run with the
+default (a flow that thins loses its pressure) and with the other assumption (it keeps its pressure ratio)."""
 
 SOIL_DEPTH = 1.2
 """Erodible depth outside the source [m], from the Landlab tutorial of this event."""
@@ -187,7 +187,7 @@ def elevation_map(grid):
 
 
 def warm_up(data, friction):
-    """Load the compiled kernels, so that the times are those of the run."""
+    """Load the compiled kernels, so that loading does not count as time of the run."""
     DebrisFlow(build_grid(data), friction=friction, material=MATERIAL, numerics={"particle_count": 10}).run_one_step(
         2.0
     )
@@ -219,10 +219,10 @@ def print_table(console, shown, particles, quick):
 
 NOTES = """\
 Coulomb and Voellmy: values from the literature, fixed before the first scoring; nothing is calibrated. Each runs with \
-both answers to what thinning does to the pore pressure: overburden, the default, and proportional (prop.), which was \
-added after the default had been scored.
+both assumptions about the pore pressure of a flow that thins: overburden, the default, and proportional (prop.), \
+which was added after the default had been scored.
 'spread evenly': the source spread along the observed path, three cells wide, computed here without any physics \
-(quoted: CSI .478, outside .432, correlation -.11; the difference is how the path was drawn).
+(quoted: CSI .478, outside .432, correlation -.11; the difference is due to the path).
 In quotation marks: quoted, not rerun. MassWastingRunout is calibrated on this event. The prototype of this model also \
 has values from the literature; its ranges span growth rates of 5e-4 to 3e-3 and, with drag, xi of 200 to 500.
 CSI: hits / (hits + misses + false alarms) over cells with |dz| above the threshold; erosion and deposition by sign, \
@@ -235,7 +235,7 @@ Peak memory is that of the process so far, Python and Landlab included. Differen
 
 
 def print_misfits(console, results, observed):
-    """Say plainly where the runs are wrong."""
+    """Print the largest misfits of the runs."""
     for name, r in results.items():
         console.print(
             f"{name}: {r['in scar']:.0f} m3 stay in the scar (lidar {observed['in scar']:.0f}); outside it the ground "
@@ -264,8 +264,8 @@ def collect(maps, change, observed, source):
 
 def draw(change, observed, source, relief):
     """Return the figure: observed and modelled change of elevation in the same colours."""
-    panels = {"observed (lidar)": observed} | {name.replace(", ", ",\n"): values for name, values in change.items()}
-    layer = Layer(panels, "change of elevation, red: lowered, blue: raised [m]", "RdBu", (-5.0, 5.0), threshold=0.2)
+    panels = {"observed (lidar)": observed} | change
+    layer = Layer(panels, "change of elevation, red: lowered, blue: raised [m]", "RdBu", (-3.0, 3.0), threshold=0.2)
     figure = draw_maps([layer], relief, outline=source)
     figure.suptitle("S-1000, December 2021: change of elevation; parameters from the literature, nothing calibrated")
     return figure

@@ -1,9 +1,9 @@
-"""How S-1000 is scored: measures, the noise of each, and what others reached."""
+"""Scores of S-1000: measures, the noise of each, and quoted scores of other models."""
 
 import numpy as np
 
 CHANGED = 0.2
-"""Change of elevation that counts [m]."""
+"""Least change of elevation that counts [m]."""
 
 MEASURES = {
     "released": ("released [m3]", "{:.0f}"),
@@ -36,7 +36,7 @@ NOISE = {
     **dict.fromkeys(("eroded", "eroded outside", "lowered outside"), "±10 %"),
     **dict.fromkeys(("run-out", "run-out error"), "±15"),
 }
-"""Differences below these mean nothing: spread between runs that differ in nothing that matters."""
+"""Differences that are not significant: spread between runs that differ in the discretisation only."""
 
 QUOTED = {
     '"Mass- Wasting- Runout"': {
@@ -128,7 +128,7 @@ def success(modelled, observed) -> float:
 def dig_and_spread(observed, release, path):
     """Return the change if the source were spread evenly along the observed path, three cells wide [m].
 
-    What needs no model scores like this; a model must beat it, above all outside the source.
+    This needs no model: the score of a model must be better, above all outside the source.
 
     Parameters
     ----------

@@ -3,12 +3,12 @@
     python examples/tsing_shan.py --output-dir results
     python examples/tsing_shan.py --dem dem.asc --release release.asc --erodible soil.asc
 
-The terrain of the event is not public. Without rasters the runs are on a stand-in with its volumes, its fall and a
-channel as long as the growth of the flow asks for (`tsing_shan_valley`), of which nothing but the numbers is that of
-Tsing Shan. Who has the terrain gives it as ESRI ASCII: elevation, thickness released and erodible depth [m].
+The terrain of the event is not public. Without rasters the runs are on a stand-in (`tsing_shan_valley`): a synthetic
+valley with the volumes and the fall of Tsing Shan, and a channel of the length that the growth of the flow requires.
+The actual terrain may be given as ESRI ASCII files: elevation, thickness released and erodible depth [m].
 
 Parameters are those of section 4.2.2 and were written down, with the terrain, before ALE was first compared with the
-classical model here. Nothing is calibrated; the travel angle is what comes out.
+classical model here. Nothing is calibrated; the travel angle is a result.
 """
 
 import argparse
@@ -48,21 +48,22 @@ CONSOLIDATION = (4e-4, 0.4)
 DURATION = 400.0  # [s]
 
 VALLEY = {"runout_length": 3000.0}
-"""Of the stand-in, where not the generator's defaults. 1400 m were enough for all but `loading` "none", which was found
-out by running it: the extent of the grid, not the ground, was then changed."""
+"""Values of the stand-in that differ from the defaults of its generator. A run-out length of 1400 m was enough except
+for `loading` "none", as a run showed: the extent of the grid, not the ground, was then changed."""
 
-# ---- ours ----
+# ---- numerics ----
 
 COLUMNS = {"ALE": "ale", "classical": "classical"}
 
 LEVELS = 41
-"""Of both columns: the memory of the classical one is a layer that 11 levels do not resolve (docs/decisions.md)."""
+"""Levels of both columns: the classical one keeps its pressure in a layer that 11 levels do not resolve
+(docs/decisions.md)."""
 
 NODATA = -9999.0
 
 
 def main(particles=2000, output_dir=".", rasters=None, loading="overburden", duration=DURATION):
-    """Run both models with both coefficients of consolidation, print what came out, and draw it.
+    """Run both models with both coefficients of consolidation, and print and draw the results.
 
     Parameters
     ----------
@@ -142,7 +143,7 @@ def read_terrain(dem, release, erodible):
             )
         values = other.at_node[name].astype(float)
         grid.add_field(name, np.where(values == NODATA, 0.0, values), at="node", units="m")
-    # what fails is soil, too
+    # the release is soil, too
     np.maximum(grid.at_node["soil__depth"], grid.at_node["debris_flow__release_depth"], out=grid.at_node["soil__depth"])
     return grid
 

@@ -15,7 +15,7 @@ SHOWN = (0.0, 32.0, 66.0, 100.0, 250.0, 400.0)
 PROFILES = (0.0, 4.0, 8.0, 128.0)
 """Times of the columns, since the front left erodible ground [s]."""
 
-COLOURS = {"ALE": "tab:blue", "classical": "tab:orange"}
+COLOURS = {"ALE": "#0072B2", "classical": "#D55E00"}
 
 NOTES = f"""\
 Distances are in plan, from the centre of the release; the front is where 99 % of the volume lies behind. Deposit counts
@@ -59,8 +59,10 @@ def draw_flow(records, c_v):
             panel.set_title(f"{model}, {when}", fontsize="small", loc="left", pad=2.0)
             panel.set(xlim=(west, east), ylim=(south, north), aspect="equal")
     bar = figure.colorbar(dots, ax=axes, location="top", shrink=0.5, aspect=50, extend="max")
-    bar.set_label("depth [m]; red: end of erodible ground; grey: elevation every 50 m; axes in m")
-    figure.suptitle(f"Particles, $c_v$ = {c_v:g} m² s⁻¹: Pastor et al. (2022), figures 14 and 16")
+    bar.set_label("depth [m] (red line: end of erodible ground; grey lines: elevation every 50 m)")
+    figure.supxlabel("x, down the valley [m]", fontsize="medium")
+    figure.supylabel("y, across [m]", fontsize="medium")
+    figure.suptitle(f"Particles through time, $c_v$ = {c_v:g} m² s⁻¹ (Pastor et al., 2022, figures 14 and 16)")
     return figure
 
 
@@ -74,7 +76,7 @@ def draw_ground(panel, record):
 
 
 ISOLINES = (0.1, 0.5, 1.0, 1.5, 2.0, 3.0)
-"""Of depth, on the deposit [m]."""
+"""Contours of depth, on the deposit [m]."""
 
 
 def draw_maps_of(records):
@@ -93,7 +95,7 @@ def draw_maps_of(records):
         isolines |= titled(shown["deposit"][0], "deposit", c_v)
         pressure = {m: 1e-3 * r.maps.debris_flow__basal_excess_pore_pressure for m, r in pair.items()}
         largest = max(float(abs(values).max()) for values in pressure.values())
-        if largest > 0.01:  # else all of it has gone
+        if largest > 0.01:  # otherwise no mass is left
             words = f"basal excess pore pressure at {some.maps.attrs['elapsed_time']:.0f} s"
             layers.append(Layer(titled(pressure, words, c_v), "pressure [kPa]", "RdBu_r", (-largest, largest)))
         if all(("since", 0.0) in r.snapshots for r in pair.values()):
@@ -112,15 +114,15 @@ def draw_maps_of(records):
         if depth is not None and depth.max() > ISOLINES[0]:
             panel.contour(depth.x, depth.y, depth, ISOLINES, colors="black", linewidths=0.4)
     figure.suptitle(
-        "Pastor et al. (2022), figures 15, 18 to 20 and 22; dashed: where erodible ground ends; lines on the deposit: "
-        f"{', '.join(f'{z:g}' for z in ISOLINES)} m"
+        "Erosion, deposit, basal pressure and Péclet number (Pastor et al., 2022, figures 15, 18 to 20 and 22)\n"
+        f"dashed: where erodible ground ends; lines on the deposit: {', '.join(f'{z:g}' for z in ISOLINES)} m"
     )
     return figure
 
 
 def titled(values, words, c_v):
     """Return panels with their titles."""
-    return {f"{model}: {words}, $c_v$ = {c_v:g}": value for model, value in values.items()}
+    return {f"{model}: {words}, $c_v$ = {c_v:g} m² s⁻¹": value for model, value in values.items()}
 
 
 def draw_columns(records):
@@ -145,11 +147,11 @@ def draw_columns(records):
             panel.axvline(0.0, color="0.8", lw=0.6)
             panel.axvline(0.65, color="0.6", lw=0.8, ls=":")
             panel.plot([1.0, 0.0], [0.0, 1.0], color="0.6", lw=0.6)
-            panel.set(xlim=(-1.05, 1.05), xlabel=r"$\Delta p / p_{liq}$ [-]")
+            panel.set(xlim=(-1.05, 1.05), xlabel=r"pressure $\Delta p / p_{liq}$ [-]")
         row[0].set_ylabel(f"$c_v$ = {c_v:g} m² s⁻¹\nheight over thickness [-]")
     axes[0, 0].legend(fontsize="small", loc="upper left")
     figure.suptitle(
-        "Column of one particle since the front left erodible ground: Pastor et al. (2022), figures 17 and 21\n"
-        "dotted: the ratio of the bed; thin line: liquefied; $h$: thickness, ALE | classical"
+        "Column of one particle since the front left erodible ground (Pastor et al., 2022, figures 17 and 21)\n"
+        "dotted line: pressure ratio of the bed; thin line: liquefied; $h$: thickness with ALE | classical"
     )
     return figure

@@ -1,4 +1,4 @@
-"""What is kept of a run of `tsing_shan.py`, and what is measured on it."""
+"""Record of a run of `tsing_shan.py`, and its measures."""
 
 import numpy as np
 
@@ -6,19 +6,20 @@ from landlab_debrisflow import measures
 from landlab_debrisflow.record import quantile
 
 LOOK = 0.5
-"""Time between two looks at the particles [s]; times since the front left erodible ground are known to that."""
+"""Time between two records of the particles [s], and the uncertainty of times since the front left erodible ground."""
 
 TIMES = (0.0, 32.0, 66.0, 100.0, 160.0, 250.0, 400.0)
-"""Of the figures of Pastor et al. (2022), where 32 and 33 s, and 100 and 150 s, name the same plots; 17 has 160 [s]."""
+"""Times of the figures of Pastor et al. (2022), where 32 and 33 s, and 100 and 150 s, name the same plots; 17 has 160
+[s]."""
 
 SINCE = (0.0, 4.0, 8.0, 16.0, 32.0, 128.0)
 """Times since the front left erodible ground [s]; from 0 to 128 it is as long as from 32 to 160 in figure 17."""
 
 PECLET_TIME = 40.0
-"""Of the map of Péclet numbers, figure 18 [s]."""
+"""Time of the map of Péclet numbers, figure 18 [s]."""
 
 FRONT_FRACTION = 0.99
-"""The front is as far as this part of the volume went at most: a stray particle is no front."""
+"""Fraction of the volume that lies behind the front: single particles far ahead do not count [-]."""
 
 DEPOSIT = 0.1
 """Least depth that counts as deposit [m]."""
@@ -49,7 +50,7 @@ MEASURES = {
 
 
 class Record:
-    """A run: what lay there before, where particles were, and their columns at some times.
+    """A run: the ground before it, the places of particles against time, and their columns at some times.
 
     Parameters
     ----------
@@ -81,7 +82,7 @@ class Record:
         self.passing = self.marked = None
 
     def follow(self, flow, duration):
-        """Run `flow` to the end, looking on."""
+        """Run `flow` to its end and record it."""
         before = flow.maps
         flow.run_one_step(1e-6)  # takes the release
         self.look(flow, 0.0)
@@ -92,7 +93,7 @@ class Record:
             wanted = [t for t in (*TIMES, PECLET_TIME) if t == time]
             since = [s for s in SINCE if self.passing is not None and self.passing + s == time]
             if flow.at_rest and not wanted and not since and time < duration:
-                continue  # what lies only consolidates
+                continue  # at rest columns only consolidate
             flow.run_one_step(time - flow.elapsed_time)
             if flow.at_rest and np.isnan(self.still):
                 self.still = time
@@ -109,14 +110,14 @@ class Record:
         self.measures = self.measure(flow, before)
 
     def look(self, flow, time):
-        """Keep where particles are."""
+        """Keep the places of the particles."""
         now = flow.particles
         self.times.append(time)
         self.x.append(now.x.values)
         self.y.append(now.y.values)
 
     def snapshot(self, flow):
-        """Return particles, pressures of the columns and the depth of all that lies and moves."""
+        """Return particles, pressures of the columns, and the depth of deposit and flow together."""
         depth, here = flow.grid.at_node["debris_flow__depth"], flow.grid.at_node["debris_flow__basal_peclet_number"]
         return {
             "time": round(flow.elapsed_time, 3), "particles": flow.particles,
@@ -142,7 +143,7 @@ class Record:
         return np.hypot(x - self.centre[0], y - self.centre[1])
 
     def mark(self, particles):
-        """Return the particle in the middle of what erodes, by distance."""
+        """Return the particle in the middle of the eroding part of the flow, by distance."""
         eroding = np.flatnonzero(particles.entrainment_rate.values > 0.0)
         if eroding.size == 0:
             return None

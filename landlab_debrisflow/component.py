@@ -41,7 +41,7 @@ class DebrisFlow(Planning, Restart, Component):
     ----------
     grid : RasterModelGrid
         With ``topographic__elevation`` [m]; give ``soil__depth`` [m] to let the bed erode and
-        ``debris_flow__release_depth`` [m] to say what fails.
+        ``debris_flow__release_depth`` [m] to let ground fail.
     friction, erosion, column, flow : law, str or mapping, optional
         A law object, its name in any case, or plain values: ``{"law": "voellmy", "turbulent_coefficient": 500.0}``.
     material : Material or mapping, optional
@@ -49,10 +49,11 @@ class DebrisFlow(Planning, Restart, Component):
     numerics : Numerics or mapping, optional
         Number of particles, threads, settling.
     inflow : Hydrograph, mapping or a sequence of them, optional
-        What flows in across lines: discharge, velocity and pore pressure against `elapsed_time`.
+        Inflow across lines: discharge, velocity and pore pressure against `elapsed_time`.
     observers : observer or sequence of them, optional
         Objects with an ``interval`` [s] and a method ``observe(flow)``, called after every step that crosses a multiple
-        of the interval and when the event comes to rest. They change no result (`landlab_debrisflow.record.observers`).
+        of the interval and when the event comes to rest. Observers change no result
+        (`landlab_debrisflow.record.observers`).
     continues : DebrisFlow, optional
         The component before on the same grid, at rest and settled: its maps, budget and elapsed time go on.
 
@@ -63,8 +64,8 @@ class DebrisFlow(Planning, Restart, Component):
 
     Notes
     -----
-    What can be computed but is hardly meant, such as coordinates in degrees or a density in g/cm3, is logged once as a
-    warning by the logger "landlab_debrisflow".
+    Input that can be computed but is hardly meant, such as coordinates in degrees or a density in g/cm3, is logged once
+    as a warning by the logger "landlab_debrisflow".
 
     Examples
     --------
@@ -145,13 +146,13 @@ class DebrisFlow(Planning, Restart, Component):
         """
         return tuple(sorted(name for name, entry in cls._info.items() if "in" in entry["intent"]))
 
-    # ---- what a user calls ----
+    # ---- calls by the user ----
 
     def run_one_step(self, dt: float) -> None:
         """Advance exactly `dt` seconds.
 
-        Values > 0 in ``debris_flow__release_depth`` are taken first; what has come to rest at the end is
-        laid into the terrain, unless ``numerics={"settle": False}``.
+        Values > 0 in ``debris_flow__release_depth`` are taken first; mass at rest at the end is laid into the terrain,
+        unless ``numerics={"settle": False}``.
 
         Parameters
         ----------
@@ -166,9 +167,9 @@ class DebrisFlow(Planning, Restart, Component):
             If the state stopped being finite; grid and flow are as they were before the call, and whatever else fails
             in a step leaves them so, too.
         KeyboardInterrupt, or what an observer raised
-            After the step. What was computed is kept, nothing settles, and `elapsed_time` tells when that was. If
-            nobody changes the grid, the next call goes on as if there had been no interruption: to end at the same
-            time, ask for what is left of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
+            After the step. The state after this step is kept, no mass settles, and `elapsed_time` tells the time. If
+            the grid is not changed, the next call goes on as if there had been no interruption: to end at the same
+            time, ask for the rest of `dt`. Ctrl-C for the second time interrupts the step and undoes the call.
         """
         self._refuse_open_count()
         if (dt := checks.check_duration(dt)) > 0.0:
@@ -185,8 +186,8 @@ class DebrisFlow(Planning, Restart, Component):
         Returns
         -------
         bool
-            True if all is at rest (and settled); False: it still moves, nothing settled, call again to go on. A
-            warning then says what moves and how fast.
+            True if the flow is at rest (and settled). False if it still moves; then no mass settles, a warning tells
+            how much moves and how fast, and another call goes on.
 
         Raises
         ------
@@ -240,7 +241,7 @@ class DebrisFlow(Planning, Restart, Component):
 
     @property
     def at_rest(self) -> bool:
-        """Whether nothing moves."""
+        """Whether the whole flow is at rest."""
         return self._simulation.at_rest
 
     @property
@@ -256,7 +257,7 @@ class DebrisFlow(Planning, Restart, Component):
     def budget_by_phase(self) -> dict[str, dict[str, float]]:
         """Volume budget so far of ``"solid"`` and ``"water"`` [m3]: grains, and pore fluid (water if saturated).
 
-        What of the released, inflowing and eroded volume is of which phase follows from the porosities.
+        The porosities divide released, inflowing and eroded volume among the phases.
         """
         return self._call.budget_by_phase
 
@@ -290,8 +291,8 @@ class DebrisFlow(Planning, Restart, Component):
     def maps(self) -> xr.Dataset:
         """Elevation, soil and outputs as a Dataset over ``y`` and ``x``, with units, budget and all parameters.
 
-        Closed nodes are missing (NaN), except in the maps of impact pressure and run-up, which tell what ran against
-        them, and where something was left before they were closed.
+        Closed nodes are missing (NaN), except in the maps of impact pressure and run-up, which show the impact of the
+        flow on them, and where debris was left before they were closed.
         """
         shown = self._call.maps()
         moment = moment_attributes(self.elapsed_time, self._simulation.particles, self.budget)

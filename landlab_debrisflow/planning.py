@@ -1,6 +1,6 @@
 """Plans of a flow: made by pilot runs, adopted before an event, and reported after it.
 
-What makes them is imported when it is first used: most flows have no plan.
+The modules that make plans are imported at the first plan: most flows have none.
 """
 
 import dataclasses
@@ -38,7 +38,7 @@ class Planning:
         """Find the number of particles, column and steps that an error asks for, by pilot runs on copies of the grid.
 
         Pilot runs have 250, 500 and 1000 particles. Grid and flow stay as they are, and observers are not called;
-        progress goes to the logger "landlab_debrisflow.progress". What cannot be held is stated, never promised.
+        progress goes to the logger "landlab_debrisflow.progress". Quantities that cannot be held are named in the plan.
 
         Parameters
         ----------
@@ -47,13 +47,13 @@ class Planning:
         hold : collection of str, optional
             Quantities to be held, out of ``run_out``, ``speed``, ``depth``, ``area``, ``eroded``, ``pressure`` and
             ``deposit``; by default those of numerics, or run_out and speed. Pressure and deposit cannot be promised;
-            asking for them buys particles and levels all the same.
+            asking for them raises particles and levels all the same.
         max_particles : int
             Most particles, at least 1000.
         max_cost : float, optional
             Longest CPU time of the run to come [s].
         max_duration : float
-            As of `run_until_rest` [s].
+            As in `run_until_rest` [s].
         raster : bool, optional
             Whether to run a pilot with every second node, too; by default if that costs little.
 
@@ -91,7 +91,7 @@ class Planning:
         Parameters
         ----------
         plan : Plan
-            Of the same scene.
+            Plan of the same scene.
 
         Raises
         ------
@@ -146,7 +146,7 @@ class Planning:
         setup, shift = self._setup, 0.0
         if simulation.inflow.over:
             setup = dataclasses.replace(setup, inflow=())
-        elif self.elapsed_time > 0.0:  # of pilot runs it begins at 0
+        elif self.elapsed_time > 0.0:  # the event of the pilot runs begins at time 0
             shift = min(self.elapsed_time, *(line.times[0] for line in setup.inflow))
             lines = [dataclasses.replace(one, times=tuple(t - shift for t in one.times)) for one in setup.inflow]
             setup = dataclasses.replace(setup, inflow=tuple(lines))
@@ -161,7 +161,7 @@ class Planning:
         from .fidelity.wishes import wishes_of
 
         wishes, event = wishes_of(self._setup), self._event(max_duration)
-        if event.volume > 0.0:  # else the call says that nothing is to be done
+        if event.volume > 0.0:  # otherwise the call warns that there is nothing to do
             self._take(make_plan(event, wishes))
 
     def _refuse_open_count(self) -> None:
@@ -188,12 +188,12 @@ class Planning:
         self._keep_plan(plan)
 
     def _keep_plan(self, plan: "Plan") -> None:
-        """Keep a plan, by which the flow was made, for its report."""
+        """Keep the plan of the flow for its report."""
         self._plan, self._measured = plan, None
         self._call.before_settling = partial(self._measure, plan)
 
     def _measure(self: Any, plan: "Plan") -> None:
-        """Measure the event of a plan at its end, if no other mass did come."""
+        """Measure the event of a plan at its end, unless other mass was released or flowed in."""
         from .fidelity.quantities import quantities
 
         budget = self.budget

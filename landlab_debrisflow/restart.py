@@ -32,14 +32,14 @@ class Restart:
 
     @property
     def unfinished_until(self) -> float | None:
-        """Elapsed time until which a call that was interrupted, or loaded, should have gone [s]; None: there is none.
+        """Elapsed time at which an unfinished call, interrupted or loaded, was to end [s]; None without one.
 
         ``flow.run_one_step(flow.unfinished_until - flow.elapsed_time)`` finishes it.
         """
         return self._call.unfinished_until
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Save all that decides how the flow goes on, so that `load` continues it to the bit.
+        """Save the whole state of the flow, so that `load` continues it to the bit.
 
         Between calls, and after a call that was interrupted, the file is there on return. If an observer calls, or
         another thread during a call, it is written as soon as the step is made and all observers have seen it; if it
@@ -63,8 +63,8 @@ class Restart:
 
         Notes
         -----
-        A few numbers of numpy, no code: fields, statuses and place of the grid, particles, columns, accounts, the
-        setup, and the memory of observers that have methods ``state()`` and ``restore(mapping)``.
+        The file holds arrays of numbers and no code: fields, statuses and place of the grid, particles, columns,
+        accounts, the setup, and the memory of observers that have methods ``state()`` and ``restore(mapping)``.
         """
         path = check_writable(path)
         self._call.save(lambda dataset: write_checkpoint(path, self._completed(dataset)))
@@ -81,12 +81,13 @@ class Restart:
         path : str or os.PathLike
             The file.
         grid : RasterModelGrid, optional
-            Of the same shape, place and statuses: its fields get the values of the file. By default a new one.
+            Grid of the same shape, place and statuses: its fields get the values of the file. By default a new grid.
         observers : observer or sequence of them, optional
-            Of the same classes, in the same order, as the flow had when it was saved; they go on, too.
+            Observers of the same classes, in the same order, as the flow had when it was saved; the observers go on,
+            too.
         **setup
-            Keywords of `DebrisFlow`. Only laws are needed that are not declared or have no name in `LAWS`, because no
-            file can hold them; anything given must be what it was.
+            Keywords of `DebrisFlow`. Needed only for laws that are not declared or have no name in `LAWS`, because no
+            file can hold these. Any other keyword must have the value that the flow was saved with.
 
         Returns
         -------
@@ -147,7 +148,7 @@ def _load(flow: Any, dataset: xr.Dataset) -> None:
 
 
 def _restore(observer: Any, memory: Any) -> None:
-    """Give an observer its memory; refuse one that it cannot take."""
+    """Give an observer its memory; refuse a memory that the observer cannot restore."""
     try:
         observer.restore(memory)
     except (LookupError, TypeError, ValueError) as error:

@@ -26,7 +26,7 @@ ELEVATION, SOIL, ROCK = "topographic__elevation", "soil__depth", "bedrock__eleva
 PROBABILITY = "landslide__probability_of_failure"
 EROSION = "landslide__erosion"
 RUNOUT = ("landslide__deposition", "LS_sediment__flux", "landslide_sediment_point_source")
-"""Fields of BedrockLandslider about what becomes of the ground that failed."""
+"""Fields of BedrockLandslider about the run-out of the ground that failed."""
 
 
 def release_probable_sites(
@@ -38,7 +38,7 @@ def release_probable_sites(
     least_area: float = 0.0,
     seed: int | np.random.Generator | None = None,
 ) -> float:
-    """Release sites whose probability of failure [-] is high enough: all of them, or those that are drawn.
+    """Release sites whose probability of failure [-] is high enough: all sites, or sites drawn at random.
 
     A site is a group of core nodes at or above the threshold that touch along a side, with ground to release. When
     sites are drawn, each fails as a whole, with the mean probability of its nodes: the area that is expected to fail is
@@ -66,7 +66,7 @@ def release_probable_sites(
     Returns
     -------
     float
-        Volume that fails, with what the release field held before [m3].
+        Volume that fails, with the earlier content of the release field [m3].
 
     Raises
     ------
@@ -115,14 +115,14 @@ def release_bedrock_landslides(landslider: Any, dt: float, *, porosity: float = 
 
     The component is run for a step. The ground is then put back to what it was, rock that fails is turned into soil,
     and the depth that fails goes into the release field. Nothing of the run-out of BedrockLandslider is left, neither
-    deposits nor fluxes: the run-out is that of the flow. All that fails goes into it, also fines. Boundary nodes are
-    not released. ``landslide__erosion`` stays as the component has written it: where landslides overlap it holds the
-    last one, while the release has all of them.
+    deposits nor fluxes: the run-out is that of the flow. The release has all ground that fails, fines included.
+    Boundary nodes are not released. ``landslide__erosion`` stays as the component has written it: where landslides
+    overlap it holds the last one, while the release has all of them.
 
     Parameters
     ----------
     landslider : BedrockLandslider
-        Built on the grid of the flow, its inputs up to date. What failed is in its ``landslides_volume``.
+        Built on the grid of the flow, its inputs up to date. The failed volumes are in its ``landslides_volume``.
     dt : float
         Duration of the step, in the unit of its return time.
     porosity : float
@@ -132,7 +132,7 @@ def release_bedrock_landslides(landslider: Any, dt: float, *, porosity: float = 
     Returns
     -------
     float
-        Volume that fails, with what the release field held before [m3].
+        Volume that fails, with the earlier content of the release field [m3].
 
     Raises
     ------
@@ -177,7 +177,7 @@ def release_bedrock_landslides(landslider: Any, dt: float, *, porosity: float = 
     ground = {name: at[name].copy() for name in (ELEVATION, SOIL, ROCK)}
     try:
         landslider.run_one_step(dt)
-        # the field of erosion holds the last landslide over a node, what is gone all of them
+        # the field of erosion holds only the last landslide over a node; the change of elevation holds all
         nodes = np.flatnonzero((at[EROSION] > 0.0) & core)
         soil = ground[SOIL][nodes] - (at[SOIL] - at[RUNOUT[0]])[nodes]
         rock = np.maximum(0.0, ground[ROCK][nodes] - at[ROCK][nodes])
@@ -260,7 +260,7 @@ def _generator(seed) -> np.random.Generator:
 
 
 def _fill(grid, failing) -> float:
-    """Raise the release field to what fails, shape (nodes,) [m], and return the volume that it holds then [m3]."""
+    """Raise the release field to the failing depth, shape (nodes,) [m]; return the volume that it then holds [m3]."""
     if RELEASE_DEPTH not in grid.at_node:
         grid.add_zeros(RELEASE_DEPTH, at="node", units="m")
     field = grid.at_node[RELEASE_DEPTH]

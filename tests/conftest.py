@@ -1,32 +1,25 @@
-"""Set-up shared by all tests.
+"""Set-up shared by all tests."""
 
-numba's disk cache watches only a function's own file: a kernel that inlines one of another file would
-stay stale after a change there. So the cache lives in a folder named by a hash of all sources that kernels can see.
-"""
-
-import hashlib
 import os
-import pathlib
-import tempfile
 
-_PACKAGE = pathlib.Path(__file__).parents[1] / "landlab_debrisflow"
-_HASH = hashlib.sha256()
-for _room in ("core", "spatial", "terrain", "physics", "model"):  # the others have no kernels
-    for _file in sorted((_PACKAGE / _room).rglob("*.py")):
-        _HASH.update(_file.read_bytes())
-os.environ["NUMBA_CACHE_DIR"] = os.path.join(
-    tempfile.gettempdir(), f"landlab_debrisflow_numba_{_HASH.hexdigest()[:16]}"
-)
+from .numba_cache import NUMBA_CACHE
 
-import numpy as np  # noqa: E402  numba must not be imported before the line above
-import pytest  # noqa: E402
+os.environ["NUMBA_CACHE_DIR"] = NUMBA_CACHE
 
-from landlab_debrisflow.grid.call import GridCall  # noqa: E402
-from landlab_debrisflow.model.simulation import Simulation  # noqa: E402
-from validation.grids import inclined, release_slab  # noqa: E402
+import numpy as np
+import pytest
 
-from .suspicions import BuiltError, suspicions  # noqa: E402
-from .twins import build, outcome, state  # noqa: E402
+from landlab_debrisflow.grid.call import GridCall
+from landlab_debrisflow.model.simulation import Simulation
+from validation.grids import inclined, release_slab
+
+from .suspicions import BuiltError, suspicions
+from .twins import build, outcome, state
+
+
+def pytest_collection_modifyitems(items):
+    """Build the site last: its pages run side by side, and read the kernels that tests have compiled by then."""
+    items.sort(key=lambda item: "site" in getattr(item, "fixturenames", ()))
 
 
 @pytest.fixture

@@ -29,6 +29,12 @@ DANGLING = [
 ]
 CITED = re.compile(r"theory\.md#([\w-]+)")
 DECISION = re.compile(r"decisions\.md[`)]?,\s+([A-Z][a-z]+(?: [a-z]+)*)(?: (\d+))?")
+DECISION_HEADING = r'^<a id="([\w-]+)"></a>\n## (\d+)\. (.+)$'
+LABELS = "Context", "Decision", "Evidence", "Consequence"
+FEWEST = {"Flow": 19, "Column": 17, "Two phases": 13, "Laws": 10, "Erosion and the bed": 7, "Inflow and walls": 6}
+FEWEST |= {"What S-1000 taught": 3, "The paper, section 4.2": 5, "Interface": 18, "Calls and looks": 6, "The house": 7}
+FEWEST |= {"From a DEM to maps": 11, "Plans": 5, "Start": 6}
+"""Fewest decisions of each topic: a decision keeps its number, and none is taken away."""
 MODULE = re.compile(r"`((?:\w+/)*\w+\.py)`")
 
 
@@ -36,14 +42,23 @@ def anchors(text):
     return re.findall(r'<a id="([\w-]+)"></a>', text)
 
 
+def topics():
+    """Return the topics of the index: the file of each, and how many decisions it is said to have."""
+    rows = re.findall(r"^\| \[(.+?)\]\((decisions/\w+\.md)\) \|.+\| (\d+) \|$", DECISIONS, re.M)
+    return {name: (f"docs/{file}", int(count)) for name, file, count in rows}
+
+
 def decisions():
-    """Return the numbers of the decisions under each heading."""
-    parts = re.split(r"^## (.+)$", DECISIONS, flags=re.M)[1:]
-    return {name: re.findall(r"^(\d+)\. ", body, re.M) for name, body in zip(parts[::2], parts[1::2], strict=True)}
+    """Return the decisions of each topic by number: anchor, title and body."""
+    found = {}
+    for name, (file, _) in topics().items():
+        parts = re.split(DECISION_HEADING, TEXTS[file], flags=re.M)[1:]
+        found[name] = {n: rest for n, *rest in zip(parts[1::4], parts[::4], parts[2::4], parts[3::4], strict=True)}
+    return found
 
 
 def test_no_reference_leads_out_of_the_repository():
-    """They cite docs/theory.md with the anchor of a section, or a heading of docs/decisions.md."""
+    """They cite docs/theory.md with the anchor of a section, or a topic of docs/decisions.md."""
     found = [(name, match.group()) for name in TEXTS for pattern in DANGLING for match in pattern.finditer(TEXTS[name])]
     assert found == []
 
@@ -78,10 +93,69 @@ def test_decisions_that_are_cited_exist():
     assert len(cited) > 8
 
 
-@pytest.mark.parametrize("document", ["docs/theory.md", "docs/glossary.md"])
-def test_files_that_are_linked_exist(document):
-    links = re.findall(r"\]\(([^)#:]+)(?:#[\w-]+)?\)", TEXTS[document])
-    assert links and [link for link in links if not (ROOT / "docs" / link).exists()] == []
+def test_topics_of_decisions_are_those_of_the_index():
+    files = {name for name in TEXTS if name.startswith("docs/decisions/")}
+    assert {file for file, _ in topics().values()} == files
+    assert {name: len(found) for name, found in decisions().items()} == {n: count for n, (_, count) in topics().items()}
+    assert {name: count for name, count in FEWEST.items() if len(decisions()[name]) < count} == {}
+    for name, (file, _) in topics().items():
+        assert TEXTS[file].startswith(f"# Decisions: {name}\n")
+
+
+def test_decisions_are_numbered_and_have_anchors():
+    for topic, found in decisions().items():
+        file = TEXTS[topics()[topic][0]]
+        assert list(found) == [str(n + 1) for n in range(len(found))], topic
+        assert len(anchors(file)) == len(re.findall(r"^#{2,} ", file, re.M)) == len(found)
+        start = found["1"][0].removesuffix("-1")
+        assert re.sub(r"\W+", "-", topic.lower()).startswith(start)
+        assert [anchor for anchor, *_ in found.values()] == [f"{start}-{n}" for n in found]
+
+
+def test_decisions_have_context_decision_evidence_and_consequence():
+    wrong, left_out = {}, 0
+    for topic, found in decisions().items():
+        for number, (_, title, body) in found.items():
+            paragraphs = [text for text in body.split("\n\n") if text.strip()]
+            labels = [text.strip().split(".**")[0].removeprefix("**") for text in paragraphs if text.startswith("**")]
+            left_out += "Consequence" not in labels
+            if (
+                tuple(labels) not in (LABELS, LABELS[:3])
+                or not paragraphs[0].startswith("**Context.** ")
+                or title[-1] == "."
+            ):
+                wrong[topic, number] = labels
+    assert wrong == {}
+    assert left_out < 25  # of 141: it is there unless nothing follows
+
+
+def test_commands_of_decisions_name_tests_that_exist():
+    named = {
+        path: re.findall(r"^def (test_\w+)", text, re.M) for path, text in TEXTS.items() if path.startswith("tests/")
+    }
+    missing, counted = [], 0
+    for file, _ in topics().values():
+        text = " ".join(TEXTS[file].split())
+        of_page = re.findall(r"tests/[\w/.]+", text.split("<a id")[0])
+        for command in re.findall(r"`((?:pytest|-k|tests/)[^`]*)`", text):
+            paths = re.findall(r"tests/[\w/.]+", command)
+            missing += [(file, path) for path in paths if not (ROOT / path).exists()]
+            tests = [test for path in named if path.startswith(tuple(paths or of_page)) for test in named[path]]
+            for words in re.findall(r'-k (?:"([^"]+)"|(\w+))', command):
+                for word in "".join(words).split(" or "):
+                    counted += 1
+                    missing += [(file, word)] if not any(word in test for test in tests) else []
+    assert missing == [] and counted > 50
+
+
+@pytest.mark.parametrize("document", [name for name in TEXTS if re.match(r"docs/(theory|glossary|decisions)\b", name)])
+def test_files_and_anchors_that_are_linked_exist(document):
+    links = re.findall(r"\]\(([^)#:\s]*)(?:#([\w-]+))?\)", TEXTS[document])
+    assert links
+    for file, anchor in links:
+        path = (ROOT / document).parent / file if file else ROOT / document
+        assert path.exists(), f"{document} links to {file}"
+        assert not anchor or anchor in anchors(path.read_text(encoding="utf-8")), f"{document}: {file}#{anchor}"
 
 
 def test_modules_of_the_theory_exist():

@@ -27,7 +27,7 @@ def test_the_example_shortened(capsys, monkeypatch):
     landscape = example.main(years=15, rows=60, columns=60, particles=150)
     entries, grid = landscape.ledger.entries, landscape.grid
     told = capsys.readouterr().out
-    assert all(name in told for name in entries) and "of what they moved" in told
+    assert all(name in told for name in entries) and "of the volume they moved" in told
     flows = entries["debris flows"]
     assert [event.year.item() for event in landscape.events] == [5, 10, 15]
     assert flows.moved > 1e3 and flows.rock == 0.0

@@ -1,4 +1,4 @@
-"""Notebooks are stored clean; pytest runs them besides (``--nbmake`` in pyproject.toml)."""
+"""Notebooks are stored clean; the site executes them (tests/docs/test_site.py)."""
 
 import json
 from pathlib import Path

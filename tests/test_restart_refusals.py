@@ -339,7 +339,9 @@ def test_a_law_from_outside_is_given_again(law, tmp_path):
     flow.save(path)
     name = rf"tests.test_restart_refusals.{law.__name__}"
     refused(
-        path, f"the friction law of the checkpoint is a {name}, which no file can hold; give the same", ParameterError
+        path,
+        f"the friction law of the checkpoint is a {name}, which no file can hold; give the same law",
+        ParameterError,
     )
     refused(
         path,
@@ -361,14 +363,14 @@ def test_a_law_from_outside_is_given_again(law, tmp_path):
 
 def test_a_law_that_only_prints_the_same(tmp_path):
     with_law(Undeclared()).save(tmp_path / "flow.nc")
-    words = "friction is not that of the checkpoint: it prints the same, but consists of something else"
+    words = "friction is not that of the checkpoint: it prints as the same text, but has other contents"
     refused(tmp_path / "flow.nc", words, ParameterError, friction=Undeclared(hidden=1))
 
 
 def test_what_is_given_must_agree(saved):
     setup = DebrisFlow.load(saved).setup
     assert DebrisFlow.load(saved, **vars(setup)).setup == setup
-    words = r"numerics is not that of the checkpoint: particle_count: 60 there, 61 given; give the same, or leave out"
+    words = r"numerics is not that of the checkpoint: particle_count: 60 there, 61 given; give the value of"
     refused(saved, words, ParameterError, numerics={"particle_count": 61})
     refused(saved, r"inflow is not that of the checkpoint: \[\] there", ParameterError, inflow={
         "line_start": (20.0, 38.0), "line_end": (20.0, 58.0), "times": [1.0, 3.0], "discharge": 1.0, "velocity": 4.0,

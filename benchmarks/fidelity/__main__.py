@@ -8,8 +8,8 @@
     python -m benchmarks.fidelity run --label now --scenes nine --particles 500,1000 --results /tmp/now.jsonl
 
 The first takes hours of CPU time and may be broken off and begun again: a run is a line of JSON in
-results/LABEL.jsonl, and what stands there is not run again. The others need seconds; `chart` draws docs/fidelity.png
-and docs/convergence.png, the latter with results/before.jsonl. S-1000 needs the rasters of examples/s1000.py in
+results/LABEL.jsonl, and what stands there is not run again. The others need seconds; `chart` draws fidelity.png and
+convergence.png of docs/figures, the latter with results/before.jsonl. S-1000 needs the rasters of examples/s1000.py in
 $DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same scenes by its own
 interpreter: run as a file with -P, the harness puts the checkout last.
 
@@ -27,8 +27,6 @@ if not __package__:  # run as a file: the package that is installed goes before 
 from benchmarks.fidelity.campaign import SETS, campaign
 from benchmarks.fidelity.runs import RESULTS, Run, read, run_all
 from benchmarks.fidelity.seeds import FIT, HELD_OUT, TABLE, take_draws
-
-DOCS = Path(__file__).parents[2] / "docs"
 
 
 def parse(arguments) -> argparse.Namespace:
@@ -59,7 +57,7 @@ def parse(arguments) -> argparse.Namespace:
     command("fit", "print constants fitted to the scenes to fit")
     command("presets", "print what faster steps and an earlier rest cost and change")
     command("compare", "print errors against particles before and after a change")
-    command("chart", "the same, and draw docs/fidelity.png and docs/convergence.png")
+    command("chart", "the same, and draw fidelity.png and convergence.png of docs/figures")
     commands.add_parser("seeds", help="write the table of draws anew")
     return parser.parse_args(arguments)
 
@@ -100,21 +98,31 @@ def main(arguments=None) -> int:
         before = by_scene(read(RESULTS / "before.jsonl"))
         print_convergence(scenes, before)
         if options.command == "chart":
-            draw_charts(scenes, before)
+            from benchmarks import charts
+
+            charts.make("fidelity", "convergence")
     return 0
 
 
-def draw_charts(scenes, before) -> None:
-    """Draw docs/fidelity.png of scenes after a change, and docs/convergence.png with those before it."""
-    from benchmarks.fidelity.chart import draw_error_and_cost
-    from benchmarks.fidelity.convergence import draw_convergence
-    from landlab_debrisflow.plots import save_figure
+def kept(label: str):
+    """Return the stored results of a label, by scene."""
+    from benchmarks.fidelity.replay import by_scene
 
-    for name, figure in (
-        ("fidelity", draw_error_and_cost(scenes)), ("convergence", draw_convergence(scenes, before)),
-    ):  # fmt: skip
-        save_figure(figure, DOCS / f"{name}.png", dpi=100)
-        print(f"Wrote docs/{name}.png")
+    return by_scene({run: result for run, result in read(RESULTS / f"{label}.jsonl").items() if run.label == label})
+
+
+def chart_of_cost():
+    """Return the figure of error against cost, and of stated against true errors."""
+    from benchmarks.fidelity.chart import draw_error_and_cost
+
+    return draw_error_and_cost(kept("after"))
+
+
+def chart_of_convergence():
+    """Return the figure of errors against the number of particles, before and after a change."""
+    from benchmarks.fidelity.convergence import draw_convergence
+
+    return draw_convergence(kept("after"), kept("before"))
 
 
 def wanted_runs(options) -> list[Run]:

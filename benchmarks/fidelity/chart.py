@@ -6,11 +6,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
+from benchmarks import style
 from landlab_debrisflow.fidelity.table import WORDS
 
 from .campaign import FAST, FULL, PHYSICS_PARTICLES, SETS, TRUTH
 from .replay import QUANTITIES, complete, replay, true_errors
-from .score import HELD, LEAST, pairs
+from .score import HELD, pairs
+
+COLOURS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, "0.35")
+"""Of the quantities."""
 
 FLOOR = 1e-3
 """Errors below this are drawn here: less is not known [-]."""
@@ -18,8 +22,8 @@ FLOOR = 1e-3
 PERCENT = FuncFormatter(lambda value, _: f"{100.0 * value:g} %")
 
 MARKS = {
-    "column=none": ("v", "column none"), "column=classical": ("s", "column classical"),
-    "column=ale": ("o", "column ale"), "flow=two_phase": ("D", "two phases"),
+    "column=none": ("v", "without a column"), "column=classical": ("s", "classical column"),
+    "column=ale": ("o", "ALE column"), "flow=two_phase": ("D", "two phases"),
     "flow=one_phase": ("p", "one phase"),
 }  # fmt: skip
 """Choices of physics that are marked, with 1000 particles."""
@@ -33,7 +37,7 @@ def largest_error(result, truth, names=HELD) -> float:
 
 def draw_error_and_cost(scenes) -> Figure:
     """Return the chart of error against cost, with stated against true errors beside it."""
-    figure = Figure(figsize=(14.0, 7.2), layout="constrained")
+    figure = Figure(figsize=(14.0, 7.6), layout="constrained")
     axes, beside = figure.subplots(1, 2, width_ratios=(1.45, 1.0))
     random = complete(scenes, [*SETS["fit"], *SETS["held-out"]])
     for number, name in enumerate([*random, *complete(scenes, SETS["nine"])]):
@@ -51,15 +55,18 @@ def draw_error_and_cost(scenes) -> Figure:
         axes.plot(choice.cost, error, **marker, mec="k" if nine else "none", mew=0.6, zorder=5 if nine else 2)
         if nine:
             mark_physics(axes, runs, full, truth, colour)
-    for marker, words in [*MARKS.values(), ("*", "plan, 5 % of run-out and speed, pilots counted")]:
-        axes.plot([], [], marker, color="0.5", mec="k", ls="none", label=words)
-    axes.axhline(0.05, color="k", lw=0.8, ls=":")
-    axes.set(xscale="log", yscale="log", xlabel=f"CPU time over that of {FULL} particles with default steps")
+    for marker, words in MARKS.values():
+        axes.plot([], [], marker, color="0.5", mec="k", ls="none", label=f"{words}, {PHYSICS_PARTICLES} particles")
+    axes.plot([], [], "*", ms=10, color="0.5", mec="k", ls="none", label="plan for 5 %, pilot runs counted")
+    axes.axhline(0.05, color="k", lw=0.8, ls=":", label="tolerance of the plans")
+    axes.set(xscale="log", yscale="log", xlabel=f"CPU time over that of {FULL} particles with default steps [-]")
     axes.set(ylabel=f"error of run-out or peak speed, the larger, against {TRUTH} particles")
     axes.yaxis.set_major_formatter(PERCENT)
-    axes.set_title(f"one line a scene: {', '.join(map(str, FAST))} particles, fast steps; marks: {PHYSICS_PARTICLES}")
-    figure.legend(*axes.get_legend_handles_labels(), fontsize="small", ncols=6, loc="outside lower center")
+    axes.set_title(f"A line for each scene: fast steps with {', '.join(map(str, FAST))} particles", fontsize="medium")
     draw_stated(beside, [replay(scenes[name], 0.05, HELD) for name in complete(scenes, SETS["held-out"])])
+    place = {"fontsize": "small", "frameon": False}
+    figure.legend(*axes.get_legend_handles_labels(), ncols=4, loc="outside lower left", **place)
+    figure.legend(*beside.get_legend_handles_labels(), ncols=2, loc="outside lower right", **place)
     return figure
 
 
@@ -76,13 +83,12 @@ def draw_stated(axes, choices) -> None:
     for number, name in enumerate(QUANTITIES):
         stated, true = pairs(choices, name).T
         covered = float(np.mean(true <= stated)) if true.size else math.nan
-        label = f"{WORDS[name]}: {100.0 * covered:.0f} % covered"
-        axes.plot(np.maximum(true, FLOOR), np.maximum(stated, FLOOR), ".", color=f"C{number}", ms=5, label=label)
+        label = f"{WORDS[name]}: stated covers true in {100.0 * covered:.0f} %"
+        colour = COLOURS[number]
+        axes.plot(np.maximum(true, FLOOR), np.maximum(stated, FLOOR), ".", color=colour, ms=5, label=label)
     ends = np.array([FLOOR, 2.0])
-    axes.plot(ends, ends, "k-", lw=0.8)
-    axes.axvline(LEAST, color="0.7", lw=0.8, zorder=0)
-    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="true error", ylabel="stated error, of particles")
+    axes.plot(ends, ends, "k-", lw=0.8, label="stated equals true")
+    axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends, xlabel="true error", ylabel="stated error of particles")
     axes.xaxis.set_major_formatter(PERCENT)
     axes.yaxis.set_major_formatter(PERCENT)
-    axes.set_title(f"{len(choices)} unseen scenes, plans of 5 % for run-out and speed")
-    axes.legend(fontsize="x-small", loc="lower right")
+    axes.set_title(f"{len(choices)} unseen scenes, plans for 5 % of run-out and speed", fontsize="medium")

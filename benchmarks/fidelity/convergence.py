@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks import style
 from landlab_debrisflow.fidelity.table import WORDS
 
 from .campaign import FULL, SETS
@@ -53,18 +54,24 @@ def draw_convergence(after, before) -> Figure:
     panels = figure.subplots(2, 4, sharex=True).ravel()
     names = common(after, before)
     for axes, name in zip(panels, QUANTITIES, strict=False):
-        for scenes, words, colour in ((before, "before", "0.55"), (after, "after", "tab:blue")):
+        for scenes, words, colour in ((before, "before", "0.55"), (after, "after", style.BLUE)):
             errors = 100.0 * errors_by_count(scenes, names, name)
             if errors.size:
-                axes.plot(COUNTS, np.median(errors, axis=1), "o-", color=colour, label=f"{words}, median")
-                axes.plot(COUNTS, np.quantile(errors, 0.9, axis=1), "s--", color=colour, label=f"{words}, 90 %")
+                axes.plot(COUNTS, np.median(errors, axis=1), "o-", color=colour, label=f"{words}: median")
+                axes.plot(
+                    COUNTS,
+                    np.quantile(errors, 0.9, axis=1),
+                    "s--",
+                    color=colour,
+                    label=f"{words}: 90 % of the scenes are below",
+                )
         axes.set(xscale="log", title=WORDS[name], xticks=COUNTS, xticklabels=COUNTS)
         axes.set_ylim(bottom=0.0)
         axes.minorticks_off()
     panels[-1].axis("off")
     handles = panels[0].get_legend_handles_labels()
-    panels[-1].legend(*handles, loc="center")
-    figure.supxlabel("particles")
-    figure.supylabel(f"error against {FULL} particles of the same version [%]")
-    figure.suptitle(f"{len(names)} random scenes, default steps")
+    panels[-1].legend(*handles, loc="center", frameon=False)
+    figure.supxlabel("number of particles")
+    figure.supylabel(f"error against {FULL} particles of the same version [%]", fontsize="medium")
+    figure.suptitle(f"Engine before and after the change, {len(names)} random scenes, default steps")
     return figure

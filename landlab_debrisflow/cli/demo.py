@@ -22,13 +22,14 @@ MATERIAL = {"initial_pressure_profile": "basal_layer"}
 """The start of Pastor et al. (2022), section 4.2.2: a basal layer of h/10 at 0.65 of liquefaction."""
 
 LEVELS = 41
-"""Of the columns: the memory of the classical one is a layer that 11 levels do not resolve (docs/decisions.md)."""
+"""Levels of both columns: the classical one keeps its pressure in a layer that 11 levels do not resolve
+(docs/decisions.md)."""
 
 DEPOSIT = 0.1
 """Least depth that counts as deposit, for medians and in the figure [m]."""
 
 FRONT_FRACTION = 0.99
-"""The front is where this part of the deposited volume lies behind: a stray particle is no front."""
+"""Fraction of the deposited volume that lies behind the front: single particles far ahead do not count [-]."""
 
 
 def run_demo(particles: int, output_dir, console: Console) -> dict[str, dict[str, float]]:

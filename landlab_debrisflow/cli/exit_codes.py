@@ -9,7 +9,7 @@ MEANING = {
     INTERNAL_ERROR: "an error of the program; please report it",
     USER_ERROR: "an argument, file or key cannot be used",
     STILL_MOVING: "results are written, but the flow still moved after max_duration",
-    CANNOT_WRITE: "a file cannot be written, the disk is full perhaps; what was computed is kept",
+    CANNOT_WRITE: "a file cannot be written, the disk is full perhaps; computed results are kept",
     DIVERGED: "the computation failed; the last checkpoint is kept",
     SIGNALLED + 2: "interrupted by Ctrl-C; the run can be resumed",
     SIGNALLED + 15: "ended by SIGTERM; the run can be resumed",

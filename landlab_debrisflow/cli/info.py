@@ -14,7 +14,7 @@ from . import laws
 
 
 def add_command(commands) -> None:
-    """Add the command to a parser's."""
+    """Add the command to the commands of a parser."""
     info = commands.add_parser("info", help="list laws and parameters with formula, source, units, defaults and bounds")
     info.add_argument(
         "law", nargs="?", help="law, kind of law (friction, erosion, column, flow) or other keyword; by default all"
@@ -63,7 +63,7 @@ def _show(console, entry, remark=""):
         return
     table = Table(box=None, pad_edge=True, header_style="dim")
     for heading in HEADINGS:
-        table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names stay whole
+        table.add_column(heading, overflow="fold", no_wrap=heading == "parameter")  # names of parameters are not broken
     for row in entry.rows:
         table.add_row(*map(escape, row))
     console.print(table, "", highlight=False)

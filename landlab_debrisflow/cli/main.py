@@ -52,7 +52,7 @@ def exit_code(command: Callable[[], int | None]) -> int:
             return _fail(error, USER_ERROR)
         except SimulationError as error:
             return _fail(error, DIVERGED)
-        except BrokenPipeError:  # whoever read standard output has ended, as `head` does
+        except BrokenPipeError:  # the reader of standard output has ended, as `head` does
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return DONE
         except OSError as error:

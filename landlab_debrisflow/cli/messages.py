@@ -46,7 +46,7 @@ class _MonitoredHandler(logging.StreamHandler):
 
 @contextmanager
 def messages(quiet: bool = False, verbose: bool = False, log_file: Path | None = None) -> Iterator[Monitor]:
-    """Send messages of the package in a block where they belong; yield the monitor of its run.
+    """Send the messages of the package in a block to the terminal and to a log file; yield the monitor of the run.
 
     On a terminal progress is one line, elsewhere a line every half minute with the time of day.
 
@@ -55,7 +55,7 @@ def messages(quiet: bool = False, verbose: bool = False, log_file: Path | None =
     quiet : bool
         Whether standard error gets errors only.
     verbose : bool
-        Whether it gets what the package tells besides warnings.
+        Whether standard error gets further messages of the package, besides warnings.
     log_file : Path, optional
         File to which all messages are appended, progress as well.
 
@@ -97,6 +97,6 @@ def messages(quiet: bool = False, verbose: bool = False, log_file: Path | None =
 def _is_shown(record: logging.LogRecord, terminal: bool, verbose: bool) -> bool:
     if record.name == PROGRESS:
         return not terminal
-    if record.module == "interruption":  # said by the error in which the command ends
+    if record.module == "interruption":  # the error in which the command ends says so
         return False
     return verbose or record.levelno >= logging.WARNING

@@ -15,7 +15,7 @@ FORMATS = ("netcdf", "zarr", "geotiff")
 
 
 def add_commands(commands) -> None:
-    """Add the commands to a parser's."""
+    """Add the commands about scenes to the commands of a parser."""
     new = _command(commands, "new", _new, "write a commented scene file, of an example or of files of your own")
     new.add_argument("scene", type=Path, help="scene file to be written")
     new.add_argument(
@@ -61,7 +61,9 @@ def _command(commands, name: str, function, words: str, end: str | None = None):
 
 def _add_message_options(parser) -> None:
     parser.add_argument("--quiet", "-q", action="store_true", help="write errors only")
-    parser.add_argument("--verbose", "-v", action="store_true", help="write what the package tells besides warnings")
+    parser.add_argument(
+        "--verbose", "-v", action="store_true", help="write further messages of the package, besides warnings"
+    )
     parser.add_argument("--log", type=Path, metavar="FILE", help="append all messages to a file, progress as well")
 
 

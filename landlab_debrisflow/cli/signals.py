@@ -31,7 +31,7 @@ class EndingSignal:
 
 @contextmanager
 def ending_signals() -> Iterator[EndingSignal]:
-    """Let signals end a run in a block as Ctrl-C does, unless ``nohup`` or so ignores them."""
+    """Let signals end a run in a block as Ctrl-C does, unless they are ignored, as under ``nohup``."""
     ending, earlier = EndingSignal(), {}
     if threading.current_thread() is threading.main_thread():
         for name in ENDING:

@@ -44,7 +44,7 @@ class History:
         value, count = self._read(self.given(time), f" at t = {time:g} s"), self.value.size
         if value.size not in (1, count):
             shape = f"returned shape {value.shape} at t = {time:g} s"
-            refuse(f"{self.name} {shape}; it must return one number, or {count}, one per column, at every time")
+            refuse(f"{self.name} {shape}; a function must return one number, or {count}, one per column, at every time")
         return np.array(np.broadcast_to(value, (count,)))
 
     def _read(self, value, when=""):
@@ -239,7 +239,8 @@ def _checked_law(given, histories):
     parameters = {name: given[name] for name in names}
     if given["advance"] == "every_step" or given["tolerance"] is not None:
         parameters["tolerance"] = 0.0 if given["advance"] == "every_step" else given["tolerance"]
-    law = (Classical if given["law"] == "classical" else ALE)(**parameters)  # ALE also where only to check
+    # a constant ratio has no such parameters: ALE checks them
+    law = (Classical if given["law"] == "classical" else ALE)(**parameters)
     if given["law"] == "constant_ratio":
         return ConstantRatio(ratio=float(histories["basal_pressure_ratio"].value.item()))
     return law if histories["loading"].value.any() else dataclasses.replace(law, loading_source="none")
@@ -288,12 +289,12 @@ def _given_profile(given):
 
 
 def _profile_of_word(given, inputs, pressure) -> np.ndarray:
-    """Return the profile a word means, with `pressure` at the base [Pa]."""
+    """Return the profile [Pa] that `initial` names by a word, with `pressure` at the base [Pa]."""
     levels, shape = given["levels"], given["initial"]
     if inputs.loading[0] > 0.0:
         load = inputs.loading * inputs.thickness
-    else:  # none that the pressure could exceed at any level; a power of two, so that the ratio loses no digit
+    else:  # a load that no level exceeds; a power of two, so that the division loses no digit
         load = np.exp2(np.ceil(np.log2(np.maximum(np.abs(pressure), 1e-300))) + np.ceil(np.log2(levels)))
     profile = initial_profile(load, levels, pressure / load, shape, given["initial_layer_fraction"])
-    profile[:, -1] = 0.0  # also where there is suction
+    profile[:, -1] = 0.0  # suction, too, is 0 at the surface
     return profile

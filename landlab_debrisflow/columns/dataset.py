@@ -14,7 +14,7 @@ from .declarations import NUMBERS, SINGLE_NUMBERS
 VARIABLES = {
     "excess_pore_pressure": ("Pa", "excess pore pressure"),
     "thickness": ("m", "slope-normal thickness"),
-    "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base, as friction feels it"),
+    "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base, for friction"),
     "basal_peclet_number": ("-", "erosion rate times thickness over coefficient of consolidation"),
     "front_height": ("-", "height over thickness of the front between old soil and new"),
     "front_age": ("s", "time since the column first eroded"),

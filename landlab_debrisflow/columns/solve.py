@@ -15,9 +15,10 @@ from .arguments import History, Inputs, read_inputs, refuse
 from .dataset import dataset
 
 DRAINED, PRESCRIBED = np.int8(BaseContact.DRAINED), np.int8(BaseContact.PRESCRIBED)
-CHANGE = 1.0 / 400.0  # largest growth and strain of a column in one step, and part of the time where inputs vary
-TOO_SHORT = 1e-13  # of the span of times, below which a step would no longer move the clock
-BOUNDS = 1e-100, 1e100  # of thickness [m]: the square is a number too
+# largest relative growth or strain of a column in a step; longest step over all times if inputs vary
+CHANGE = 1.0 / 400.0
+TOO_SHORT = 1e-13  # least step over all times: rounding would swallow a shorter one
+BOUNDS = 1e-100, 1e100  # thickness [m] whose square is neither 0 nor infinite
 
 
 def solve_column(
@@ -121,7 +122,7 @@ def solve_column(
     Raises
     ------
     ParameterError
-        If an argument is not usable or does not go with another, if a function of time returns what is not
+        If an argument is not usable or does not go with another, if a function of time returns a value that is not
         usable, or if a column thins to nothing.
 
     Examples
@@ -182,7 +183,7 @@ class _History:
         dt = left
         if self.varies or getattr(inputs.law, "scheme", "default") != "default":
             dt = min(dt, CHANGE * inputs.times[-1])
-        for _ in range(100):  # the rates are those of the middle, which comes nearer with a shorter step
+        for _ in range(100):  # rates are taken at the middle of the step, which moves when the step is shortened
             middle = self.time + 0.5 * dt
             growth = inputs.entrainment_rate.at(middle) / self.columns.forcing.thickness
             strain = inputs.divergence_rate.at(middle)
@@ -196,9 +197,9 @@ class _History:
         """Advance to `end` [s]: thickness and volume exactly for rates that are constant in the step."""
         inputs, dt, middle, before = self.inputs, end - self.time, 0.5 * (self.time + end), self.columns.forcing
         rate, strain = inputs.entrainment_rate.at(middle), inputs.divergence_rate.at(middle) * dt
-        with np.errstate(over="ignore"):  # refused below
+        with np.errstate(over="ignore"):  # an infinite thickness is refused below
             gain = np.divide(np.expm1(strain), strain, out=np.ones_like(strain), where=strain != 0.0)
-            growth = rate * dt / before.thickness * gain  # of the volume
+            growth = rate * dt / before.thickness * gain  # relative growth of the volume
             thickness = before.thickness * np.exp(-strain) * (1.0 + growth)
             entrained = before.volume * growth
             volume = before.volume + entrained

@@ -1,1 +1,1 @@
-"""Tools every layer shares: declarations, units, errors and the compiler. No debris, no grid."""
+"""Tools that all layers share: declared parameters, units, errors, numba's decorators."""

@@ -13,7 +13,7 @@ def require(good, name: str, allowed: str, values, where="", remedy: str = "", f
     good : bool or array_like of bool
         Verdict on all values, or on each of them: the message then shows the first bad one.
     name : str
-        Of the argument, parameter or field, with its owner in front.
+        Name of the argument, parameter or field, with its owner in front.
     allowed : str
         Words after "must".
     values : object
@@ -56,18 +56,18 @@ def in_range(
     Parameters
     ----------
     name : str
-        Of the argument, parameter or field, with its owner in front.
+        Name of the argument, parameter or field, with its owner in front.
     values : float or ndarray
     low, high : float
         Ends of the interval, in `unit`.
     unit : str
         ``"-"`` for none.
     where, remedy, form, error
-        As of `require`.
+        As in `require`.
     open_ends : tuple of bool
         Whether low and high are themselves outside.
     ignored, refused : bool or ndarray of bool
-        Which values may be anything, and which are refused though they lie in the interval.
+        Values that are not checked, and values that are refused although they lie in the interval.
 
     Raises
     ------

@@ -27,7 +27,7 @@ def checked_coordinates(name: str, value: Any, form: str, named: bool = False) -
     Parameters
     ----------
     name : str
-        Of the parameter, for messages.
+        Name of the parameter, for messages.
     value : object
         Nested lists, or arrays; with `named` also a mapping of names to one feature each.
     form : {"points", "lines", "polygons", "table"}
@@ -111,7 +111,7 @@ def _pair(name, value) -> Pair:
 def _number(name, value) -> float:
     try:
         number = math.nan if isinstance(value, bool) or not isinstance(value, Real) else float(value)
-    except OverflowError:  # of an integer
+    except OverflowError:  # an integer too large for a float
         number = math.inf
     if not math.isfinite(number):
         raise ParameterError(f"{name} must be two finite numbers, got {_told(value)}{give_number(value)}")

@@ -6,7 +6,7 @@ import re
 import textwrap
 
 WIDTH = 100
-"""Of lines in the section [characters]."""
+"""Width of the lines of the section [characters]."""
 
 
 def with_parameters(docstring: str | None, fields) -> str | None:

@@ -23,7 +23,7 @@ class OutputError(InputError):
 
 
 class SimulationError(RuntimeError):
-    """The state stopped being finite, or steps became too short to get on.
+    """The state stopped being finite, or steps became too short to advance.
 
     Parameters
     ----------
@@ -35,9 +35,9 @@ class SimulationError(RuntimeError):
     Attributes
     ----------
     time : float
-        Elapsed time of the event at which it was noticed [s].
+        Elapsed time of the event when the failure was noticed [s].
     particle : int or None
-        Number of a particle concerned, in order of release; None: it is of all.
+        Number of a particle concerned, in order of release; None if the failure concerns all.
     variable : str
         Name of the variable that is not finite.
     """
@@ -51,5 +51,5 @@ class SimulationError(RuntimeError):
         )
 
     def __reduce__(self):
-        # so that it comes back from a worker: by default it would be built from its message
+        # pickles rebuild an exception from its message alone; a worker process must return the other attributes, too
         return type(self), (self.variable, self.particle, self.time, self._value), vars(self)

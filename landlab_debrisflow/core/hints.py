@@ -12,7 +12,7 @@ def python_value(value: Any):
 
 
 def same_word(word: Any, allowed: Iterable[str]) -> str | None:
-    """Return the allowed word that equals `word` but for upper and lower case, or None.
+    """Return the allowed word that equals `word` if case is ignored, or None.
 
     Examples
     --------

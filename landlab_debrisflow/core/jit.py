@@ -2,15 +2,15 @@
 
 Kernels are cached on disk, release the interpreter lock (members of an ensemble and ranges of
 cells run in threads) and may reorder sums, but never assume that numbers are finite: a NaN must
-survive until the check after the step. But in a kernel np.isfinite() asks whether v - v is a number, and of a v
-that is itself a sum reordering makes that 0: compare abs(v) with infinity instead. The order of sums is decided when
-a kernel is compiled, the same way every time: on one machine results are bit-equal, whichever process compiled it.
-Another processor may get other bits.
+survive until the check after the step. A kernel must not call np.isfinite(v), which tests v - v: if v is a sum,
+reordering simplifies v - v to 0. Compare abs(v) with infinity instead. The order of sums is decided when a kernel is
+compiled, the same way every time: on one machine results are bit-equal, whichever process compiled it. Another
+processor may get other bits.
 
-Functions that Python calls are compiled once and cached. Functions that a kernel calls are compiled again as
-a part of it, so a large function is best called from one place, and a stage that is called from
-several is best a kernel that Python calls (3 to 6 us). `python -m benchmarks.start --kernels` shows
-what each costs. A kernel calls no kernel: see `inner`.
+Functions that Python calls (`kernel`) are compiled once and cached. Functions that a kernel calls (`inner`) are
+compiled again as a part of every caller. A large function is therefore best called from one place, and a stage that
+several places call is best a kernel of its own: a call from Python takes 3 to 6 us. `python -m benchmarks.start
+--kernels` shows how long each kernel compiles. A kernel calls no kernel: see `inner`.
 """
 
 from typing import Any
@@ -39,6 +39,7 @@ inner: Any = register_jitable(fastmath=_REORDER, forceinline=True, **_CHOICES)
 """Decorator of functions that only kernels call. Without an entry from Python and a file in the cache they cost half
 the time to compile. Called from Python they run as plain Python.
 
-Such a function always becomes a part of its callers. As a function of its own it would be in the object code of each of
-them, by one name, reordered differently; a process calls the copy it meets first, which is another one when kernels are
-compiled than when they are loaded."""
+Such a function always becomes a part of its callers. If it were a function of its own, the object code of every caller
+would hold a copy of it by the same name, each with its own order of sums. A process calls the copy that it meets first,
+and this is a different one when kernels are compiled than when they are loaded from the cache: results would depend on
+the cache."""

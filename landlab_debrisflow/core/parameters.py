@@ -64,7 +64,7 @@ def parameter(
     remedy : str
         Advice that ends the refusal of a number.
     file : bool
-        Whether the name of a file will do for a number, or is what is wanted, of the kind str.
+        Whether the name of a file will do for a number; with the kind str, whether the text is the name of a file.
     items : type, optional
         Declared class, of which the parameter is a list of instances, or of mappings that describe them.
     coordinates : {"points", "lines", "polygons", "table"}, optional
@@ -119,7 +119,7 @@ def declared(cls: type[T]) -> type[T]:
             self._agree()
 
     made: Any = cls
-    made.__post_init__ = check  # before dataclass() runs: it looks for the method only then
+    made.__post_init__ = check  # dataclass() looks for __post_init__ only while it runs
     made = dataclasses.dataclass(frozen=True, kw_only=True)(made)
     made.__doc__ = with_parameters(made.__doc__, dataclasses.fields(made))
     return made
@@ -131,7 +131,7 @@ def on_nodes(obj: Any, fields: Mapping[str, Any]) -> Any:
     Parameters
     ----------
     obj : object
-        Of a class made by `declared`; anything else has no parameters.
+        Object of a class made by `declared`; anything else has no parameters.
     fields : mapping of str to ndarray
         Arrays over nodes, by the names that parameters may be given as.
 

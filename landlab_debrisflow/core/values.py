@@ -38,7 +38,7 @@ class NodeValues:
         self.values.flags.writeable = False
 
     def __reduce__(self):
-        return NodeValues, (self.values,)  # an array by itself would come out of a pickle writeable
+        return NodeValues, (self.values,)  # a pickled array would come back writeable
 
     def __eq__(self, other):
         return isinstance(other, NodeValues) and np.array_equal(self.values, other.values, equal_nan=True)
@@ -194,11 +194,11 @@ def _checked_number(name: str, value: Any, meta):
         raise ParameterError(f"{name} must be {word} [{unit}]{others}, got {value!r}{hint}")
     try:
         number = float(value)
-    except OverflowError:  # of an integer
+    except OverflowError:  # an integer too large for a float
         number = math.inf
     low, high = meta["bounds"]
     told = value if kind is int and abs(number) < MOST_WHOLE else number
-    if kind is int and told is number:  # no array holds it
+    if kind is int and told is number:  # numpy's arrays of integers hold no larger one
         low, high = max(low, -MOST_WHOLE), min(high, MOST_WHOLE)
     in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
     return int(value) if kind is int else number
@@ -214,7 +214,7 @@ def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[st
     mapping : mapping
         Values of parameters by name.
     relatives : mapping of str to type, optional
-        Other classes by name; a key that is unknown here may be one of theirs, and then that is said.
+        Other classes by name; if an unknown key is a parameter of one of these classes, the message says so.
 
     Raises
     ------

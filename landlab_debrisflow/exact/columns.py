@@ -10,11 +10,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import erf, erfc, erfcx
 
+__all__ = [
+    "basal_consolidation",
+    "consolidation",
+    "consolidation_modes",
+    "constant_local_peclet",
+    "front",
+    "growing_column",
+]
+
 LINEAR, BASAL_LAYER = "linear", "basal_layer"
 """Profiles from which `consolidation` starts."""
 
 MOST_MODES = 10_000
-"""Of a series: the start of a linear profile is then 1 at the base to 2e-5."""
+"""Most terms of a series: a linear profile is then 1 at the base at time 0, within 2e-5."""
 
 
 def growing_column(xi: ArrayLike, time: float, peclet: float, start: float = 0.0) -> np.ndarray:
@@ -98,7 +107,7 @@ def constant_local_peclet(xi: ArrayLike, peclet: float) -> np.ndarray:
 def consolidation(xi: ArrayLike, time: float, start: str = LINEAR, layer: float = 1.0) -> np.ndarray:
     """Return the pressure in a column over an impermeable base that consolidates through its surface.
 
-    Terzaghi's series, as many terms as matter at that time.
+    Sum Terzaghi's series; terms below exp(-40) are left out.
 
     Parameters
     ----------
@@ -126,7 +135,7 @@ def consolidation(xi: ArrayLike, time: float, start: str = LINEAR, layer: float 
     [0.7477, 0.4959, 0.0687]
     """
     xi = np.asarray(xi, dtype=float)
-    # terms beyond exp(-40), and never fewer than a linear start needs at time 0
+    # all terms above exp(-40); at time 0 as many as the start of a linear profile needs
     terms = MOST_MODES if time <= 0.0 else int(min(MOST_MODES, 5.0 + np.sqrt(40.0 / time) / np.pi))
     wave, weight = consolidation_modes(terms, start, layer)
     return np.cos(xi[..., None] * wave) @ (weight * np.exp(-(wave**2) * time))
@@ -140,9 +149,9 @@ def basal_consolidation(time: ArrayLike, start: str = LINEAR, layer: float = 1.0
     time : array_like
         ``c_v t / h^2`` [-], >= 0.
     start, layer
-        As of `consolidation`.
+        As in `consolidation`.
     modes : int
-        Number of terms; 2000 leave 1e-4 at time 0, and nothing soon after.
+        Number of terms; 2000 leave an error of 1e-4 at time 0, and none soon after.
 
     Returns
     -------
@@ -166,7 +175,7 @@ def consolidation_modes(count: int, start: str = LINEAR, layer: float = 1.0) -> 
     count : int
         Number of modes, the slowest first.
     start, layer
-        As of `consolidation`.
+        As in `consolidation`.
 
     Returns
     -------

@@ -32,7 +32,7 @@ class Choice(NamedTuple):
     Attributes
     ----------
     value : object
-        What was chosen.
+        The chosen value.
     words : str
         The choice in words.
     rule : str
@@ -153,7 +153,7 @@ def phase_warning(event: Event, thickness: float, coefficient: float) -> tuple[f
     ----------
     event : Event
     thickness : float
-        Of the flow [m].
+        Thickness of the flow [m].
     coefficient : float
         Coefficient of consolidation [m2 s-1].
 

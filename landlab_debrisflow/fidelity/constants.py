@@ -1,6 +1,7 @@
 """Constants of plans: how errors follow from pilot runs, and which choices are free.
 
-Those of `ERROR_LAWS` and `FORECAST_RANGE` are fitted to scenes and tested on others (`python -m benchmarks.fidelity`).
+`ERROR_LAWS` and `FORECAST_RANGE` are fitted to 70 scenes and tested on 130 further ones (`python -m
+benchmarks.fidelity`).
 """
 
 from typing import NamedTuple
@@ -11,10 +12,10 @@ PILOTS = (250, 500, 1000)
 """Particles of the pilot runs, ascending; each twice as many as the one before."""
 
 TOLERANCE, HOLD = 0.05, ("run_out", "speed")
-"""Tolerance [-] and quantities of a plan that is asked for none."""
+"""Tolerance [-] and quantities of a plan if the user names none."""
 
 MOST_PARTICLES = 8000
-"""Most particles of a plan that is given no other limit."""
+"""Most particles of a plan if the user sets no limit."""
 
 
 class ErrorLaw(NamedTuple):
@@ -25,7 +26,7 @@ class ErrorLaw(NamedTuple):
     factor : float
         k, error that 95 % of the fitted scenes stay below, over the base of pilot runs [-].
     least : float
-        f, what is added to it [-].
+        f, added to the product of factor and base [-].
     order : float
         p, power of the number of particles by which it falls [-].
     related : tuple of str
@@ -56,24 +57,26 @@ ERROR_LAWS = {
         reason="it depends on the pore pressure left at the stop; run-out and eroded volume can be held",
     ),
 }  # fmt: skip
-"""By quantity, in the order of `QUANTITIES`. Related quantities are those whose bases covered the errors of the fitted
-scenes with the least stated error: a difference of one quantity is small by accident."""
+"""Error laws by quantity, in the order of `QUANTITIES`. The base of one quantity may be small by accident, so the
+largest base of several related quantities counts: the set that covered the errors of the fitted scenes with the
+smallest stated error."""
 
 assert tuple(ERROR_LAWS) == QUANTITIES
 
 CHANGE_FACTOR = 1.5
-"""Error after a run with more particles over what Richardson's extrapolation makes of the change since the pilots, if
-that is more than was stated before [-]."""
+"""Error after a run with more particles over the error that Richardson's extrapolation gives from its difference to the
+pilot runs [-]; it counts if it exceeds the error stated before the run."""
 
 LEAST_STEP_ORDER = 0.3
-"""Least power of the number of particles by which the number of steps grows [-]: waves limit it later, if not in the
-pilot runs."""
+"""Least power of the number of particles with which the number of steps grows [-]: with more particles waves limit the
+step, even if they did not in the pilot runs."""
 
 FORECAST_RANGE = {1000: (0.9, 1.1), 2000: (0.87, 1.3), 4000: (0.86, 1.6), 8000: (0.8, 1.8)}
 """Forecast over actual cost, 5 and 95 % of scenes, by number of particles [-]."""
 
 NO_PRESSURE_RATIO = 0.0015
-"""T_c/T up to which columns drain so fast that they need not be computed, where neither body nor bed bring pressure."""
+"""Largest T_c/T with which columns need not be computed, because they drain fast and neither body nor bed bring
+pressure [-]."""
 
 FINE_COLUMN_RATIO, LEVELS, FINE_LEVELS = 30.0, 11, 21
 """T_c/T above which pressure and deposit need more levels; levels below and above it."""
@@ -86,19 +89,19 @@ PHASE_RATIO, STIFFNESS = 0.03, 125.0
 grains and water, with the default stiffness of the grains [m2 s-2]."""
 
 RASTER_COST, RASTER_COST_RATIO = 0.2, 0.61
-"""Largest cost of a run with every second node over the cost of the plan and the run to come, at which it is made
-unasked; its cost over that with all nodes [-]."""
+"""Largest cost of a run with every second node, over that of the plan and the run to come, with which it is made
+without being asked for; its cost over that of a run with all nodes [-]."""
 
 RASTER_PILOTS = (1000, 500)
 """Numbers of particles with which every second node may be examined, the better first."""
 
 NEVER_HELD = {
     "time_to_rest": "a flow ends in a creep whose duration changes by a fifth from one number of particles to the next",
-    "deposit_area": "it is the area of what lies there, which changes by a sixth; hold area, where the flow came",
+    "deposit_area": "the area of the deposit changes by a sixth; hold area, which the flow reached",
     "max_pressure": "it is that of one node; pressure is the 99 % quantile, which is stated",
     "deposit_thickness": "it changes by a fifth at one node; deposit is its mean by volume, which is stated",
 }  # fmt: skip
 """Why quantities that users ask for are refused."""
 
 NOTABLE_OUTFLOW = 0.01
-"""Least outflow of which a plan tells, over the volume that an event released, took in and eroded [-]."""
+"""Least outflow that a plan mentions, over the volume that an event released, took in and eroded [-]."""

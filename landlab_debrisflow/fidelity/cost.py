@@ -50,7 +50,7 @@ def forecast_cost(costs: Mapping[int, Cost], count: int) -> Cost:
     Parameters
     ----------
     costs : mapping of int to Cost
-        Of pilot runs by number of particles; one whose CPU time is not known has NaN.
+        Costs of pilot runs by number of particles; one whose CPU time is not known has NaN.
     count : int
         Number of particles of the run.
 

@@ -1,6 +1,6 @@
 """Stated errors: from the quantities of pilot runs to errors, and to the number of particles that a tolerance asks for.
 
-Nothing here runs a flow: runs are mappings of the number of particles to quantities, as `quantities` returns them.
+No function here runs a flow: runs are mappings of the number of particles to quantities, as `quantities` returns them.
 """
 
 import itertools
@@ -149,13 +149,14 @@ def errors_after(runs: Runs, count: int, finest: int, *, factor: float = CHANGE_
     count, finest : int
         Number of particles of the run and of the last pilot run.
     factor : float, optional
-        On what Richardson's extrapolation leaves [-].
+        Multiplies the error that Richardson's extrapolation gives [-].
 
     Returns
     -------
     dict of str to float
-        The larger of the error expected and a multiple of what Richardson's extrapolation leaves of the change since
-        the last pilot run, with f added; the errors of the pilot runs if the run has no more particles.
+        The larger of two errors: the one expected from the pilot runs, and a multiple of the one that Richardson's
+        extrapolation gives from the change since the last pilot run, with f added. If the run has no more particles
+        than the pilot runs, the errors of the pilot runs.
 
     References
     ----------

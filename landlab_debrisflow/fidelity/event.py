@@ -50,7 +50,7 @@ class Event:
         setup : Setup
             Laws, material, numerics and inflow in place of the own ones.
         observers : sequence of observers
-            As of `DebrisFlow`.
+            As in `DebrisFlow`.
 
         Returns
         -------
@@ -61,7 +61,7 @@ class Event:
 
     @cached_property
     def _spare(self) -> Any:
-        return copy_grid(self.grid)  # one for all pilot runs: to build a grid takes as long as a short one
+        return copy_grid(self.grid)  # all pilot runs share one grid: building a grid takes as long as a short run
 
     def run(self, flow: Any) -> None:
         """Run a flow of the event to rest, or for the longest time.
@@ -160,7 +160,7 @@ def with_count(setup: Setup, count: int, **others: Any) -> Setup:
     count : int
         Number of particles, in place of a spacing or of one to be found.
     **others
-        Of `Numerics`.
+        Other values of `Numerics`.
 
     Returns
     -------

@@ -19,7 +19,7 @@ FEWEST = 5
 
 
 def copy_grid(grid: RasterModelGrid) -> RasterModelGrid:
-    """Return a new grid with the same nodes, statuses and values of fields at nodes, but for outputs of a component.
+    """Return a new grid with the same nodes, statuses and fields at nodes, outputs of a component left out.
 
     Parameters
     ----------
@@ -56,8 +56,8 @@ def put_back(copied: RasterModelGrid, grid: RasterModelGrid) -> None:
 def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
     """Return a new grid of every second row and column, with the release of the same volume around the same centre.
 
-    Fields keep their values at the nodes that stay, the ground below the release too; its depth is spread from nodes
-    that go to their neighbours that stay. The edge keeps its statuses.
+    Fields, and the ground below the release, keep their values at the nodes that stay. The depth of the release at a
+    node that goes is divided among the neighbours that stay. The edge keeps its statuses.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def coarse_grid(grid: RasterModelGrid) -> RasterModelGrid:
     coarse = _new_grid(grid, shape, 2)
     places = [np.arange(0, count, 2) for count in grid.shape]
     for axis, count in zip(places, grid.shape, strict=True):
-        axis[-1] = count - 1  # the edge, also of an even number
+        axis[-1] = count - 1  # the last row and column belong to the edge, whether their number is odd or even
     kept = np.array(grid.status_at_node).reshape(grid.shape)[np.ix_(*places)]
     coarse.status_at_node[:] = kept.ravel()
     depth, momentum = _release(grid)
@@ -127,7 +127,7 @@ def every_second(values: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     values : ndarray, shape (rows, columns)
-        Those of nodes that go are halved between the neighbours that stay.
+        The value of a node that goes is halved between the two neighbours that stay.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def every_second(values: np.ndarray) -> np.ndarray:
         stay[: len(go)] += go
         stay[1:] += go[: len(stay) - 1]
         if len(go) == len(stay):
-            stay[-1] += go[-1]  # it has one neighbour only
+            stay[-1] += go[-1]  # a node at the end has one neighbour only
         values = np.moveaxis(stay, 0, axis)
     return values
 
@@ -183,7 +183,7 @@ def _release(grid) -> tuple[np.ndarray, np.ndarray | None]:
 def _lay_release(grid, depth, momentum) -> None:
     """Lay a release of some depth, (rows, columns) [m], on ground and soil of a coarse grid.
 
-    `momentum` is that of `_release` over the nodes of the grid that it was made of.
+    `momentum` is that of `_release` over the nodes of the fine grid.
     """
     at, flat = grid.at_node, depth.ravel()
     for name in (ELEVATION, SOIL):

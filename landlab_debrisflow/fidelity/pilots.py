@@ -29,18 +29,18 @@ class MeasuredPilot(NamedTuple):
     quantities : dict of str to float
         As `fidelity.quantities.quantities` returns them.
     creep : dict of str to float
-        Their changes since the kinetic energy fell below a small part of its peak, over their value at the end [-];
-        empty if it came to rest from above.
+        Changes of the quantities since the kinetic energy fell below a small part of its peak, over their values at the
+        end [-]; empty if the flow came to rest from above that level.
     creep_level : float
-        That part [-].
+        The small part of the peak [-].
     cost : Cost
         Steps and CPU time [s]; NaN for the time if kernels were compiled.
     at_rest : bool
-        Whether it came to rest.
+        Whether the flow came to rest.
     coefficient_of_consolidation : float
         Median over the particles [m2 s-1].
     outflow : float
-        Volume that left the grid over all that there was [-].
+        Volume that left the grid over the volume that was released, flowed in and eroded [-].
     """
 
     quantities: dict[str, float]
@@ -58,9 +58,9 @@ class EventRun(NamedTuple):
     Attributes
     ----------
     flow : DebrisFlow
-        At its end.
+        The component at the end of the run.
     complete : bool
-        Whether that is the end of the event.
+        Whether the event has come to its end.
     seconds : float
         CPU time [s].
     doubts : list of str

@@ -30,7 +30,7 @@ class Plan(Printed):
     setup : Setup
         Setup of the run.
     tolerance : float
-        Error that quantities to be held may have [-].
+        Largest error of the quantities to be held [-].
     hold : tuple of str
         Quantities to be held.
     rules : dict of str to tuple of str
@@ -38,7 +38,7 @@ class Plan(Printed):
     errors : dict of str to float
         Stated error by quantity, of particles, meant for 95 % of scenes [-]; NaN where nothing can be measured.
     raster_errors : dict of str to float
-        The same, of the raster; empty if it was not examined [-].
+        Stated error by quantity, of the raster [-]; empty if the raster was not examined.
     creep, creep_level : float
         Relative change of run-out after the kinetic energy fell below a part of its peak, and that part [-].
     still_moving : bool
@@ -52,13 +52,13 @@ class Plan(Printed):
     runs : dict of int to dict of str to float
         Quantities of the pilot runs by number of particles.
     origin : tuple of float
-        From where run-out is counted, x and y on the map [m].
+        Point from which run-out is counted, x and y on the map [m].
     volume : float
         Volume that is released and flows in [m3].
     digests : dict of str to str
-        Of the setup and the ground that the plan is for.
+        Digests of the setup and the ground that the plan is for.
     warnings : tuple of str
-        What no plan can help.
+        Doubts about the event that no choice of a plan removes.
     """
 
     particles: int
@@ -103,7 +103,7 @@ class Plan(Printed):
         Parameters
         ----------
         errors : mapping of str to float
-            Of particles, by quantity [-].
+            Errors of particles, by quantity [-].
 
         Returns
         -------
@@ -165,7 +165,7 @@ class Plan(Printed):
                 raise InputError(f"plan: format {mapping['format']!r} is not {FORMAT}, that of this version; plan anew")
             plan = cls(**_values(mapping, setup))
             stated_errors(plan.runs)
-            str(plan)  # nothing is missing
+            str(plan)  # no key is missing
         except InputError:
             raise
         except (ParameterError, LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
@@ -180,7 +180,9 @@ class Plan(Printed):
         rows.append(("cost", self._cost_words()))
         notes = [*self.warnings]
         if self.still_moving:
-            notes.append(f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are those then")
+            notes.append(
+                f"the event lasts longer than max_duration, {self.max_duration:g} s: errors are stated for this time"
+            )
         return Table(
             title=f"Plan: {grouped(self.particles)} particles, {self.rules['column'][0]}, {self.numerics.preset} steps",
             rows=rows, errors=error_rows(self, self.errors), raster=self.rules["raster"][1], notes=notes,
@@ -206,7 +208,7 @@ def error_rows(plan: Plan, errors: Mapping[str, float]) -> list[tuple[str, float
     ----------
     plan : Plan
     errors : mapping of str to float
-        Of particles, by quantity [-].
+        Errors of particles, by quantity [-].
 
     Returns
     -------

@@ -33,7 +33,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     event : Event
     wishes : Wishes
     notify : callable
-        Is told, in words, what begins.
+        Called with a text when a pilot run begins.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
     raster = examine_raster(event, setup, pilots, sum(known) + cost.seconds, wishes.raster, notify)
     phases, warnings = _phases(event, last)
     if last.outflow > NOTABLE_OUTFLOW:
-        warnings += (f"{percent(last.outflow)} of the volume leaves the grid: what is stated is of what stays on it",)
+        warnings += (f"{percent(last.outflow)} of the volume leaves the grid: errors are those of the rest",)
     errors = errors_with(errors, count, finest) if count > finest else errors
     coarse = [WORDS[name] for name in wishes.hold if raster.errors.get(name, 0.0) > wishes.tolerance]
     if coarse:
@@ -87,7 +87,7 @@ def make_plan(event: Event, wishes: Wishes, notify: Callable[[str], None] = log.
 
 
 def setup_digest(setup: Setup) -> str:
-    """Return a digest of all that a plan leaves to the user: numbers of particles and steps do not count."""
+    """Return a digest of the setup without the values that a plan chooses, such as the number of particles."""
     steps = choose_steps(setup.numerics, tolerance=1.0).value
     return with_count(dataclasses.replace(setup, numerics=steps), count=1).digest()
 
@@ -104,7 +104,8 @@ def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, Mea
 
     pilot = run(first, setup)
     column = choose_column(event, _measured_ratio(pilot), wishes.hold)
-    if column.value != guess.value or math.isnan(pilot.cost.seconds):  # of another column, or kernels were compiled
+    # the pilot had another column, or its time includes the compilation of kernels
+    if column.value != guess.value or math.isnan(pilot.cost.seconds):
         setup = dataclasses.replace(setup, column=column.value)
         pilot = run(first, setup)
     return column, {first: pilot} | {count: run(count, setup) for count in others}
@@ -132,7 +133,8 @@ def _choose_count(errors, costs: dict[int, Cost], wishes: Wishes) -> tuple[int, 
     asked = count_asked(errors, finest, wishes.tolerance, wishes.hold)
     count = next_count(asked, finest, wishes.max_particles)
     worst = max(wishes.hold, key=lambda name: errors[name] if errors[name] == errors[name] else -1.0)
-    rule = f"with {finest} the largest error of what is to be held is {percent(errors[worst])}, of {WORDS[worst]}"
+    largest = f"{percent(errors[worst])}, of {WORDS[worst]}"
+    rule = f"with {finest} the largest error of the quantities to be held is {largest}"
     rule += f", tolerance {100.0 * wishes.tolerance:g} %"
     if asked > finest:
         wanted = grouped(float(f"{asked:.3g}")) if math.isfinite(asked) else "more than any number"

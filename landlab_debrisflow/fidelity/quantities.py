@@ -29,7 +29,7 @@ def origin_of(grid: Any, setup: Any) -> tuple[float, float]:
     grid : RasterModelGrid
         Before the first call.
     setup : Setup
-        Of the flow.
+        Setup of the flow.
 
     Returns
     -------
@@ -69,9 +69,9 @@ def quantities(flow: Any, origin: tuple[float, float]) -> dict[str, float]:
 
         run_out, run_out_95, centre : plan distance behind which 99 and 95 % of the volume lie, and mean by volume
         area : map area with a peak depth > 0.1 m
-        deposit : mean depth of what lies on the ground, weighted by volume: sum d^2 / sum d
-        speed, speed_90, max_speed : 99 and 90 % quantiles, and largest, of the peak speeds of the nodes of that area
-        depth, mean_depth : 99 % quantile and mean of the peak depths there
+        deposit : mean depth of the deposit, weighted by volume: sum d^2 / sum d
+        speed, speed_90, max_speed : 99 and 90 % quantiles, and largest, of the peak speeds of the nodes of the affected
+        area depth, mean_depth : 99 % quantile and mean of the peak depths there
         pressure : 99 % quantile of the peak basal pressure ratios there
         eroded : volume eroded
         duration : elapsed time
@@ -116,7 +116,7 @@ class Decay:
     Attributes
     ----------
     origin : tuple of float
-        As of `quantities`, taken when the component is built [m].
+        As in `quantities`, taken when the component is built [m].
     found : dict of float to dict
         `quantities` by level, at the last time that the energy fell below it.
     """

@@ -22,7 +22,7 @@ class RasterErrors(NamedTuple):
     errors : dict of str to float
         By quantity [-]; empty if they were not examined.
     words : str
-        From which run, or why not.
+        The run from which the errors come, or why there is none.
     seconds : float
         CPU time [s].
     """
@@ -68,15 +68,15 @@ def examine_raster(
     ----------
     event : Event
     setup : Setup
-        That of the pilot runs.
+        Setup of the pilot runs.
     pilots : mapping of int to MeasuredPilot
         Pilot runs with all nodes by number of particles.
     cost : float
         CPU time of pilot runs and of the run to come [s].
     wanted : bool or None
-        None: if it is cheap.
+        Whether the user asks for the run; None: it is made if it is cheap.
     notify : callable
-        Is told what begins.
+        Called with a text when the run begins.
 
     Returns
     -------

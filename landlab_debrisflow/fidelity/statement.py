@@ -25,19 +25,19 @@ class Statement(Printed):
     setup : Setup
         Laws, material, numerics and inflow.
     state : str
-        How far it came, in words.
+        How far the run came, in words.
     particles : int
-        Particles that there were in all.
+        Number of all particles of the run.
     steps : int
         Steps.
     seconds : float
         CPU time of the calls, since the flow was built or loaded [s]; NaN: not told.
     plan : Plan or None
-        Plan by which it was made.
+        Plan that the run followed.
     errors : dict of str to float
         Stated error by quantity, of particles [-]; empty without a plan.
     source : str
-        From where the errors are, in words.
+        Origin of the errors, in words.
     """
 
     setup: Setup
@@ -98,13 +98,13 @@ def make_statement(
     ----------
     flow : DebrisFlow
     particles : int
-        Number of particles that there were in all.
+        Number of all particles of the run.
     seconds : float
         CPU time of its calls [s].
     plan : Plan or None
-        That was adopted.
+        Plan that was adopted.
     measured : mapping of str to float, or None
-        Quantities at the end of the planned event, before the mass settled; None: it has not come to that.
+        Quantities at the end of the planned event, before the mass settled; None: the event has not ended.
 
     Returns
     -------

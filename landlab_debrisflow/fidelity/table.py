@@ -14,10 +14,10 @@ WORDS = {
 """Quantities in words."""
 
 WIDTH = 110
-"""Of lines [characters]."""
+"""Width of the lines [characters]."""
 
 LEAST_CREEP = 0.005
-"""Relative change below which nothing is said of creep [-]."""
+"""Relative change below which creep is not mentioned [-]."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -120,7 +120,7 @@ def _wrapped(name: str, words: str, width: int) -> list[str]:
 
 
 class Printed:
-    """Base of what prints itself as a `Table`, which ``_table`` returns; a dataclass needs ``repr=False``."""
+    """Base of classes that print as the `Table` that their ``_table`` returns; a dataclass needs ``repr=False``."""
 
     def _table(self) -> Table:
         raise AttributeError(f"{type(self).__name__} has no table")

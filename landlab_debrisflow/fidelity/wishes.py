@@ -40,7 +40,7 @@ def wishes_of(setup: Setup, **others: Any) -> Wishes:
     ----------
     setup : Setup
     **others
-        As of `Wishes`, in place of those of the setup; None: not given.
+        Attributes of `Wishes`, in place of the wishes of the setup; None: not given.
 
     Returns
     -------

@@ -27,7 +27,7 @@ REMEDY = "write the grid again, or give a GeoTIFF"
 
 
 def is_ascii_grid(path: Path, head: bytes) -> bool:
-    """Return whether a file, of which the first bytes are given, is an ESRI ASCII grid or means to be one."""
+    """Return whether the first bytes of a file belong to an ESRI ASCII grid, complete or not."""
     return bool(re.match(rb"\s*(ncols|nrows|xll|yll|cellsize|dx|dy|nodata)", head, re.IGNORECASE)) or (
         path.suffix.lower() == ".asc" and not re.match(rb"\s*(north:|DSAA)", head)
     )
@@ -182,7 +182,7 @@ def _reference(path: Path) -> str | None:
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"cannot read {beside}, the coordinate reference system of {path.name}: {error}") from error
     except InputError as error:
-        if (wkt := crs_of_gdal(path)) is not None:  # "Projection UTM / Zone 33", as ArcInfo wrote it
+        if (wkt := crs_of_gdal(path)) is not None:  # ArcInfo's form: "Projection UTM", "Zone 33"
             return wkt
         raise InputError(
             f"cannot read {beside}, the coordinate reference system of {path.name}; remove the file and give crs"

@@ -7,10 +7,10 @@ import numpy as np
 from .lattice import Lattice
 
 FEW_CELLS = 64
-"""Cells that are cut by a polygon one by one rather than sorted out in blocks first."""
+"""Most cells that are intersected with a polygon one by one; more are first sorted in blocks."""
 
 MANY_CORNERS, TILE = 500, 32
-"""Corners of a polygon from which on it is cut into tiles first, and their width in cells."""
+"""Least number of corners with which a polygon is first cut into tiles, and the width of a tile in cells."""
 
 
 class Cover(NamedTuple):
@@ -117,7 +117,7 @@ def nodes_near(line: Any, lattice: Lattice, reach: float) -> Distances:
     (dx, dy), local = lattice.spacing, lattice._replace(lower_left=(0.0, 0.0))
     window = local.window_around((west - reach - dx, south - reach - dy, east + reach + dx, north + reach + dy))
     rows, columns = (np.arange(part.start, part.stop) for part in window)
-    # a strip of rows at a time: of a long line only few nodes of the rectangle around it are near
+    # strip by strip of rows: most nodes of the rectangle around a long line are far from it
     found, strip = [], max(1, 1_000_000 // max(columns.size, 1))
     for k in range(0, rows.size, strip):
         row, column = (grid.reshape(-1) for grid in np.meshgrid(rows[k : k + strip], columns, indexing="ij"))

@@ -24,7 +24,7 @@ QUANTITIES = {
 """Maps of which a table has the largest value and the mean, and the ending of the names of columns, their unit."""
 
 FACTORS = {"kPa": 1e-3}
-"""By what values of the maps are multiplied for a unit."""
+"""Factors from the units of the maps to those of the table."""
 
 ARRIVAL = OUTPUT_PREFIX + "arrival_time"
 
@@ -130,7 +130,7 @@ def write_exposure(path: str | os.PathLike[str], table: Any) -> Path:
         text = table.drop(columns=table.geometry.name).to_csv(index=False)
         return write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
     if path.suffix == ".gpkg":
-        with warnings.catch_warnings():  # that no system is known, which is so where the maps have none
+        with warnings.catch_warnings():  # the warning that no coordinate reference system is known: maps may have none
             warnings.filterwarnings("ignore", message="'crs' was not provided")
             return write_atomically(path, lambda temporary: table.to_file(temporary, driver="GPKG", layer="exposure"))
     raise InputError(f"write_exposure: the name must end in .gpkg or .csv, got {path.name!r}")
@@ -213,7 +213,7 @@ def _frame(shapes):
             raise InputError(f"exposure: cannot read {os.fspath(shapes)}: there is no such file")
         try:
             shapes = geopandas.read_file(shapes)
-        except Exception as error:  # each driver has errors of its own
+        except Exception as error:  # drivers raise errors of many classes
             raise InputError(
                 f"exposure: cannot read {os.fspath(shapes)}: {error}; give a GeoPackage, GeoJSON or Shapefile"
             ) from error

@@ -37,7 +37,7 @@ def opened(path: Path) -> Iterator[Any]:
     except ImportError as error:
         raise import_error(error) from error
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of no place on the map, which is refused below
+        warnings.simplefilter("ignore")  # the warning of a raster without a place on the map, which is refused below
         try:
             with rasterio.open(path.absolute()) as source:
                 yield source
@@ -58,7 +58,7 @@ def open_gdal(path: Path, choice: str | None, notes: list[str] | None) -> Raster
     choice : str or None
         Number of the band, by default 1.
     notes : list of str or None
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------

@@ -20,10 +20,10 @@ from .lattice import Lattice
 from .styles import style_for, write_style
 
 MAPS = "max_depth", "max_speed", "arrival_time", "eroded_depth", "deposit_depth"
-"""Maps that are written unless others are asked for."""
+"""Maps that are written if the user names none."""
 
 ACCOUNTS = "eroded_depth", "deposit_depth", "depth", "speed", "solid_depth", "solid_speed", "water_speed"
-"""Maps that are 0 where nothing is, which is left out of files."""
+"""Maps whose values of 0 mean that nothing is there; files leave these out."""
 
 TILE = 256
 """Rows and columns of a tile."""
@@ -83,7 +83,7 @@ def write_geotiff(
     }  # fmt: skip
     if lattice.crs is not None:
         profile["crs"] = _system(lattice.crs, rasterio)
-    # in memory first: GDAL tells of a disk that is full when it closes a file, and raises nothing then
+    # written in memory first: GDAL notices a full disk only when it closes a file, and raises no error then
     with rasterio.MemoryFile() as memory:
         with memory.open(**profile) as file:
             file.write(values[::-1].astype(np.float32), 1)
@@ -118,7 +118,7 @@ def write_geotiffs(
     names : sequence of str
         Names of the maps, with or without ``debris_flow__``; each of ``maps`` can be written.
     crs : str, optional
-        Coordinate reference system, as WKT or such as ``"EPSG:32633"``; by default that of the maps, if they have one.
+        Coordinate reference system, as WKT or as a code like ``"EPSG:32633"``; by default that of the maps.
     least_depth : float
         See `record.mask_peaks` [m].
     tags : mapping, optional

@@ -36,7 +36,7 @@ def find_file(name: str | Path) -> tuple[Path, str | None]:
             raise InputError(f"cannot read {path}: it is a device or a pipe; give the name of a file")
         if path.is_file() and path.stat().st_size == 0:
             raise InputError(f"cannot read {path}: the file is empty")
-    except (OSError, ValueError) as error:  # names that are too long or hold a zero byte
+    except (OSError, ValueError) as error:  # the name is too long or holds a zero byte
         if isinstance(error, InputError):
             raise
         raise InputError(f"cannot read {name}: {error}") from error

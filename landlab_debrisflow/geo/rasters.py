@@ -24,7 +24,7 @@ METRES = {
 }  # fmt: skip
 """Metres in a unit of length other than the metre, by the names that files give it."""
 UNSAID = ("", "1", "-", "unknown")
-"""Units that say nothing."""
+"""Texts of a unit that name no unit."""
 
 
 class RasterFile(NamedTuple):
@@ -69,7 +69,7 @@ def read_raster(
         Whether the values are elevations or depths: they are turned into metres if the file or its coordinate reference
         system states another unit.
     notes : list of str, optional
-        Remarks for the user on what was found and done are appended to it.
+        Remarks for the user are appended to it.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def read_window(
     shape : tuple of int, optional
         Rows and columns to which the values are thinned out while they are read.
     missing, lengths, notes
-        As of `read_raster`.
+        As in `read_raster`.
     """
     shape = window.shape if shape is None else shape
     if shape[0] * shape[1] > MOST_NODES:
@@ -165,7 +165,7 @@ def _referenced(lattice: Lattice, crs: str | None, path: Path, notes: list[str] 
                 notes, f"{path.name}: no coordinate reference system is named; metres are assumed, maps will have none"
             )
         lattice = lattice._replace(crs=given)
-    if not np.abs(lattice.bounds).max() <= FARTHEST:  # also if it is not a number
+    if not np.abs(lattice.bounds).max() <= FARTHEST:  # true also if the sum is not a number
         raise InputError(
             f"{path} covers {extent(lattice.bounds)} with cells of {lattice.spacing[0]:g} x {lattice.spacing[1]:g} m: "
             f"no map reaches beyond {FARTHEST:g} m; correct its place and spacing"

@@ -49,7 +49,7 @@ def label_of(wkt: str | None) -> str:
 
 
 LARGEST_ANGLE = 400.0
-"""Coordinates beyond are no degrees, also where longitudes are counted on past 360 [deg]."""
+"""Largest coordinates that may be degrees: longitudes are sometimes counted on past 360 [deg]."""
 
 
 def check_metric(lattice: Lattice, path: object) -> None:
@@ -59,13 +59,13 @@ def check_metric(lattice: Lattice, path: object) -> None:
     ----------
     lattice : Lattice
     path : Path or str
-        Of the file, for the message.
+        Path of the file, for the message.
 
     Raises
     ------
     InputError
-        If the coordinates are degrees, feet or others, or if a projection distorts lengths by more than
-        `LARGEST_DISTORTION`.
+        If the coordinates are degrees, feet or another unit than metres, or if a projection distorts lengths by more
+        than `LARGEST_DISTORTION`.
     """
     if lattice.crs is None:
         if _looks_like_degrees(lattice):
@@ -151,7 +151,7 @@ def check_reference(lattice: Lattice, crs: str | None, path: Path) -> None:
     crs : str or None
         The one given, such as ``"EPSG:32633"``.
     path : Path
-        Of the file, for the message.
+        Path of the file, for the message.
 
     Raises
     ------
@@ -181,7 +181,7 @@ def utm_code(longitude: float, latitude: float) -> str:
 
 def _looks_like_degrees(lattice: Lattice) -> bool:
     west, south, east, north = lattice.bounds
-    # 10 seconds are 0.0028 degrees; models in a laboratory have larger cells
+    # cells of 10 seconds of arc are 0.0028 wide in degrees; cells of a laboratory model in metres are larger
     return max(lattice.spacing) < 0.003 and max(abs(west), abs(east)) <= 360.0 and max(abs(south), abs(north)) <= 90.5
 
 

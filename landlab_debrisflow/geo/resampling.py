@@ -15,7 +15,7 @@ from .source import RasterSource
 SAME_LATTICE = 1e-3
 """Largest shift between two lattices, over the spacing, at which their nodes count as the same [-]."""
 COARSER = 1.5
-"""Area of a cell over that of the source from which on means are taken [-]."""
+"""Least area of a cell over that of the source with which means are taken [-]."""
 LEAST_DATA = 0.5
 """Part of a cell that must have data for its mean to be taken [-]."""
 
@@ -31,14 +31,14 @@ def read_onto(
     Parameters
     ----------
     path : str or Path
-        As of `read_raster`.
+        As in `read_raster`.
     lattice : Lattice
     crs : str, optional
         Coordinate reference system of a file that names none; by default that of the lattice is taken.
     lengths : bool
-        As of `read_raster`.
+        As in `read_raster`.
     notes : list of str, optional
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------
@@ -94,7 +94,8 @@ def resample(values: np.ndarray, source: Lattice, target: Lattice, finer: str = 
     coarser = target.area > COARSER * source.area
     method = Resampling.average if coarser else Resampling[finer]
     crs = {"src_crs": source.crs or "EPSG:32601", "dst_crs": target.crs or "EPSG:32601"}
-    crs = crs if source.crs and target.crs else dict.fromkeys(crs, "EPSG:32601")  # unknown ones are the same
+    # a system that is not known counts as the same
+    crs = crs if source.crs and target.crs else dict.fromkeys(crs, "EPSG:32601")
     data = ~np.isnan(values)
 
     def onto(array, how):

@@ -17,7 +17,7 @@ TYPES = {
 """Types of geometry by the kind that is wanted."""
 
 AMBIGUOUS = 0.01
-"""Change of area by mending, over the area, from which on the outline may have meant either [-]."""
+"""Change of area by mending, over the area, above which it is not clear which area the outline means [-]."""
 OVERLAP = 1e-6
 """Overlap over the smaller area that is worth a note [-]; neighbours that share a side overlap by rounding."""
 MOST_LISTED = 5
@@ -30,11 +30,11 @@ def check_features(geometries: Sequence[Any], labels: Sequence[str], kind: str, 
     ----------
     geometries : sequence of shapely geometries
     labels : sequence of str
-        Of each, for messages.
+        Label of each geometry, for messages.
     kind : str
-        Of `TYPES`.
+        A key of `TYPES`.
     notes : list of str or None
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------

@@ -23,7 +23,7 @@ def read_features(path: Path, choice: str | None, notes: list[str] | None) -> An
     choice : str or None
         Name of the layer; needed if there are several with geometry.
     notes : list of str or None
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------
@@ -58,7 +58,8 @@ def read_features(path: Path, choice: str | None, notes: list[str] | None) -> An
     if not isinstance(frame, geopandas.GeoDataFrame):
         raise InputError(f"cannot read {path} as shapes: it is a table without geometry; {FORMATS}")
     for warning in warned:
-        if issubclass(warning.category, RuntimeWarning):  # of GDAL; the others are about versions of libraries
+        # warnings of GDAL become notes; warnings about versions of libraries do not
+        if issubclass(warning.category, RuntimeWarning):
             said(notes, f"{path.name}: {' '.join(str(warning.message).split())}")
     return frame
 

@@ -96,7 +96,7 @@ def read_shapes(
     bounds : tuple of float, optional
         West, south, east, north of the DEM [m]; a shape wholly outside is refused.
     notes : list of str, optional
-        Remarks for the user on what was found and done are appended to it.
+        Remarks for the user are appended to it.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def _is_set(value) -> bool:
     """Return whether an attribute has a value, which None, NaN and NaT are not."""
     try:
         return value is not None and bool(value == value)
-    except (TypeError, ValueError):  # pandas.NA, lists
+    except (TypeError, ValueError):  # pandas.NA and lists have no truth value
         return hasattr(value, "__len__")
 
 

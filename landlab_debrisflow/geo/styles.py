@@ -1,4 +1,4 @@
-"""Styles of maps for QGIS: classes of values that mean something, in colours that the colour-blind can tell apart."""
+"""Styles of maps for QGIS: classes of values of practical use, in colours that the colour-blind can tell apart."""
 
 import os
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ class Style(NamedTuple):
     colours : str
         Name of a matplotlib colour map whose lightness changes in one direction.
     factor : float
-        What values are divided by in labels.
+        Divisor of the values in labels.
     unit : str
         Unit of the labels.
     """
@@ -98,7 +98,8 @@ def class_colours(style: Style) -> list[tuple[int, int, int]]:
     """
     from matplotlib import colormaps
 
-    places = np.linspace(0.12, 1.0, len(style.bounds) + 1)  # the palest tones vanish on a white page
+    # the palest tones of the colour map cannot be seen on a white page
+    places = np.linspace(0.12, 1.0, len(style.bounds) + 1)
     shades = colormaps[style.colours](places)[:, :3]
     return [(int(r), int(g), int(b)) for r, g, b in np.rint(255.0 * shades)]
 

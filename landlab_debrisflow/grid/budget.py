@@ -8,7 +8,7 @@ import numpy as np
 from .row_backup import RowBackup
 
 CARRIED_OVER = ("released", "inflow", "eroded")
-"""Terms of which an earlier component's volume keeps the phases it had then."""
+"""Terms whose volume from an earlier component keeps its split into grains and fluid."""
 
 
 class ModelVolumes(NamedTuple):
@@ -82,7 +82,7 @@ class VolumeBudget:
         core : ndarray of bool, shape (nodes,)
             Nodes that count.
         soil : RowBackup or None
-            Of the soil depth, as its first array; None: stop measuring.
+            Backup with the soil depth as its first array; None: stop measuring.
         """
         self._eroded = self.eroded
         self._core, self._soil = core, soil

@@ -26,14 +26,14 @@ class GridCall:
     Parameters
     ----------
     flow : DebrisFlow
-        Component under construction: its grid gets fields that are missing, its observers get it to look at.
+        Component under construction: its grid gets fields that are missing, its observers are shown the component.
     continues : GridCall, optional
         Calls of the component before on the same grid.
 
     Attributes
     ----------
     before_settling : callable or None
-        Looks at the flow at the end of a call, as an observer does, before mass at rest settles.
+        Called with the flow at the end of a call, as an observer is, before mass at rest settles.
     cpu : float
         CPU time of all calls, those of `continues` left out [s].
     """
@@ -47,7 +47,8 @@ class GridCall:
         self._listener = CallListener(flow, self._writer, self.interruption)
         if continues is not None:
             self._writer.continue_from(continues._writer)
-        # last, because a component that is refused changes nothing
+            self._listener.reports.continue_from(continues._listener.reports)
+        # last, so that a component that is refused has changed nothing
         before = None if continues is None else continues._outputs
         two_phases = self._simulation.setup.two_phases
         self.before_settling: Callable[[], None] | None = None
@@ -69,7 +70,8 @@ class GridCall:
                 done = sim.run(*self._prepare(), end, stop_at_rest, self._listener)
             else:
                 if np.isclose(end, interrupted.end, rtol=1e-12, atol=0.0):
-                    end = self.interruption.end = interrupted.end  # the rest of the duration was computed with rounding
+                    # the end of an interrupted call, without the rounding in the duration that is left
+                    end = self.interruption.end = interrupted.end
                 done = sim.advance(end, stop_at_rest, self._listener)
             if done:
                 self._listener.ended(stop_at_rest, self.before_settling)
@@ -77,7 +79,7 @@ class GridCall:
                 self._listener.broken_off()
                 self.rollback.break_off(end)
             self.cpu += process_time() - began
-        while self._listener.requests:  # of another thread, after the last step
+        while self._listener.requests:  # requests of another thread that came after the last step
             self._listener.requests.pop(0)()
 
     def settle(self) -> None:
@@ -120,7 +122,7 @@ class GridCall:
         Raises
         ------
         As the function
-            If it is called at once; else it ends the call, as an observer that fails does.
+            If it is called at once; otherwise its exception ends the call, as that of an observer does.
         """
         if not self.interruption.running:
             with self.rollback.between_calls() as end:

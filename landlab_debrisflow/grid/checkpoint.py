@@ -1,6 +1,7 @@
 """A flow as a Dataset, between two calls or between two steps of one, and back.
 
-Whatever follows from the rest is not in it: the surface through the nodes, cells of neighbours, scratch of a step.
+The Dataset leaves out all that can be computed from its contents: the surface through the nodes, cells of neighbours,
+scratch arrays of a step.
 """
 
 import json
@@ -16,14 +17,14 @@ from .fields import fields_in_use
 from .row_backup import RowBackup
 
 NODES = ("y", "x")
-"""Dimensions of what has a value at every node: rows, from the southern one on, and columns."""
+"""Dimensions of variables at nodes: rows, from the southern one on, and columns."""
 
 PARTICLE, FIELD = "particle_", "field_"
 """Beginnings of the names of variables of the particles, and of fields of the grid."""
 
 
 def capture(grid, writer, laws, reports, end: float | None) -> xr.Dataset:
-    """Return all that decides how a flow goes on, but its setup.
+    """Return all of a flow that decides how it goes on, except its setup, as a Dataset.
 
     Parameters
     ----------
@@ -117,7 +118,7 @@ def restore(writer, reader, reports, dataset: xr.Dataset) -> float | None:
     state.written, state.warned = slice(*read["written"].tolist()), tuple(json.loads(dataset.attrs["warned"]))
     reports.set_variables(named("reports_"))
     running, budget = "call_end" in read, named("budget_")
-    if ground.status is None:  # there was no call yet
+    if ground.status is None:  # no call has begun yet
         state.budget.set_variables(budget, None, None)
         return None
     terrain, soil, parameters = reader.read_again(ground.status, nodes.get("drained"))

@@ -79,7 +79,7 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
         if name not in dataset.variables:
             _refuse(f"it lacks the variable {name!r}")
         if name not in template.variables:
-            continue  # its form is looked at below
+            continue  # its form is checked below
         found, wanted = dataset.variables[name], template.variables[name]
         same = found.dims == wanted.dims and found.dtype.kind == wanted.dtype.kind
         sizes = {dim: size for dim, size in found.sizes.items() if dim not in FREE}
@@ -109,7 +109,7 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
 
 
 def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
-    """Refuse numbers that stand for places in arrays where there are no such places."""
+    """Refuse numbers that stand for places in arrays and lie outside of them."""
     count, nodes, bodies = read[f"{prefix}x"].size, raster_shape[0] * raster_shape[1], read["bodies_peak"].size
     if not np.array_equal(np.sort(read[f"{prefix}place"]), np.arange(count)):
         _refuse(f"{prefix}place does not number the particles")

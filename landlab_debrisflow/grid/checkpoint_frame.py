@@ -1,4 +1,4 @@
-"""Refusals of checkpoints of which neither a grid nor a setup can be built; `checkpoint_checks` looks at the rest."""
+"""Refusals of checkpoints of which neither a grid nor a setup can be built; `checkpoint_checks` checks the rest."""
 
 import json
 from typing import Any
@@ -22,7 +22,7 @@ def check_frame(dataset: Any) -> None:
     Raises
     ------
     InputError
-        With what is missing or of another kind.
+        The message names the attribute, variable or field that is missing or of another kind.
     """
     found = {name: _json(dataset.attrs, name, kind) for name, kind in TEXTS.items()}
     if not all(isinstance(word, str) for word in (*found["observers"], *found["law_digests"].values())):

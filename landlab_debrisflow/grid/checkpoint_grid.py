@@ -36,8 +36,8 @@ def check_same(grid, dataset) -> None:
         node = other[0]
         raise InputError(
             f"load: {other.size} nodes of the grid have another status than in the checkpoint, the first is "
-            f"{where(grid, node)}: {status[node]}, there {written[node]}; set grid.status_at_node to what it was, or "
-            "load without a grid"
+            f"{where(grid, node)}: {status[node]}, there {written[node]}; set grid.status_at_node to the former "
+            "statuses, or load without a grid"
         )
     names = {data.attrs["field"] for data in dataset.values() if "field" in data.attrs}
     for field in NODE_FIELDS:
@@ -50,7 +50,7 @@ def check_same(grid, dataset) -> None:
 
 @contextmanager
 def fields_of(grid, dataset):
-    """Give a grid the input fields of a checkpoint; yield a function that gives all. A block that fails leaves none.
+    """Give a grid the input fields of a checkpoint; yield a function that gives it all fields.
 
     `dataset` is as `checkpoint.capture` returned it.
     """
@@ -69,7 +69,7 @@ def fields_of(grid, dataset):
 
     with no_new_fields(grid):
         try:
-            put(outputs)  # another component may yet have to put its own outputs aside
+            put(outputs)  # only after another component on the grid has put its own outputs aside
             yield put
         except BaseException:
             for name, values in before.items():

@@ -78,7 +78,7 @@ def check_loaded_bed(grid, ratio, pressure) -> None:
 
 
 def check_parameters(grid, laws) -> None:
-    """Refuse parameters of laws, by kind, that vary in space but do not fit the nodes of this grid."""
+    """Refuse parameters of `laws`, a mapping by kind, which vary in space but do not fit the nodes of this grid."""
     closed = grid.status_at_node == CLOSED
     for kind, law in laws.items():
         for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
@@ -142,7 +142,7 @@ def check_observers(observers) -> tuple:
 
 
 def check_continued(earlier, grid, inflow) -> None:
-    """Refuse to continue an earlier component that has not come to its end, or elsewhere.
+    """Refuse to continue an earlier component that still moves, or one of another grid.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def check_continued(earlier, grid, inflow) -> None:
     grid : RasterModelGrid
         Grid of the component.
     inflow : Inflow
-        Of the component that is to continue: elapsed time goes on, and nothing may have entered before.
+        Inflow of the component that is to continue: elapsed time goes on, and nothing may have entered before.
 
     Raises
     ------

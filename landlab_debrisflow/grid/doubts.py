@@ -14,13 +14,13 @@ from .checks import where
 from .fields import NODE_FIELDS
 from .fill_values import code_of, is_fill
 
-LOWEST, HIGHEST = -12000.0, 9000.0  # of the ground on Earth [m]
-UPRIGHT = 10.0  # relief over extent above which no whole DEM is [-]
-DEGREES_BELOW = 0.01  # node spacing that may be one of degrees [m]
+LOWEST, HIGHEST = -12000.0, 9000.0  # lowest and highest ground on Earth [m]
+UPRIGHT = 10.0  # largest relief over extent of a whole DEM [-]
+DEGREES_BELOW = 0.01  # node spacing below which coordinates may be degrees [m]
 LEAST_ANGLE = 2.0  # [deg]
 DENSITIES = 500.0, 8000.0  # [kg m-3]
 LARGEST_GROWTH = 1.0  # [m-1]
-FASTEST_RELEASE = 100.0  # of rock avalanches [m s-1]
+FASTEST_RELEASE = 100.0  # speed of the fastest rock avalanches [m s-1]
 FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 
 
@@ -125,7 +125,7 @@ LEAST_SIMILARITY = 0.85
 
 
 def name_doubts(grid, setup) -> Iterator[str]:
-    """Yield fields that look like inputs of ours which are missing; the release may come later.
+    """Yield doubts about fields whose names resemble inputs that are missing; the release may come later.
 
     `grid` is the RasterModelGrid, `setup` the `Setup`; a doubt is a sentence.
     """
@@ -142,9 +142,9 @@ def name_doubts(grid, setup) -> Iterator[str]:
 
 
 def misnamed_fields(grid, ours: str) -> list[str]:
-    """Return names of fields with values > 0 that resemble one of our names.
+    """Return names of fields with values > 0 that resemble the name of an input.
 
-    `grid` is the RasterModelGrid, `ours` the name of an input.
+    `grid` is the RasterModelGrid, `ours` the name of the input.
     """
     alike = [name for name in sorted(set(grid.at_node) - set(OUR_NAMES)) if _similarity(name, ours) >= LEAST_SIMILARITY]
     return [name for name in alike if np.any(np.nan_to_num(grid.at_node[name]) > 0)]
@@ -204,7 +204,7 @@ def release_doubts(grid, nodes, depth) -> Iterator[str]:
             row, column = np.unravel_index(site.argmax(), site.shape)
             node = (box[0].start + row) * grid.number_of_node_columns + box[1].start + column
             deepest, narrow = site.max(), width
-    if worst > 1.0 and not any(coordinate_doubts(grid)):  # of which it would be the consequence
+    if worst > 1.0 and not any(coordinate_doubts(grid)):  # a doubt about spacing explains this one as well
         yield (
             f"a release is deeper than it is wide, {code_of(round(float(deepest), 3))} m on {narrow:g} m around "
             f"{where(grid, node)}: was the depth meant in cm or mm? A flow of such a shape is not shallow"

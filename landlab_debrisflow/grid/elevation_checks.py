@@ -1,4 +1,4 @@
-"""Refusals of elevations that no ground has: voids of a DEM filled with a number, and other units.
+"""Refusals of elevations that no ground has: voids of a DEM filled with a number, elevations in other units.
 
 Slopes of any length, pits and cliffs of some hundred metres are ground and pass. Only differences between neighbours
 count, so a DEM may lie at any height, whatever the datum.
@@ -15,7 +15,7 @@ from .fill_values import closing_call, code_of, is_fill
 Z = "topographic__elevation"
 
 HIGHEST_CLIFF = 1500.0
-"""Nothing that falls more steeply than `STEEPEST` is higher on Earth: Mount Thor has 1250 m [m]."""
+"""Largest height of a cliff steeper than `STEEPEST` [m]: the highest on Earth, of Mount Thor, has 1250 m."""
 
 STEEPEST = 10.0
 """Least slope between two nodes at which a height is taken for a fault of the DEM [-]."""
@@ -28,7 +28,7 @@ HOLE, SHAFT = 50.0, 300.0
 
 
 MOST_VALUES = 20
-"""Most elevations below high walls that are examined: a filled void has one."""
+"""Most different elevations below high walls that are examined: a filled void has one elevation."""
 
 
 def check_elevation(grid, elevation) -> None:
@@ -49,7 +49,7 @@ def check_elevation(grid, elevation) -> None:
     )  # fmt: skip
     low = np.min(elevation, where=used, initial=np.inf)
     high = np.max(elevation, where=used, initial=-np.inf)
-    if low <= -9999.0 or high >= 9999.0:  # else there is no fill value
+    if low <= -9999.0 or high >= 9999.0:  # without a cliff there is no fill value
         _check_fills(grid, elevation, used)
     if high - low > HIGHEST_CLIFF:
         _check_cliffs(grid, elevation, used)
@@ -84,7 +84,7 @@ def _neighbours(grid):
 
 
 def _first_nodes(grid, pairs):
-    """Return the numbers of the first nodes of pairs, of which `pairs` says which are meant."""
+    """Return the numbers of the first nodes of the pairs of neighbours that the mask `pairs` chooses."""
     row, column = np.nonzero(pairs)
     return row * grid.number_of_node_columns + column
 
@@ -119,7 +119,7 @@ def _check_cliffs(grid, elevation, used):
     value = values[count.argmax()]
     nodes = np.flatnonzero(z == value)
     close = f"{closing_call(Z, value)}; in a scene file terrain: nodata: {code_of(value)}"
-    if nodes.size == 1 < values.size:  # no one number: the rim of a void that was smoothed into its surroundings
+    if nodes.size == 1 < values.size:  # many elevations: the rim of a void that was smoothed into its surroundings
         sign, limit = ("<", values.max()) if value < middle else (">", values.min())
         close = f"grid.status_at_node[grid.at_node['{Z}'] {sign}= {code_of(limit)}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(
@@ -156,7 +156,7 @@ def _check_holes(grid, elevation, used, value, deep):
     if nodes.size == 0:
         return
     close = f"{closing_call(Z, value)}; in a scene file terrain: nodata: {code_of(value)}"
-    if nodes.size < np.count_nonzero(filled):  # elsewhere it is ground
+    if nodes.size < np.count_nonzero(filled):  # other nodes with this elevation are ground
         close = f"grid.status_at_node[{nodes.tolist()}] = grid.BC_NODE_IS_CLOSED"
     raise InputError(
         f"{Z} is exactly {code_of(value)} m at {nodes.size} nodes, the first is {where(grid, nodes[0])}, with upright "

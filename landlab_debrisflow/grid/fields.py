@@ -45,7 +45,7 @@ class NodeField(NamedTuple):
 OUTPUT_PREFIX = "debris_flow__"
 
 NODE_FIELDS = (
-    # the docs of shared names are Landlab's own
+    # fields that Landlab has, too, are described in its words
     NodeField("topographic__elevation", "inout", "m", "Land surface topographic elevation"),
     NodeField("soil__depth", "inout", "m", "Depth of soil or weathered bedrock", True),
     NodeField("debris_flow__release_depth", "inout", "m", "Thickness of ground that fails, 0 once taken", True),
@@ -59,7 +59,7 @@ NODE_FIELDS = (
     ),
     NodeField(
         "mass__wasting_id", "inout", "-",
-        "integer or float id of each mass wasting area is assigned                 "  # a continued line there
+        "integer or float id of each mass wasting area is assigned                 "  # spaces as in Landlab
         "to all nodes representing the mass wasting area.",
         True, int,
     ),
@@ -79,7 +79,7 @@ NODE_FIELDS = (
     NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
     NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
     NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
-    # peaks are those of what counts as arrival, since the component or, if it was called, new_event() began
+    # peaks count from the depth of arrival on, since the component was built or new_event() was called
     NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
     NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
     NodeField(
@@ -88,8 +88,8 @@ NODE_FIELDS = (
     ),
     NodeField(
         "debris_flow__max_run_up", "out", "m",
-        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes of "
-        "what stood at their faces",
+        "Largest height so far of the surface of moving mass above the lowest bed it came over; on closed nodes at "
+        "their faces",
     ),
     NodeField(
         "debris_flow__arrival_time", "out", "s",

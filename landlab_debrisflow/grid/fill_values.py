@@ -9,10 +9,11 @@ FILL_VALUES = (
 """Numbers by which programs and integer formats mark missing data, and which no field of the grid has by chance."""
 
 LEAST_FILL = 32766.0
-"""Below this only negative numbers are fill values."""
+"""Magnitude below which only negative numbers are fill values."""
 
 HUGE = 1e15
-"""Nothing measured is so large: 1e20 and 9.97e36 of climate data, the largest floats of GIS."""
+"""Magnitude that no measured value has, from which on all numbers are fill values: 1e20 and 9.97e36 of climate data,
+the largest floats of GIS."""
 
 
 def is_fill(values):

@@ -24,7 +24,7 @@ class GridBed:
     material : Material
         Densities and porosities of the component.
     eroded : ndarray, shape (nodes,)
-        Depth eroded in all calls, whatever becomes of its field [m].
+        Depth eroded in all calls [m]; not the field, which other components may change.
     event_eroded : ndarray, shape (nodes,), or None
         Depth eroded in the event before the present call [m].
     elevation : ndarray, shape (nodes,), or None
@@ -59,8 +59,8 @@ class GridBed:
     def is_below(self, release, elevation, status) -> bool:
         """Return whether the ground was raised only where a release takes it off again, since the last call left it.
 
-        The bed of the call is then as after a release from the ground, of the depth less the rise: nothing but what
-        fails has changed, and what lies elsewhere need not know of it.
+        The bed of the call is then the same as if a release had been taken from the ground, with the depth less the
+        rise: the ground changed only where it fails, and mass at rest elsewhere can stay asleep.
 
         Parameters
         ----------
@@ -86,7 +86,7 @@ class GridBed:
         rows : RowBackup
             Keeps the rows that are changed.
         inflow : Inflow
-            Is aimed down the ground where its direction is not given.
+            Inflow to come; it gets the direction in which the ground falls, if none is given.
         time : float
             Time of the component [s].
 
@@ -99,7 +99,7 @@ class GridBed:
         closed = terrain.status == CLOSED
         if terrain.changed:
             self.elevation, self.status = terrain.elevation.copy(), terrain.status
-        if terrain.changed or closed.any():  # what is filled into closed nodes follows those around
+        if terrain.changed or closed.any():  # elevations filled into closed nodes follow those of the nodes around
             self.surface = None
         if release.nodes.size:
             failing = release.nodes // terrain.shape[1]
@@ -169,5 +169,5 @@ class GridBed:
         """Move the surface to an elevation [m] at some nodes that was put back."""
         if self.surface is not None:
             moved = np.arange(nodes.start, nodes.stop)
-            moved = moved[self.status[moved] != CLOSED]  # what is filled into closed ones never changes
+            moved = moved[self.status[moved] != CLOSED]  # elevations filled into closed nodes never change
             self.surface.move_to(moved, elevation[moved])

@@ -37,7 +37,7 @@ def _line(terrain, source):
 
 
 def _farthest(terrain) -> float:
-    """Return a length beyond which one end of every line lies outside of a `Terrain` [m]: no finer look is needed."""
+    """Return the length [m] from which on any line from a core node of a `Terrain` ends outside."""
     rows, columns = terrain.shape
     return 2.0 * float(np.hypot(columns * terrain.spacing[0], rows * terrain.spacing[1]))
 

@@ -14,8 +14,8 @@ class Interruption:
     """Context of every call, which asks it between two steps whether an end is `requested`.
 
     Ctrl-C is noted instead of raised while a call runs in the main thread, unless the user's program has a handler of
-    its own in place of Python's. A second one is raised at once, unless it is `deferred`: in a step it undoes the call
-    like any failure there, in an observer it is a failure of that.
+    its own in place of Python's. A second Ctrl-C is raised at once, unless interruptions are `deferred`: within a step
+    it undoes the call, as any failure in a step does; within an observer it counts as a failure of the observer.
 
     Attributes
     ----------
@@ -94,6 +94,6 @@ class Interruption:
 
     def _note(self, number, frame):
         if self._asked and not self._deferred and not self._raised:
-            self._raised = True  # whoever hears of it must not be disturbed again
+            self._raised = True  # a further Ctrl-C must not interrupt the handling of this one
             raise KeyboardInterrupt
         self._asked = True

@@ -1,4 +1,4 @@
-"""The border while the model runs: rows are kept, peaks recorded, observers look at the flow, the end is written."""
+"""The border while the model runs: rows are copied, peaks recorded, observers called, and the end is written."""
 
 from collections.abc import Callable
 from threading import get_ident
@@ -12,17 +12,16 @@ from .write import FieldWriter
 class CallListener:
     """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
 
-    Observers see the grid as the end of a call would leave it, which is then taken back. Observers that have these
-    methods are told more: ``prepare(grid, setup)`` when the component is built, where they refuse what does not fit,
-    and again when it adopts a plan;
-    ``follow(particles, began, time)`` after every step, with the particles as they are, and before the first step of a
-    call with ``began`` equal to ``time``;
-    ``keep(flow, broken_off)`` between two steps, when all have seen the last one.
+    Observers see the grid as the end of a call would leave it, which is then taken back. Further methods of observers
+    are called, too: ``prepare(grid, setup)`` when the component is built, where observers refuse a grid or setup that
+    does not fit, and again when it adopts a plan; ``follow(particles, began, time)`` after every step, with the
+    particles as they are, and before the first step of a call with ``began`` equal to ``time``; ``keep(flow,
+    broken_off)`` between two steps, when all have seen the last one.
 
     Parameters
     ----------
     flow : DebrisFlow
-        Is shown to its observers.
+        Component that is shown to its observers.
     writer : FieldWriter
         Writes the fields of the component.
     interruption : Interruption
@@ -89,7 +88,7 @@ class CallListener:
         for observer in self._flow._observers:
             if callable(getattr(observer, "follow", None)):
                 self._call(observer.follow, particles, began, time)
-        particles.departed = None  # no more is to be known of them
+        particles.departed = None  # observers that have failed are not called again
 
     def _show(self, observers) -> None:
         """Show the flow to all observers, even if one of them fails."""
@@ -116,5 +115,5 @@ class CallListener:
         """Call an observer and note its failure."""
         try:
             observe(*arguments)
-        except BaseException as failure:  # also Ctrl-C for the second time: nothing is half done here
+        except BaseException as failure:  # a second Ctrl-C, too: the step is complete here
             self._interruption.add_failure(failure)

@@ -1,8 +1,8 @@
 """The output fields of a component: in its grid, or put aside while another component uses the fields.
 
-They start at nothing, whatever stood in the fields, unless the component continues an earlier one. Several components
-on one grid never mix: the fields are those of the component that was built or called last, and every other one has its
-own put aside, as nodes and values where something came.
+Outputs start at 0 (arrival time at -1), whatever stood in the fields, unless the component continues an earlier one.
+Outputs of several components on one grid never mix: the fields hold those of the component that was built or called
+last, and the others are put aside, as nodes with values other than at the start.
 """
 
 import logging
@@ -19,7 +19,7 @@ log = logging.getLogger("landlab_debrisflow")
 ERODED, DEPOSIT = (OUTPUT_PREFIX + name for name in ("eroded_depth", "deposit_depth"))
 
 STARTS = {field.name: field.start for field in NODE_FIELDS if field.intent == "out"}
-"""Value of every output field where nothing came."""
+"""Value of every output field where no debris came."""
 
 _holders = WeakKeyDictionary()
 """By grid, a weak reference to the `Outputs` that its fields hold."""
@@ -42,11 +42,12 @@ class Outputs:
 
     def __init__(self, grid, two_phases: bool, carried_volume, continues=None):
         self._grid, self._two_phases, self._carried_volume, self._warned = grid, two_phases, carried_volume, False
-        self._aside = {} if continues is None else continues._written()  # None: they are in the fields
+        self._aside = {} if continues is None else continues._written()  # None while the fields hold the outputs
         self.show()
         for field in self._fields():
             if field.name not in grid.at_node:
-                values = np.zeros(grid.number_of_nodes)  # costs nothing where nothing is written, unlike grid.add_zeros
+                # pages that are not written take no memory, unlike with grid.add_zeros
+                values = np.zeros(grid.number_of_nodes)
                 if field.start:
                     values[:] = field.start
                 grid.add_field(field.name, values, at="node", units=field.unit)
@@ -55,7 +56,7 @@ class Outputs:
 
     def __setstate__(self, state):
         vars(self).update(state)
-        if self._aside is None:  # a copy came with a copy of the grid, whose fields hold what it wrote
+        if self._aside is None:  # the component was copied with its grid: the fields of the new grid hold its outputs
             _holders[self._grid] = ref(self)
 
     def show(self) -> None:
@@ -75,7 +76,7 @@ class Outputs:
 
     @contextmanager
     def shown(self):
-        """Put the outputs into the fields of the grid; if the block raises, put the former values back."""
+        """Put the outputs into the fields of the grid; if the block raises, restore the fields."""
         before = _holders.get(self._grid, lambda: None)()
         self.show()
         try:
@@ -126,12 +127,12 @@ class Outputs:
         return _not_at_start(self._grid) if self._aside is None else self._aside
 
     def _warn_of(self, other) -> None:
-        """Warn once of debris that another component carries: it is in no elevation."""
+        """Warn once of debris that another component carries: no field of elevation holds this debris."""
         if (volume := other._carried_volume()) and not self._warned:
             self._warned = True
             log.warning(
-                "another DebrisFlow on this grid carries %.4g m3 that have not settled: this one does not feel them, "
-                "nor are they in elevation; settle() them before, or put elevation and soil back",
+                "another DebrisFlow on this grid carries %.4g m3 that have not settled: the flow of this one runs "
+                "through them, and elevation lacks them; settle() before, or put elevation and soil back",
                 volume,
             )
 

@@ -1,7 +1,7 @@
-"""Fields of a grid, checked, as plain arrays: everything of a grid that the model ever gets.
+"""Fields of a grid, checked, as plain arrays: the only part of a grid that the model gets.
 
 Arrays over nodes share the memory of the fields, so that erosion and deposit appear in them without a copy of the
-raster. Nothing is written here.
+raster. No field is written here.
 """
 
 import logging
@@ -36,7 +36,7 @@ class Terrain(NamedTuple):
     lower_left : tuple of float
         Map coordinates of the first node [m].
     changed : bool
-        Whether elevation or status differ from what the last call left, other than by what is released now.
+        Whether elevation or status have changed since the last call, other than by the release.
     """
 
     elevation: np.ndarray
@@ -199,7 +199,7 @@ class GridReader:
         return Soil(self._field("soil__depth"), ratio, pressure, drained)
 
     def _field(self, name):
-        """Return the values of a field, sharing its memory, or None if the grid has no such field."""
+        """Return the values of a field, sharing its memory, or None if the grid lacks the field."""
         return np.asarray(self._grid.at_node[name]) if name in self._grid.at_node else None
 
     def _warn(self, release, soil, new_event, warned) -> tuple:

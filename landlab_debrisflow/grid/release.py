@@ -27,7 +27,7 @@ class Release(NamedTuple):
     requests : tuple of ndarray, shape (nodes,)
         Fields that ask for the release; 0 once it has been taken.
     velocity : ndarray, shape (2, n), or None
-        Velocity over the map along x and y with which it fails [m s-1]; None: all of it at rest.
+        Velocity over the map along x and y with which it fails [m s-1]; None: the release starts from rest.
     """
 
     nodes: np.ndarray

@@ -23,6 +23,11 @@ class Reports:
         self._flow, self._simulation = flow, flow._simulation
         self._supply, self._outflow_before, self._reported = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
 
+    def continue_from(self, earlier: "Reports") -> None:
+        """Take over the volumes [m3] that have been told of the flow that this one continues."""
+        self._supply, self._reported = earlier._supply, earlier._reported
+        self._outflow_before = dict(earlier._outflow_before)
+
     def log_messages(self, until_rest: bool) -> None:
         """Log the messages of a call that ends; `until_rest`: whether it was to end at rest."""
         self._walls()
@@ -58,14 +63,14 @@ class Reports:
         supply = budget["released"] + budget["inflow"] + budget["eroded"]
         outflow = {edge: volume - self._outflow_before[edge] for edge, volume in by_edge.items()}
         total, came, at_rest = sum(outflow.values()), supply - self._supply, self._simulation.at_rest
-        # as soon as it is notable, and once more with its final volume
+        # when it becomes notable, and once more with its final volume
         if total - self._reported >= NOTABLE * came > 0.0 and (at_rest or self._reported == 0.0):
             sides = {"inside": "open nodes inside"} | {edge: f"the {edge} edge" for edge in outflow if edge != "inside"}
             where = ", ".join(f"{v:.4g} m3 over {sides[edge]}" for edge, v in outflow.items() if v >= 0.01 * total)
             log.log(
                 logging.INFO if self._reported else logging.WARNING,
-                "%s left the grid, %.3g %% of what was released, flowed in and was eroded: the DEM ends inside the "
-                "flow's reach, and depths and deposits near there are too small; use a larger DEM",
+                "%s left the grid, %.3g %% of the volume that was released, flowed in and was eroded: the DEM ends "
+                "within the reach of the flow, and depths and deposits near its edge are too small; use a larger DEM",
                 where, 100.0 * total / came,
             )  # fmt: skip
             self._reported = total
@@ -86,8 +91,8 @@ class Reports:
         if not sim.inflow.over:
             words.append(f"the inflow lasts until {max(source.times[-1] for source in sim.inflow.sources):.4g} s")
         log.warning(
-            "not at rest after %.6g s: %s. Nothing was settled, so elevation and soil still lack what moves. Call "
-            "run_until_rest() again, or with a larger max_duration; what only creeps, as under a viscous law, comes to "
-            "rest earlier with a larger rest_energy in numerics",
+            "not at rest after %.6g s: %s. No mass was settled, so elevation and soil still lack the moving mass. Call "
+            "run_until_rest() again, or with a larger max_duration; a flow that only creeps, as under a viscous law, "
+            "comes to rest earlier with a larger rest_energy in numerics",
             sim.time, "; ".join(words) or "nothing moves any more",
         )  # fmt: skip

@@ -1,8 +1,8 @@
 """Undo of a call, and the way back into one that was interrupted.
 
-A call that fails leaves grid and model as they were. One that is interrupted ends like any other: fields and model show
-the present. But the state between its two steps is kept, and if the grid was not changed since, the next call goes on
-from there, so that in the end nothing tells that there was an interruption.
+A call that fails leaves grid and model as they were. A call that is interrupted ends like any other: fields and model
+show the present. But the state between its last two steps is kept. If the grid has not changed since, the next call
+goes on from that state, and the results are those of a run without interruption, to the bit.
 """
 
 from contextlib import contextmanager
@@ -34,7 +34,7 @@ class Moment:
         self.rows, self._writer = rows, writer
         self._draining = NodeBackup(writer.draining, slice(None))
         self._border, self._model = writer.state.copy(), simulation.state.copy()
-        self._surroundings = simulation.surroundings  # replaced as a whole by each call
+        self._surroundings = simulation.surroundings  # each call replaces it as a whole
 
     def restore(self) -> None:
         """Go back, as often as wanted."""
@@ -44,9 +44,9 @@ class Moment:
         self.rows.restore()
         writer.state, simulation.state = self._border.copy(), self._model.copy()
         simulation.surroundings = self._surroundings
-        if writer.state.bed is not None:  # with its accounts as they were between two steps
+        if writer.state.bed is not None:  # the bed, with its accounts as they were between two steps
             simulation.surroundings = self._surroundings._replace(bed=writer.state.bed)
-        if writer.state.grid_bed.surface is surface:  # else it was made in the call that is undone
+        if writer.state.grid_bed.surface is surface:  # otherwise the bed was made in the call that is undone
             writer.state.grid_bed.restore_surface(writer.elevation, self.rows.nodes)
 
 

@@ -1,7 +1,4 @@
-"""Copies of node arrays before a change, to undo it: of the rows of the raster that may change, or of some nodes.
-
-A flow covers a small part of a large DEM; nothing may cost a copy of all of it.
-"""
+"""Copies of node arrays before a change, to undo it: rows of the raster that may change, or some nodes."""
 
 import numpy as np
 

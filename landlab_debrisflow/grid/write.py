@@ -89,7 +89,7 @@ class FieldWriter:
             backup.keep_rows(int(south / dy) - REACH, int(north / dy) + REACH + 2)
 
     def follow_step(self) -> None:
-        """Keep rows after a step, and record the maps if the flow may have got on by then."""
+        """Keep rows after a step, and record the maps if the flow may have moved on since the last update."""
         self.keep_rows()
         if self.state.peak_maps.is_due(self.simulation.time, self.simulation.state.limits.fastest):
             self.record()
@@ -102,7 +102,7 @@ class FieldWriter:
 
     @contextmanager
     def present(self):
-        """Write the present into the fields for the time of the block, and put all of it back."""
+        """Write the present into the fields for the time of the block, then restore the fields."""
         sim, state, at = self.simulation, self.state, self._grid.at_node
         model, peak_maps, accounts = sim.state, state.peak_maps, {ERODED, DEPOSIT}
         outputs = {field.name for field in NODE_FIELDS if field.name.startswith(OUTPUT_PREFIX) and field.name in at}
@@ -129,8 +129,9 @@ class FieldWriter:
         if nodes.size == 0:
             return nodes
         first = max(0, int(nodes.min()) - columns)
-        marked = np.zeros(min(count, int(nodes.max()) + columns + 1) - first, bool)  # a sort would cost ten times that
-        for k in (0, 1, -1, columns, -columns):  # with closed ones at their faces
+        # np.unique, which sorts, takes ten times as long
+        marked = np.zeros(min(count, int(nodes.max()) + columns + 1) - first, bool)
+        for k in (0, 1, -1, columns, -columns):  # closed nodes at their faces included
             beside = nodes + (k - first)
             marked[beside[(beside >= 0) & (beside < marked.size)]] = True
         return first + np.flatnonzero(marked)
@@ -162,7 +163,7 @@ class FieldWriter:
             if changed.stop > 0:
                 first = min(before.start, changed.start) if before.stop > 0 else changed.start
                 state.written = slice(first, max(before.stop, changed.stop))
-            self._write(state.written)  # also where others have written
+            self._write(state.written)  # other components may have written there, too
             state.grid_bed.note_end(state.bed, changed)
             state.bed = state.peak_maps = None
 
@@ -170,7 +171,7 @@ class FieldWriter:
         sim, state = self.simulation, self.state
         sim.catch_up()
         self.record()
-        state.budget.measure_erosion(None, None)  # the deposit becomes soil, too
+        state.budget.measure_erosion(None, None)  # the deposit is added to the soil, too
         elevation = RowBackup([state.bed.elevation], state.bed.raster.columns)
         self.keep_rows(elevation)
         nodes, depth = sim.settle()

@@ -1,1 +1,1 @@
-"""State and time: moving mass, its exchange with the bed, and the loop. Knows arrays, not grids."""
+"""State of a flow and its change in time. The modules here read arrays and no grid."""

@@ -1,11 +1,10 @@
-"""Particles that lie still sleep: nothing is computed for them until something could set them free.
+"""Sleep of particles at rest: the steps leave them out until something in reach could move them.
 
-A particle falls asleep when it has no speed, nothing in reach moves, and it would be held even if the
-excess pore pressure at its base rose to the highest anywhere in its column: a column that nothing enters never
-exceeds that (maximum principle of diffusion). It wakes in the very step in which its sums over neighbours
-are done again. Its column is advanced by the time it slept, at once: then, and whenever anybody looks.
-
-Those asleep are kept behind those awake, so the stages of a step work on one stretch of every array.
+A particle falls asleep if it has no speed, nothing in reach moves, and friction would hold it even if the excess pore
+pressure at its base rose to the highest value in its column. A column into which nothing enters never exceeds this
+value (maximum principle of diffusion). A particle wakes in the same step in which its sums over neighbours are computed
+again. Its column is then advanced over the whole time asleep at once, as it is for output. Particles asleep are kept
+behind the particles awake, so that the stages of a step work on one contiguous range of every array.
 """
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from .basal import BasalLaw, ColumnPhysics, column_forcing, column_state, held_at_rest, present_profiles
 
 STEPS_BETWEEN_CHECKS = 16
-"""Steps after which particles that may fall asleep are sought: that is cheap, but not free."""
+"""Number of steps between two searches for particles that may fall asleep: a search costs little, but not nothing."""
 
 
 def disturbed(p):
@@ -26,7 +25,7 @@ def wake(p, places) -> None:
     if places.size == 0:
         return
     first, last = p.awake, p.awake + places.size
-    # those already there stay where they are: places are sorted, so the others are the last ones
+    # particles already in the range keep their places; the others of the sorted places lie beyond it
     p.exchange(np.setdiff1d(np.arange(first, last), places), places[places >= last])
     p.awake = last
 
@@ -34,7 +33,7 @@ def wake(p, places) -> None:
 def wake_all(p, time: float, columns: ColumnPhysics) -> None:
     """Wake every particle, its column brought to `time` [s].
 
-    `p` are all particles; `columns` is the law of the columns and what it needs.
+    `p` are all particles; `columns` is the law of the columns with its surroundings.
     """
     places = np.arange(p.awake, p.count)
     catch_up(p, time, columns, places)
@@ -86,7 +85,7 @@ def fall_asleep(p, time: float, columns: ColumnPhysics, friction: BasalLaw, exch
     highest = np.maximum(present_profiles(p, which, columns).max(axis=1), p.basal_excess_pore_pressure[which])
     held = held_at_rest(p, which, np.maximum(highest, 0.0), friction, columns.phases, exchange, walls)
     held |= p.arrested[which] > 0
-    # those held come last
+    # particles held at rest move to the end of the range
     free, place = first + np.flatnonzero(~held), first + np.arange(held.size)
     middle = first + free.size
     p.exchange(place[: free.size][held[: free.size]], free[free >= middle])

@@ -10,13 +10,13 @@ from ..core.structs import struct
 from ..physics.contracts import BasalState, BasalStress, BaseContact, ColumnForcing, ColumnLaw, ColumnState, Phases
 
 BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
-"""What columns stand on where nothing is drained."""
+"""Contact at the base of columns where nothing is drained."""
 
 NO_SOURCE = np.zeros(1)
 """Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
 NOT_ASKED = np.zeros(1)
-"""What friction laws get for the depth eroded [m]: to look it up takes time."""
+"""Eroded depth that friction laws are given [m]: none of them reads it, and finding it takes time."""
 
 NO_VARIABLES = SimpleNamespace()
 
@@ -128,7 +128,7 @@ def basal_state(
     eroded_depth : ndarray, shape (n,) or (1,)
         Depth taken from the bed in this event [m].
     asking : bool
-        Whether this is no part of a step: the law's variables are then copies.
+        Whether the call is no part of a step: the law's variables are then copies.
     """
     material = basal.material
     depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
@@ -170,21 +170,21 @@ def _variables(p, which: slice, basal: BasalLaw, asking: bool):
 def press_on_bed(first, velocity, sample, cosine, load, weighing):
     """Return speed, normal gravity and effective normal stress at the base of particles.
 
-    The centripetal part v.Hess(Z).v is capped at v^2 over the least radius: a raster knows none below its own spacing,
-    and noise must not press the flow to the ground.
+    The centripetal part v.Hess(Z).v is capped at v^2 over the least radius: a raster resolves no smaller radius than
+    its spacing, and noise of the elevation must not add to the load.
 
     Parameters
     ----------
     first : int
         Place of the first particle asked for.
     velocity : ndarray, shape (3, all)
-        Of all particles [m s-1].
+        Velocity of all particles [m s-1].
     sample : SurfaceSample
-        Of the bed below all particles.
+        Bed below all particles.
     cosine : ndarray, shape (all,)
         Cosine of the slope of the bed [-].
     load : BedLoad
-        Of the n particles asked for.
+        Load of the n particles asked for.
     weighing : Weighing
         Constants by which the flow weighs on the bed.
 

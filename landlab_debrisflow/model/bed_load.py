@@ -23,7 +23,8 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     """
     if bed.pore_pressure is None or (p.count == 0 and dt is None):
         return
-    # volume over depth is map area; g_n h_n is g h cos^2(theta). Of two phases the grains stand for the mixture
+    # volume over depth is map area; g_n h_n is g h cos^2(theta); in a flow of two phases the grains stand for the
+    # mixture
     weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
     weight[p.phase == WATER] = 0.0
     force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)

@@ -9,21 +9,21 @@ from ..spatial.cells import sort_into_cells
 
 
 class Spheres(NamedTuple):
-    """Neighbourhoods of n particles: position x, y, z and radius within which each feels its neighbours [m]."""
+    """Neighbourhoods of n particles: position x, y, z and the radius within which each has neighbours [m]."""
 
     x: np.ndarray  # (n,) position [m]
     y: np.ndarray  # (n,) [m]
     z: np.ndarray  # (n,) [m]
-    support: np.ndarray  # (n,) radius within which each feels others [m]
+    support: np.ndarray  # (n,) radius within which a particle acts on others [m]
 
 
 def find_bodies(x, y, z, support):
-    """Return the number of the body of every particle; two that feel each other are of one.
+    """Return the number of the body of every particle; two neighbours belong to one body.
 
     Parameters
     ----------
     x, y, z, support : ndarray, shape (n,)
-        Position, and the radius within which each feels others [m].
+        Position, and the radius within which a particle has neighbours [m].
 
     Returns
     -------
@@ -43,7 +43,7 @@ def find_bodies(x, y, z, support):
 
 @inner
 def _root(parent, i):
-    """Return the particle that stands for the body of particle `i`; shorten the way to it."""
+    """Return the particle that stands for the body of particle `i`; shorten the chain of parents to it."""
     while parent[i] != i:
         parent[i] = parent[parent[i]]
         i = parent[i]
@@ -52,7 +52,7 @@ def _root(parent, i):
 
 @inner
 def _join_cells(spheres, order, one, other, parent):
-    """Join particles of two cells that feel each other; return whether all of the first one are then of one body.
+    """Join neighbours in two cells; return whether all particles of the first cell are then of one body.
 
     A cell is the first place and the one after the last in `order`, int, shape (n,); `parent`, int, shape (n,), leads
     from each particle to the one that stands for its body; `spheres` are the `Spheres` of the n particles.
@@ -79,7 +79,7 @@ def _join_cells(spheres, order, one, other, parent):
 
 @kernel
 def _join(spheres, columns, order, start, window, parent):
-    """Join particles that feel each other: write a particle that stands for its body for each of them.
+    """Join neighbours to bodies: write for each particle the one that stands for its body.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def _join(spheres, columns, order, start, window, parent):
     parent : ndarray of int, shape (n,)
         Each particle itself, on entry.
     """
-    whole = np.zeros(start.size - 1, np.bool_)  # cells known to be of one body
+    whole = np.zeros(start.size - 1, np.bool_)  # the two cells are already known to belong to one body
     for cell in range(start.size - 1):
         row, column, w = cell // columns, cell % columns, window[cell]
         here = start[cell], start[cell + 1]
@@ -99,7 +99,7 @@ def _join(spheres, columns, order, start, window, parent):
         for r in range(row, max(row - w, 0) - 1, -1):
             for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
                 other = r * columns + q
-                if other >= cell or start[other] == start[other + 1]:  # a pair is looked at once
+                if other >= cell or start[other] == start[other + 1]:  # every pair of particles is examined once
                     continue
                 first, second = order[here[0]], order[start[other]]
                 if whole[cell] and whole[other] and _root(parent, first) == _root(parent, second):

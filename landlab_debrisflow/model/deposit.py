@@ -11,7 +11,7 @@ def resting_depth(p, origins, bed):
     p : Particles
         All particles.
     origins : Origins
-        What never moved goes back just where it came from.
+        Mass that never moved returns to the nodes from which it was taken.
     bed : Bed
         Ground below the flow.
     """
@@ -35,7 +35,7 @@ def extent(p, origins, inflow, raster) -> tuple[float, float]:
     nodes.
     """
     ends = [(p.y.min(), p.y.max())] if p.y.size else []
-    if nodes := origins.span:  # to which may return what never moved
+    if nodes := origins.span:  # nodes to which mass that never moved may return
         ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))
     ends += [source.y_range for source in inflow.sources if not inflow.over]
     return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)

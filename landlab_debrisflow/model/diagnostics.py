@@ -10,7 +10,7 @@ STAGES = ("friction and kick", "entrainment", "drift", "summation", "columns", "
 
 
 TIMED = 8
-"""Steps of which one is timed, to stand for all of them: reading the clock takes a hundredth of a small step."""
+"""Number of steps for which one timed step stands: reading the clock takes a hundredth of a small step."""
 
 
 class Diagnostics(NamedTuple):

@@ -12,7 +12,7 @@ from .basal import BasalLaw, basal_state
 
 @struct
 class Soil(NamedTuple):
-    """Soil as a flow takes it up.
+    """Soil that a flow takes up.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Layer(NamedTuple):
     thickness : ndarray, shape (n,)
         Slope-normal thickness [m].
     share : ndarray, shape (n,)
-        Part of the thickness that is of the particle's own phase [-].
+        Fraction of the thickness that belongs to the particle's own phase [-].
     cosine : ndarray, shape (n,)
         Cosine of the slope of the bed [-].
     coefficient_of_consolidation : ndarray, shape (n,) or (1,)
@@ -114,7 +114,7 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     phases : Phases
         Stages of a step that depend on the number of phases.
     prescribed : ndarray of int
-        Particles whose motion is prescribed: they take nothing.
+        Particles whose motion is prescribed: these take no soil.
     time, dt : float
         Beginning and length of the step [s].
 
@@ -162,9 +162,9 @@ def _mix(entrained, soil, layer, mixture, erosion, time, dt):
     Parameters
     ----------
     entrained : ndarray, shape (m,)
-        Soil taken by the m particles that are awake; becomes what their own phase keeps of it [m3].
+        Soil taken by the m particles that are awake; changed to the volume that their own phase keeps [m3].
     soil : Soil
-        Soil as the flow takes it up.
+        Soil that the flow takes up.
     layer : Layer
         Flow over the bed, at n particles.
     mixture : Mixture

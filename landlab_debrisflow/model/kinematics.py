@@ -1,8 +1,8 @@
 """Kick and drift of points on a surface.
 
 Curvature does no work here: gravity and pressure act along the bed, the particle drifts, and its
-velocity is then turned into the new tangent plane. Its length is kept, but for what gravity did not pay: the
-drift leaves the tangent plane, and lands higher or lower than the kicks know.
+velocity is then turned into the new tangent plane. The speed is kept, then corrected for energy: a straight drift over
+a curved bed changes the height by an amount that the two half kicks do not contain.
 """
 
 from typing import NamedTuple
@@ -38,8 +38,8 @@ class Resistance(NamedTuple):
 
 
 STILL = 1e-3
-"""Displacement over smoothing length, and relative change of volume, below which the sums over
-neighbours need not be done again: their error is of this order."""
+"""Displacement over smoothing length, and relative change of volume, below which the sums over neighbours are not
+computed again: their error is of this order."""
 
 
 @inner
@@ -66,9 +66,9 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
     Parameters
     ----------
     velocity, push : ndarray, shape (3, n)
-        Velocity [m s-1] and acceleration by inner forces [m s-2].
+        Velocity [m s-1], and acceleration by forces between particles [m s-2].
     sample : SurfaceSample
-        Of the bed below the particles.
+        Surface of the bed below the particles.
     cosine : ndarray, shape (n,)
         Cosine of the slope of the bed [-].
     resistance : Resistance
@@ -89,7 +89,7 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
             before2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
             deceleration = yield_stress[i] / mass[i]
             slowed = speed - dt * deceleration
-            if slowed < 0.0:  # not max(): a NaN must survive
+            if slowed < 0.0:  # not max(), which would drop a NaN that the check after the step must find
                 slowed = 0.0
             slowed /= 1.0 + dt * drag[i] / mass[i]
             least = value_at(rest_speed, i)
@@ -106,7 +106,8 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
     Parameters
     ----------
     position : Position
-        Of which x and y are changed in place; z is the elevation of the bed, as it is now, below the old ones.
+        Position of the particles: x and y are changed in place; z is the present elevation of the bed at the old x and
+        y.
     velocity : ndarray, shape (3, n)
         Multiplied by `velocity_ratio` [m s-1]; the drift uses the mean of before and after, which keeps the pair
         erosion-drift second-order.
@@ -115,7 +116,7 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
     raster : Raster
         Nodes, their statuses and spacing [m].
     expected_elevation : ndarray, shape (n,)
-        Written: the elevation at which the kicks leave it, less half a step of vertical velocity [m]; see
+        Written: the elevation at which the kicks leave the particle, less half a step of vertical velocity [m]; see
         `follow_bed`.
     touched_wall : ndarray of int8, shape (n,)
         Set to 1 where a closed node stopped the particle.
@@ -123,7 +124,8 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
     Returns
     -------
     ndarray of int, shape (m,)
-        Open node over which a particle left, `NO_EXIT` if it did not, `NOWHERE` if its position is not a number.
+        Open node over which a particle left, `NO_EXIT` if the particle stays, `NOWHERE` if its position is not a
+        number.
     """
     x, y, z = position
     status, columns, rows, dx, dy = raster
@@ -135,7 +137,7 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
         for k in range(3):
             velocity[k, i] *= velocity_ratio[i]
         here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
-        if _is_blocked(here, node, columns, status):  # `stop_at_walls` looked from elsewhere
+        if _is_blocked(here, node, columns, status):  # `stop_at_walls` tested another starting point
             touched_wall[i] = 1
             new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
             velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
@@ -166,7 +168,7 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
     velocity : ndarray, shape (3, n)
         Changed in place [m s-1].
     sample : SurfaceSample
-        Of the bed below the particles.
+        Surface of the bed below the particles.
     raster : Raster
         Nodes, their statuses and spacing [m].
     touched_wall : ndarray of int8, shape (m,)
@@ -179,7 +181,7 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
         here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
         if _is_blocked(here, node, columns, status):
             touched_wall[i] = 1
-            # what is left is the projection on the direction along the wall: never faster
+            # the rest is the projection on the direction along the wall, which is never faster
             if status[here // columns * columns + node % columns] != CLOSED:
                 along = (velocity[0, i] + velocity[2, i] * slope_x[i]) / (1.0 + slope_x[i] ** 2)
                 velocity[0, i], velocity[1, i], velocity[2, i] = along, 0.0, along * slope_x[i]
@@ -213,12 +215,12 @@ def _is_blocked(here, node, columns, status):
 def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
     """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
 
-    The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the
-    vertical velocity: the trapezoid rule for the true g (z - z'), but for a term g_t^2 dt^2/8 that telescopes
-    from step to step. What is missing of the fall is added to the kinetic energy. Without it a bed that bends
-    within a step pays a particle for every crossing: 1600 m of head in a pit of 100 m and one node
-    (`expected_elevation`, shape (n,) [m], is from `drift`; if it is empty nothing drifted). `sample` is the
-    `SurfaceSample` of the n particles now; gravity is in m s-2, dt in s.
+    The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the vertical
+    velocity. This is the trapezoid rule for the true work g (z - z'), apart from a term g_t^2 dt^2/8 that cancels from
+    step to step. The difference between true and done work is added to the kinetic energy. Without this correction a
+    bed that bends within a step gives a particle energy at every crossing: 1600 m of head in a pit 100 m deep and one
+    node wide (`expected_elevation`, shape (n,) [m], is from `drift`; an empty one means that no particle drifted).
+    `sample` is the `SurfaceSample` of the n particles now; gravity is in m s-2, dt in s.
     """
     elevation, slope_x, slope_y, _, _, _ = sample
     for i in range(cosine.size):
@@ -248,7 +250,7 @@ def count_still_steps(position, volume, smoothing_length, reference_position, re
     volume, smoothing_length : ndarray, shape (n,)
         [m3] and [m]
     reference_position, reference_volume : ndarray, shape (3, n) and (n,)
-        Position [m] and volume [m3] when it last counted as changed.
+        Position [m] and volume [m3] when the particle last counted as changed.
     still_steps : ndarray of int, shape (n,)
     """
     x, y, z = position

@@ -11,7 +11,7 @@ PRESETS = {
     "fast": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-4},
     "fastest": {"courant_number": 1.0, "advective_courant_number": 1.0, "rest_energy": 1e-3},
 }
-"""Values of parameters that are not given, by preset. What the fast ones cost in accuracy is measured: see
+"""Values of parameters that are not given, by preset. The accuracy that the fast presets cost is measured: see
 docs/choosing.md, and `python -m benchmarks.fidelity presets`."""
 
 
@@ -34,7 +34,7 @@ class Numerics:
         kind=int, words=(AUTO,),
     )  # fmt: skip
     tolerance: float | None = parameter(
-        "-", "error that a number of particles found by pilot runs may leave in what hold names; 0.05 if not set",
+        "-", "largest error of the quantities in hold, for a number of particles found by pilot runs; 0.05 if not set",
         None, (1e-3, 0.5), remedy="0.05 are 5 %",
     )  # fmt: skip
     hold: Any = parameter(

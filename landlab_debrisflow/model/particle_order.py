@@ -1,7 +1,7 @@
 """Order of the particles in a file, by identity, with the place of each in memory as a variable.
 
-The order in memory follows from who sleeps, and may be another one in another version; a run goes on to the bit only
-if sums over neighbours are done in the order in which they were.
+The order in memory depends on which particles sleep, and may differ between versions. A run goes on to the bit only if
+the sums over neighbours are computed in the same order as before.
 """
 
 import numpy as np
@@ -34,7 +34,7 @@ def sort_by_identity(dataset: xr.Dataset, prefix: str) -> xr.Dataset:
     if "partners_of" not in dataset:
         return ordered
     now = place.size, int(dataset["ever"])
-    if tuple(dataset["partners_generation"].values.tolist()) != now:  # of particles that are gone; never read again
+    if tuple(dataset["partners_generation"].values.tolist()) != now:  # partners that have left are never read again
         return ordered.isel(grain=slice(0))
     number = np.empty_like(place)
     number[place] = np.arange(place.size)

@@ -30,7 +30,7 @@ class Particles:
 
     def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
         self.levels, self.variables = levels, tuple(variables)
-        self.awake = self.ever = 0  # number of those awake; of those that there have been so far
+        self.awake = self.ever = 0  # number of particles awake; number of all particles made so far
         self.departed: Particles | None = None
         for variable in self.variables:
             setattr(self, variable.name, self._new(variable, 0))
@@ -55,7 +55,7 @@ class Particles:
 
     @property
     def spacing(self):
-        """Distance of particles of their phase (V/h)^(1/2), h being the depth that is of it; shape (n,) [m]."""
+        """Spacing of particles of one phase, (V/h)^(1/2) with the depth h of this phase; shape (n,) [m]."""
         return np.sqrt(self.volume / (self.depth * self.share))
 
     def append(self, count: int, **values) -> slice:
@@ -69,14 +69,14 @@ class Particles:
                 new[:] = values[variable.name]
             setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], variable.axis))
         self.awake += count
-        moved = min(count, n - first)  # those asleep whose places the new ones take
+        moved = min(count, n - first)  # particles asleep whose places the new particles take
         self.exchange(first + np.arange(moved), n + count - moved + np.arange(moved))
         return slice(first, first + count)
 
     def exchange(self, these, those) -> None:
         """Exchange the particles at two arrays of int with their places, which have no place in common.
 
-        `these` and `those` have shape (k,) and are places.
+        `these` and `those`, int, have shape (k,).
         """
         if these.size == 0:
             return

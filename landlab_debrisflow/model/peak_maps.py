@@ -1,20 +1,21 @@
 """Fields of the flow on the nodes: now, and at its peak. The maps are made of them.
 
-Peaks count where the flow is deeper than what counts as arrival: a node has arrival time, peak depth, peak speed and
-all the others, or none. The last 1e-32 m3 of a hat function moves at full speed, too. Two of the peaks are what
-obstacles are designed for.
+Peaks count only where the flow is deeper than the depth that counts as arrival, so that a node has an arrival time and
+all peaks or none of them. Without a least depth the edge of a hat function, of perhaps 1e-32 m3, would count with its
+full speed. Two of the peaks serve the design of obstacles.
 
 **Impact pressure** is the dynamic pressure density x speed^2, in the mean over the volume at a node: the flux of
 momentum through a square metre across the flow. The empirical factor on it (1.5 for Hungr et al., 1984; 3 to 5 for
-Zhang, 1993), the static pressure and single boulders are for the reader to put on.
+Zhang, 1993), the static pressure and single boulders are not included.
 
-**Run-up** is the height of the surface, bed plus depth, above the lowest bed which that matter has come over. Downhill
-that is the depth. On raised terrain it is what is measured in the field and in flumes, depth plus rise above the foot
-(Iverson, George & Logan, 2016): v^2/(2g) for a thin body without friction.
+**Run-up** is the height of the surface, bed plus depth, above the lowest bed which that matter has come over. Where a
+flow only goes down, run-up is its depth. On rising ground it is the quantity measured in the field and in flumes, depth
+plus rise above the foot (Iverson, George & Logan, 2016): v^2/(2g) for a thin body without friction.
 
-**Closed nodes** hold no flow. They show what the open nodes beside their four faces do: impact with the part of the
-velocity that is towards the face, on the map, and the run-up there. At a wall across the flow that is the depth behind
-the bore it sends back. A depth-integrated flow has no jet: one could splash to impact pressure / (2 density g).
+**Closed nodes** hold no flow. They show values of the open nodes beside their four faces: the impact pressure of the
+velocity component towards the face, on the map, and the run-up. At a wall across the flow the run-up is the depth
+behind the bore that the wall reflects. A depth-integrated flow has no jet, which could splash as high as impact
+pressure / (2 density g).
 """
 
 from typing import NamedTuple
@@ -28,7 +29,8 @@ from ..spatial.transfer import Footprints, scatter
 from .particles import Particles
 
 UPDATE_FRACTION = 0.5
-"""Part of a node spacing that matter or waves may cross between two updates of the maps: no node is passed unseen."""
+"""Fraction of a node spacing that matter or waves may cross between two updates of the maps, so that no node is passed
+over."""
 
 
 class CurrentFields(NamedTuple):
@@ -84,18 +86,18 @@ class Base(NamedTuple):
 CURRENT, PEAKS = CurrentFields._fields, PeakFields._fields
 
 PHASES = ("solid_depth", "solid_speed", "water_speed")
-"""Shown besides, of grains and water, if they move by themselves."""
+"""Further fields of a flow of two phases, of grains and water."""
 
 VOLUME, WAY, PRESSURE, LIQUEFACTION, PECLET, IMPACT, SURFACE, GRAINS, GRAIN_WAY, TOWARDS = range(10)
-"""What is summed at every node, times volume: speed, what columns tell of grains, impact pressure, height of the
-surface over the lowest bed; the volume of grains, and their speed."""
+"""Places of the sums at every node, each times volume: speed, quantities of the columns (of grains), impact pressure,
+height of the surface over the lowest bed; the volume of grains, and their speed."""
 
 FACES = 4
-"""From `TOWARDS` on, if there are closed nodes: impact towards faces in the east, west, north, south."""
+"""First place of the impact towards faces in the east, west, north and south, if there are closed nodes."""
 
 
 class PeakMaps:
-    """Maps of the flow now and of its peaks; only nodes under the flow, and closed ones beside them, are looked at.
+    """Maps of the flow now and of its peaks; only nodes under the flow, and closed ones beside them, are examined.
 
     Parameters
     ----------
@@ -107,7 +109,7 @@ class PeakMaps:
     arrival_depth : float
         Depth that counts as arrival, and for the peaks [m].
     time : float
-        Of the event, now [s].
+        Time of the event, now [s].
     """
 
     def __init__(self, raster: Raster, fields, arrival_depth: float, time: float):
@@ -119,7 +121,8 @@ class PeakMaps:
         self._sums = np.zeros((raster.status.size, TOWARDS + FACES * self._walled))
         self._scratch = np.empty(raster.status.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last update
-        self._passed, self._then = 0.0, time  # way of the fastest since then [m]; when it was last counted [s]
+        # way of the fastest particle since then [m]; time up to which this way is counted [s]
+        self._passed, self._then = 0.0, time
 
     @property
     def under(self):
@@ -127,7 +130,7 @@ class PeakMaps:
         return self._under
 
     def variables(self) -> dict:
-        """Return by name, as dimensions and values, where the flow was at the last update and how far it may be now."""
+        """Return nodes under the flow at the last update and the way since, by name, as dimensions and values."""
         return {"under": ("shown", self._under), "passed": ((), self._passed), "then": ((), self._then)}
 
     def set_variables(self, variables) -> None:
@@ -136,13 +139,13 @@ class PeakMaps:
         self._passed, self._then = float(variables["passed"]), float(variables["then"])
 
     def is_due(self, time: float, fastest: float) -> bool:
-        """Return whether something, at most at speed `fastest` [m s-1], may have got on since the last update."""
+        """Return whether debris of the speed `fastest` [m s-1] may have reached a new node since the last update."""
         self._passed += fastest * (time - self._then)
         self._then = time
         return self._passed > UPDATE_FRACTION * self._raster.spacing
 
     def record(self, particles: Particles, footprints: Footprints, density, time: float) -> None:
-        """Show where the particles are now and keep the peaks; `density` is one for all or of each [kg m-3]."""
+        """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         for field in (*self._current, *self._phases):
             field[self._under] = 0.0
@@ -177,7 +180,7 @@ class PeakMaps:
             self._phases[2][at] = np.divide(left, water, out=np.zeros(at.size), where=water > 1e-12 * whole)
 
     def clear(self) -> None:
-        """Take depth and speed off the nodes; pressure and Péclet number stay as they were last."""
+        """Set depth and speed at the nodes to 0; pressure and Péclet number keep their last values."""
         for field in (*self._current[:2], *self._phases):
             field[self._under] = 0.0
         self._under = self._under[:0]
@@ -203,7 +206,7 @@ def _weight_by_volume(matter, base, walled, values):
     for i in range(volume.size):
         m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        grains = m if phase[i] != WATER else 0.0  # it is they that have pore pressure
+        grains = m if phase[i] != WATER else 0.0  # grains carry the columns
         to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
         to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
         to[PECLET] = grains * peclet_number[i]

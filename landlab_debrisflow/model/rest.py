@@ -1,10 +1,11 @@
-"""Rest is local: a body, that is all particles which feel each other, comes to rest by its own motion.
+"""Rest is local: each body, a set of particles connected as neighbours, comes to rest by its own motion.
 
-Where friction cannot hold what is left of a flow, it creeps for ever. So a body is arrested once its kinetic energy is
-a negligible part of the most it had, and friction holds most of it. Where most could not stay, it turns, as on a
-counter-slope, or it creeps, as a heap at its limit that drains through a throat. What turns gains speed, and what
-creeps does not: it is arrested, too, when it has been slow for longer than a force that is not balanced would leave it
-so. What is arrested stays until a body that moves touches it, or the ground is changed by others.
+A body of which friction cannot hold a small remainder would creep for ever. So a body is arrested once its kinetic
+energy is a negligible fraction of its peak and friction holds most of its volume. If friction does not hold most of a
+slow body, the body either turns round, as on a counter-slope, or creeps, as a heap at its angle of repose that drains
+through a throat. A body that turns gains speed; a body that creeps does not, and is arrested, too, once it has been
+slow for longer than an unbalanced force would leave it so slow. An arrested body stays until a moving body touches it,
+or another component changes the ground.
 """
 
 from typing import NamedTuple
@@ -16,10 +17,11 @@ from ..core.structs import struct
 from .connection import find_bodies
 
 MOST_UNHELD = 0.5
-"""Part of the volume of a body that may lie where friction does not hold it when it is arrested."""
+"""Largest fraction of the volume of a body that friction need not hold for the body to be arrested."""
 
 LEAST_HELD = 1e-9
-"""Part of the volume of a creeping body that friction must hold: what it holds nowhere is water that moves slowly."""
+"""Least fraction of the volume of a creeping body that friction must hold: a body that friction holds nowhere is water
+that moves slowly."""
 
 CREEP = 10.0
 """Most kinetic energy of a body that creeps over that of one which friction stops [-]."""
@@ -28,15 +30,16 @@ MOST_CREEP = 1e-3
 """Most kinetic energy of a body that creeps over its peak, if more than that of rest [-]: 3 % of the speed."""
 
 IMBALANCE = 1e-3
-"""Acceleration over gravity from which on a force on a body is not balanced [-]: that of a surface which falls by 1 m
-in a kilometre more than friction holds."""
+"""Acceleration over gravity from which on the forces on a body count as unbalanced [-]: that on a surface which falls 1
+m per kilometre more steeply than friction holds."""
 
 REST_OF_PARTICLE = 1e-4
-"""Most of the kinetic energy over that of its body's peak, per volume, that is taken from a particle which is being
-slowed where friction holds it. A body may be judged by more: this happens all the time, and slows what flows."""
+"""Kinetic energy per volume, over that at the peak of its body, below which a particle that slows down where friction
+holds it is stopped. The limit for whole bodies may be larger: single particles are stopped all the time, and a larger
+limit would slow the flow."""
 
 STEPS_BETWEEN_SEPARATIONS = 32
-"""Steps after which bodies are told apart anew: it takes many to part or to meet."""
+"""Number of steps between two searches for bodies: bodies take many steps to part or to meet."""
 
 UNKNOWN = -1
 """Number of the body of a new particle."""
@@ -49,8 +52,8 @@ class Members(NamedTuple):
     body: np.ndarray  # (n,) int, number of the body
     volume: np.ndarray  # (n,) [m3]
     velocity: np.ndarray  # (3, n) [m s-1]
-    summed: np.ndarray  # (n,) bool: something in reach has changed in the last step
-    arrested: np.ndarray  # (n,) not 0 if its body was arrested
+    summed: np.ndarray  # (n,) bool: a neighbour has changed in the last step
+    arrested: np.ndarray  # (n,) not 0 if the body of the particle was arrested
     rest_speed: np.ndarray  # (n,) below which a particle that is being slowed comes to rest [m s-1]; written
 
 
@@ -61,7 +64,8 @@ class BodyEnergies(NamedTuple):
     volume: np.ndarray  # (bodies,) [m3]
     energy: np.ndarray  # (bodies,) now [m5 s-2]; 0 before, written
     peak: np.ndarray  # (bodies,) the most so far [m5 s-2], written
-    slow_since: np.ndarray  # (bodies,) time since when it has no more than what creeps [s], infinite if more; written
+    # (bodies,) time since when a body has been slow enough to creep [s], infinite if it is faster; written
+    slow_since: np.ndarray
 
 
 PER_BODY = "peak", "volume", "slow_since"
@@ -69,10 +73,10 @@ PER_BODY = "peak", "volume", "slow_since"
 
 
 class Bodies:
-    """The bodies of a flow, the most that each has moved, and which of them rest.
+    """The bodies of a flow, the peak of the kinetic energy of each, and whether they rest.
 
-    What is known of a body between two separations is kept per body; across one it is carried by the particles, each
-    of which has its part, by volume, of the most kinetic energy its body had.
+    Between two searches for bodies, values are kept per body. From one search to the next the particles carry them:
+    each particle has its fraction, by volume, of the peak energy of its body.
 
     Attributes
     ----------
@@ -83,7 +87,7 @@ class Bodies:
     slow_since : ndarray, shape (bodies,)
         Time since when a body has had no more energy than one that creeps [s]; infinite if it has more.
     steps, known : int
-        Steps since the last separation, and how many particles there had ever been then.
+        Steps since the last search for bodies, and the number of all particles made until then.
     """
 
     def __init__(self):
@@ -117,7 +121,7 @@ class Bodies:
         self.at_rest = not touched.any()
 
     def _peak_of(self, p):
-        """Return the part each particle has of the most kinetic energy of its body [m5 s-2]; new ones have none."""
+        """Return the fraction of each particle in the peak energy of its body [m5 s-2]; 0 for new particles."""
         known = p.body != UNKNOWN
         part = np.zeros(p.count)
         body, volume = p.body[known], p.volume[known]
@@ -125,7 +129,7 @@ class Bodies:
         return part
 
     def judge(self, p, rest_energy: float, gravity: float, time: float):
-        """Find the bodies to be arrested after the last step, and how much of each friction must hold.
+        """Find the bodies to be arrested after the last step, and the volume of each that friction must hold.
 
         Parameters
         ----------
@@ -140,8 +144,8 @@ class Bodies:
         Returns
         -------
         ndarray, shape (bodies,), or None
-            Most of the volume of a body that friction need not hold if it is to be arrested [m3]; negative if it moves.
-            None: no particle that is free to move is in a body that is slow or creeps.
+            Largest volume of each body that friction need not hold for the body to be arrested [m3]; negative if the
+            body moves. None: no particle that is free to move is in a body that is slow or creeps.
         """
         self.steps += 1
         if p.count == 0:
@@ -196,7 +200,7 @@ class Bodies:
         self.at_rest = bool(p.arrested.all())
 
     def set_free(self, p) -> None:
-        """Let everything move again, as if it had never moved: the ground below has changed."""
+        """Set all bodies free and forget their peaks, because the ground below has changed."""
         arrested = p.arrested > 0
         p.body[arrested], p.arrested[arrested], p.rest_speed[arrested] = UNKNOWN, 0, 0.0
         self.at_rest, self.known = False, UNKNOWN if arrested.any() else self.known
@@ -222,7 +226,7 @@ def _measure(awake, members, bodies, rest_energy, creep_energy, time):
     slow, free : int
         Number of particles that are free to move, in bodies that may creep and in all.
     touched : bool
-        Whether anything has changed in reach of a particle that is arrested.
+        Whether a neighbour of an arrested particle has changed.
     """
     body, volume, velocity, summed, arrested, rest_speed = members
     body_volume, energy, peak, slow_since = bodies

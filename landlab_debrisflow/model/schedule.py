@@ -1,4 +1,4 @@
-"""When a run is listened to: at its begin, after every step, and at multiples of the intervals of observers."""
+"""Times at which a run calls its listener and observers: at its beginning, after steps, at multiples of intervals."""
 
 import sys
 from typing import Protocol
@@ -6,8 +6,8 @@ from typing import Protocol
 import numpy as np
 
 EVERY_STEP = sys.float_info.min
-"""Interval of observers that look before the first step of a call and after each of its steps [s]: no step is so short,
-so each crosses a multiple of it."""
+"""Interval of observers that are called before the first step of a call and after every step [s]: shorter than any
+step, so that each step crosses a multiple of the interval."""
 
 
 class RunListener(Protocol):
@@ -27,7 +27,7 @@ class RunListener(Protocol):
 
 
 def due_at_start(observers) -> list:
-    """Return the observers that look before the first step of a call."""
+    """Return the observers that are called before the first step of a call."""
     return [observer for observer in observers if observer.interval <= EVERY_STEP]
 
 

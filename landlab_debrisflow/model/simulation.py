@@ -27,7 +27,7 @@ FIRST_SWEEPS = 8
 
 
 class Simulation:
-    """A flow: its state, and how that changes in time.
+    """A flow: its state, and the change of this state in time.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Simulation:
     Attributes
     ----------
     state : State
-        All that changes in a run but the bed: to go back is to put a copy of it here.
+        All that changes in a run, except the bed; replaced by an earlier copy to undo steps.
     surroundings : Surroundings or None
         Inputs of the call; None before the first one.
     phases : Phases
@@ -91,7 +91,7 @@ class Simulation:
         parameters : mapping of str to NamedTuple
             For friction and erosion those parameters of the law that may vary in space (`core.parameters.on_nodes`).
         changed : bool
-            Whether the terrain differs from what the last call left.
+            Whether the terrain has changed since the last call.
         """
         self.surroundings = surround(self.setup, self.phases, bed, parameters)
         self.state.outdated |= changed
@@ -100,7 +100,7 @@ class Simulation:
         load_bed(self.particles, bed, self.setup.material, self.time)
 
     def begin(self, bed: Bed, given, listener: RunListener) -> None:
-        """Put the flow on a bed and make particles of the release of a `GridInput`, which lay on it."""
+        """Put the flow on a bed and make particles of the release of a `GridInput`, which was taken off the bed."""
         self.set_bed(bed, given.parameters, given.terrain.changed)
         if given.release.nodes.size:
             self.release(given.release.nodes, given.release.depth, given.release.velocity)
@@ -140,7 +140,7 @@ class Simulation:
         state.control.restart()
 
     def _refresh(self, sweeps: int = 1) -> None:
-        """Find bed, thickness, forces anew, in so many `sweeps`, where particles or terrain changed by other hands."""
+        """Find bed, thickness and forces anew, in `sweeps` passes, after a release or a change of the terrain."""
         state, p, phases, near = self.state, self.particles, self.phases, self.surroundings
         setup = self.setup
         activity.wake_all(p, state.time, near.columns)
@@ -152,7 +152,8 @@ class Simulation:
                 p, state.exchange, setup.flow, setup.numerics, near.columns, state.inflow, near.walls, state.time
             )
         self._find_limits()
-        phases.share_entrained(p, state.exchange)  # nothing; and what the porosity is now, it is not by the flow
+        # no soil was entrained: this only notes the porosity, which the flow has not changed
+        phases.share_entrained(p, state.exchange)
         state.outdated = False
 
     def _find_limits(self) -> None:
@@ -174,7 +175,7 @@ class Simulation:
         return self.idle and self.inflow.over
 
     def start(self, end: float) -> None:
-        """Get ready for the first step of a call that goes until `end` [s]."""
+        """Prepare the first step of a call that goes until `end` [s]."""
         self.idle_until(end)
         if self.particles.count:
             self._find_limits()
@@ -189,7 +190,7 @@ class Simulation:
         stop_at_rest : bool
             Return as soon as all is at rest; `time` tells when.
         listener : RunListener, optional
-            Is told of every step, and may end the advance before the next one.
+            Called after every step; it may end the advance before the next one.
 
         Returns
         -------
@@ -265,7 +266,8 @@ class Simulation:
         longest = min(longest, self.inflow.latest(self.time) - self.time)
         if left <= longest:
             return left
-        return 0.5 * left if left <= 2.0 * longest else longest  # no sliver for the last step
+        # two steps of equal length at the end, instead of a very short last one
+        return 0.5 * left if left <= 2.0 * longest else longest
 
     def held_at_rest(self, which: slice, pressure):
         """Return which particles friction would hold at rest under some basal excess pore pressure [Pa], shape (n,)."""
@@ -283,7 +285,7 @@ class Simulation:
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
         p = self.particles
-        if p.count == 0:  # also before there is a bed
+        if p.count == 0:  # the flow may have no bed yet
             return p.excess_pore_pressure
         return present_profiles(p, slice(p.count), self.surroundings.columns)
 

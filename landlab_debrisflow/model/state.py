@@ -31,11 +31,11 @@ class State:
     outdated : bool
         Whether terrain or particles are new: neighbours and forces must be found again.
     limits : StepLimits or None
-        What limits the next step; None before particles were looked at for the first time.
+        Limits of the next step; None before they were found for the first time.
     control : StepControl
         Choice of the length of steps.
     bodies : Bodies
-        Particles connected by feeling each other.
+        Particles connected as neighbours.
     exchange : Exchange
         State of the exchange between grains and water.
     origins : Origins

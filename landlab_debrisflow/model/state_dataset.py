@@ -46,7 +46,7 @@ def to_dataset(state, prefix: str = "") -> xr.Dataset:
     data["outflow_volume"] = ("exit_node", np.array(volumes, float))
     if state.exchange.partners is not None:
         of, count, index, weight = state.exchange.partners
-        filled = np.arange(index.shape[1]) < count[:, None]  # what lies beyond was never written
+        filled = np.arange(index.shape[1]) < count[:, None]  # entries beyond were never written
         data["partners_of"], data["partners_count"] = ("grain", of), ("grain", count)
         data["partners_index"] = (("grain", "partner"), np.where(filled, index, 0))
         data["partners_weight"] = (("grain", "partner"), np.where(filled, weight, 0.0))
@@ -61,7 +61,7 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     ----------
     dataset : xarray.Dataset
     state : State
-        Of a simulation with the same setup; it is not changed. What does not differ in a run is taken from it.
+        State of a simulation with the same setup; it is not changed. Values that no run changes are taken from it.
     prefix : str
         Beginning of the names of variables of the particles.
 
@@ -79,8 +79,8 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     needed = (*(prefix + variable.name for variable in p.variables), "awake", "ever", "time")
     if missing := [name for name in needed if name not in read]:
         raise InputError(
-            f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give what "
-            "to_dataset() of a run with the same setup wrote"
+            f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give a Dataset "
+            "that to_dataset() of a run with the same setup wrote"
         )
     for variable in p.variables:
         setattr(p, variable.name, np.array(read[prefix + variable.name], variable.dtype, order="C"))

@@ -2,7 +2,7 @@
 
 Kick - erode and drift - kick, symmetric in time, hence second-order: the forces at the end of a step
 are those at the beginning of the next. Only the first ``particles.awake`` particles are advanced; the bed below and
-neighbours are looked at for all, to notice which must wake (activity.py).
+changed neighbours are examined for all particles, to find those that must wake (activity.py).
 """
 
 import numpy as np
@@ -21,8 +21,8 @@ from .time_step import StepLimits, StepRule, reduce_particles
 from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
-"""Steps after which what did not change (`kinematics.STILL`) is left out of the sums over neighbours: the
-smoothing length has then settled."""
+"""Number of steps without change (`kinematics.STILL`) after which a particle is left out of the sums over neighbours:
+its smoothing length has then converged."""
 
 KICK, ENTRAINMENT, DRIFT, SUMMATION, COLUMNS, LIMITS = range(6)
 """Places of the stages in `diagnostics.STAGES`."""
@@ -66,7 +66,7 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     `p` are the particles, whose velocities of the awake ones are changed [m s-1]; `exchange` is the state of the
     exchange between phases; `walls` is None where no node is closed; `dt` is in s.
     """
-    if p.count == 0:  # all have left in this step, and partners are still those of before
+    if p.count == 0:  # all particles have left in this step, and the partners are still those of before
         return
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
@@ -98,7 +98,7 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
         If a position is not a number.
     """
     awake = slice(p.awake)
-    if p.entrained_volume[awake].any():  # the bed below has sunk: that is no fall of the flow
+    if p.entrained_volume[awake].any():  # erosion has lowered the bed: the flow does not gain energy by this fall
         p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
     position = p.x, p.y, p.z
     exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
@@ -126,11 +126,11 @@ def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     then only the bed has changed. Written are elevation, cosine, nearest node and velocity of the particles `p`.
     """
     before = p.z.copy() if dt == 0.0 else None
-    sample = np.empty(p.count), *p.surface_sample[1:]  # `follow_bed` moves z
+    sample = np.empty(p.count), *p.surface_sample[1:]  # p.z itself is updated by `follow_bed`
     bed.surface.sample_into(p.x, p.y, sample)
     expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
     follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
-    if dt == 0.0:  # nothing has moved but the bed: that is neither rise nor fall of the flow
+    if dt == 0.0:  # only the bed has moved, which is neither rise nor fall of the flow
         p.lowest_z += p.z - before
     np.minimum(p.lowest_z, p.z, out=p.lowest_z)
     p.nearest_node = bed.raster.nearest(p.x, p.y)
@@ -160,7 +160,7 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
     walls : Raster or None
         None: no node is closed.
     time : float
-        To which columns of particles that are disturbed in their sleep catch up [s].
+        Time to which the columns of particles that wake are advanced [s].
     """
     if p.count == 0:
         return
@@ -170,7 +170,7 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
         state, changed = ghost_particles(state, changed, walls, p.touched_wall)
     cells = sort_into_cells(state.position.x, state.position.y, 2.0 * state.smoothing.length, changed)
     p.summed[:] = cells.computed[: p.count]
-    activity.catch_up(p, time, columns, activity.disturbed(p))  # under the thickness they slept under
+    activity.catch_up(p, time, columns, activity.disturbed(p))  # under the thickness of the time asleep
     sums = Sums(
         thickness=p.own_thickness,
         gradient_term=p.gradient_term,
@@ -228,13 +228,13 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
 def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: float = 0.0) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
-    `p` are the particles, `phases` gives the stiffness beside weight, `rule` what bounds a step; `gravity` is in m s-2;
-    `dt` is 0 before the first step.
+    `p` are the particles, `phases` gives the stiffness beside weight, `rule` the bounds of a step; `gravity` is in m
+    s-2; `dt` is 0 before the first step.
 
     Raises
     ------
     SimulationError
-        If anything that moves is not finite.
+        If the position or velocity of a particle is not finite.
     """
     stiff = phases.celerity_squared(p, dt)
     limits = reduce_particles(p, gravity, rule, stiff)

@@ -3,25 +3,26 @@
 import numpy as np
 
 FASTER = 1.5
-"""A step over the one before: what starts, starts like a root of time, in thrust as in pore pressure."""
+"""Largest ratio of a step to the one before: thrust and pore pressure begin to change with the square root of time."""
 
 FIRST = 1.0 / 64.0
 """First step after a release over the one that would be stable."""
 
 TO_STOP = 0.25
-"""Part of the time to stop, as the flow is slowing now, that a step may take; the time of rest is known to that."""
+"""Largest step over the time in which the flow would stop at its present deceleration: the time of rest is resolved to
+this fraction."""
 
 SLOWEST = 1.0 / 16.0
-"""But no less than this part of the one that would be stable: what swings turns, and does not stop."""
+"""Least step for this reason, over the stable one: a flow that oscillates turns round and does not stop."""
 
 
 class StepControl:
-    """Steps that follow how the flow starts and stops.
+    """Length of steps while the flow starts and stops.
 
     Attributes
     ----------
     step, speed : float
-        The last step [s], and the root of the energy of the flow at its beginning [m5/2 s-1].
+        The last step [s], and the root of the energy of the flow at the beginning of this step [m5/2 s-1].
     """
 
     def __init__(self):
@@ -43,9 +44,9 @@ class StepControl:
         Parameters
         ----------
         stable : float
-            What stability and resolution allow [s].
+            Longest step that stability and resolution allow [s].
         energy : float
-            Of the flow now [m5 s-2].
+            Energy of the flow now [m5 s-2].
 
         Examples
         --------

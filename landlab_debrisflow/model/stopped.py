@@ -4,16 +4,16 @@ import numpy as np
 
 
 class Stopped:
-    """An account of volume since it was last told.
+    """Volume stopped since it was last reported.
 
     Attributes
     ----------
     volume : float
         Volume stopped since the account was last begun [m3].
     first, last : float
-        Times of the first and the last one [s].
+        Times at which the first and the last particle was stopped [s].
     where : tuple of float
-        Where the first one was, from the lower left node [m].
+        Position of the first stopped particle, from the lower left node [m].
     """
 
     def __init__(self):

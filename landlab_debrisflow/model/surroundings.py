@@ -1,4 +1,4 @@
-"""Inputs of a call as the stages of a step want them: the bed, its walls, and the laws at the base."""
+"""Inputs of a call that the stages of a step read: the bed, its walls, and the laws at the base."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -27,7 +27,7 @@ class Surroundings(NamedTuple):
     columns : ColumnPhysics
         Law of the columns.
     step_rule : StepRule
-        What bounds a step.
+        Bounds of the length of a step.
     """
 
     bed: Bed

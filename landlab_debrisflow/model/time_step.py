@@ -12,8 +12,8 @@ GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
 LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
-"""Of the fastest wave on a lattice, over celerity / smoothing length: its angular frequency, and the rate at which a
-shock viscosity of 1 damps it (docs/decisions.md, Flow 2)."""
+"""Angular frequency of the fastest wave on a lattice of particles, and the rate at which a shock viscosity of 1 damps
+it, both over celerity / smoothing length (docs/decisions.md, Flow 2)."""
 
 
 def viscous_share(viscosity: float) -> float:
@@ -44,9 +44,9 @@ class StepRule(NamedTuple):
     Attributes
     ----------
     courant_number : float
-        Time step over smoothing length / celerity, with what the shock viscosity takes of it [-].
+        Time step over smoothing length / celerity, reduced for the shock viscosity [-].
     way : float
-        Longest way of a particle in a step, because the terrain must not be jumped over [m].
+        Longest way of a particle in a step [m]: a longer one would skip terrain.
     """
 
     courant_number: float
@@ -81,9 +81,9 @@ class Waves(NamedTuple):
     Attributes
     ----------
     summed : ndarray of bool, shape (n,)
-        Whether the particle limits the step; others can wait, for nothing near them moves.
+        Whether the particle limits the step; nothing near the others moves.
     light : ndarray of bool, shape (n,)
-        Whether its volume is much smaller than that of most.
+        Whether the volume of the particle is much smaller than the usual one.
     cosine : ndarray, shape (n,)
         Cosine of the slope of the bed [-].
     thickness : ndarray, shape (n,)
@@ -152,13 +152,13 @@ def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF)
     Parameters
     ----------
     particles : Particles
-        Those not `summed` can wait for any time: nothing near them moves.
+        Particles that are not `summed` do not limit the step, because nothing near them moves.
     gravity : float
         Acceleration by gravity [m s-2].
     rule : StepRule
         Courant number and longest way of a step.
     stiff : ndarray, shape (n,) or (1,)
-        What else but weight adds to the square of the celerity [m2 s-2].
+        Part of the square of the celerity that is not due to weight [m2 s-2].
     """
     p = particles
     waves = Waves(
@@ -176,7 +176,7 @@ def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF)
 
 MOST_CONVERGENCE = 14.0 / 3.0
 """Largest rate of thickening, over largest speed / smoothing length, of even flow [-]: two speeds, times the integral
-of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow thickens faster than that."""
+of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow would thicken faster."""
 
 
 @kernel
@@ -207,7 +207,7 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
     growth_rate : float
         Highest rate of growth [s-1].
     across : float
-        Shortest time in which a particle may go that way [s].
+        Shortest time in which a particle may go the way `way` [s].
     energy, fastest, broken
         As in `StepLimits`.
     """
@@ -222,7 +222,8 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
     for i in range(count):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
-        if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:  # isfinite() is reordered away (core/jit.py)
+        # not isfinite(), which reordering breaks (core/jit.py)
+        if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
         if summed[i]:
@@ -231,8 +232,8 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
             if light[i]:
                 converging = min(converging, most / smoothing_length[i])
             wave_rate = max(wave_rate, fastest_wave / smoothing_length[i] + converging)
-        # v dt + 1/2 a dt^2 within the way, also of those that wait: with the most that thrust and gravity, or friction,
-        # can do, so that stopping is resolved to that way, too
+        # v dt + 1/2 a dt^2 stays within the way, for particles that are not summed, too; a is the largest acceleration
+        # by thrust and gravity, or deceleration by friction, so that stopping is resolved to this way as well
         gain = gravity + np.sqrt(push2)
         across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
         if not light[i]:

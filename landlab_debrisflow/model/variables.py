@@ -25,7 +25,7 @@ PARTICLE_VARIABLES = (
     Variable("smoothing_length", "m", "SPH smoothing length"),
     Variable("next_smoothing_length", "m", "SPH smoothing length of the next step", written=False),
     Variable("light", "-", "whether it is much smaller than most of its release", bool, False, written=False),
-    Variable("usual_length", "m", "smoothing length of the others in the thickest of the release", written=False),
+    Variable("usual_length", "m", "usual smoothing length in the thickest part of the release", written=False),
     Variable("gradient_term", "-", "grad-h term Omega of the SPH sums", initial=1.0, written=False),
     Variable("thickening", "m s-1", "-h div v of the flow", written=False),
     Variable("reference_position", "m", "position when it last counted as changed", components=3, written=False),
@@ -45,7 +45,7 @@ PARTICLE_VARIABLES = (
     Variable("touched_wall", "-", "1 if it ran against a closed node", "i1", 0, written=False),
     Variable("counted_at_wall", "-", "1 once that was counted", "i1", 0, written=False),
     Variable("excess_pore_pressure", "Pa", "excess pore pressure in the column", per_level=True),
-    # what the stages of a step hand on to each other
+    # values that the stages of a step pass on to each other
     Variable("nearest_node", "-", "node nearest to it", "i8", 0, written=False, scratch=True),
     Variable("slope_x", "-", "slope dz/dx of the bed below", written=False, scratch=True),
     Variable("slope_y", "-", "slope dz/dy of the bed below", written=False, scratch=True),
@@ -67,7 +67,7 @@ def particle_variables(column, laws=()) -> tuple[Variable, ...]:
     Parameters
     ----------
     column : ColumnLaw
-        Says how much it keeps per column, if anything (``memory_size``).
+        Its ``memory_size``, if it has one, is the number of floats that it keeps per column.
     laws : sequence
         Laws and phases; those with an attribute ``variables``, a tuple of `Variable`, bring variables of their own.
 
@@ -81,7 +81,7 @@ def particle_variables(column, laws=()) -> tuple[Variable, ...]:
         If two of the variables have one name.
     """
     memory = Variable(
-        "column_memory", "-", "what the column law remembers", written=False,
+        "column_memory", "-", "memory of the column law", written=False,
         width=getattr(column, "memory_size", 0),
     )  # fmt: skip
     variables = [*PARTICLE_VARIABLES, memory]

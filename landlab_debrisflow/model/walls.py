@@ -1,7 +1,7 @@
 """Closed nodes as walls: a particle near one has a ghost behind it, its mirror image.
 
-Without ghosts the sums over neighbours miss half of them at a wall: thickness comes out halved, and all the
-flow is pushed against it. The faces of closed nodes are the walls, so each ghost is in x, in y, or in both.
+Without ghosts a particle at a wall lacks half of its neighbours: its thickness comes out halved, and the flow is pushed
+against the wall. The faces of closed nodes are the walls, so each ghost is in x, in y, or in both.
 """
 
 import numpy as np
@@ -23,9 +23,9 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
     changed : ndarray of bool, shape (n,)
         Whether each particle has changed in the last steps.
     walls : Raster
-        With at least one closed node.
+        Raster with at least one closed node.
     touched : ndarray of int8, shape (n,)
-        Set to 1 for those that move towards or along a wall within their own spacing of it, not away from it.
+        Set to 1 for particles within one particle spacing of a wall, unless they move away from it.
 
     Returns
     -------
@@ -79,14 +79,14 @@ def bear(x, y, pull, sample, walls: Raster | None) -> None:
 
 
 TOUCHING = 1e-3
-"""Distance from a wall, over node spacing, at which a particle leans on it."""
+"""Distance from a wall, over node spacing, within which the wall supports a particle."""
 
 SPACING = 0.5 / SMOOTHING_RATIO
 """Spacing of particles over their support."""
 
 ALIKE = ("volume", "thickness", "thickening", "cos_slope", "density")
 ALIKE_IN_MIXTURE = ("phase", "share", "cross_term", "mean_pressure")
-"""What a ghost has in common with its particle, beside its elevation and smoothing."""
+"""Members of `FlowState` that a ghost has in common with its particle, beside elevation and smoothing."""
 
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
@@ -98,8 +98,9 @@ def _find(x, y, support, raster, source, wall):
     Written are the particle of each, `source`, shape (k,), and the coordinates of its walls, `wall`, shape (2, k) [m],
     NaN for none; x, y and support have shape (n,).
 
-    A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. In a
-    corner a particle and its three ghosts in one place would sum to more than any smoothing length can make up for.
+    A wall is taken to be no nearer than a quarter of a spacing, so a ghost is no nearer than half of one. Otherwise a
+    particle in a corner and its three ghosts could lie in one place, and their sum would be too large for any smoothing
+    length.
     """
     status, columns, rows, dx, dy = raster
     found = 0

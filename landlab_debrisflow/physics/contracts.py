@@ -18,7 +18,8 @@ class BasalStress(NamedTuple):
 
     Attributes
     ----------
-    effective_normal : ndarray, shape (n,); max(0, rho' g_n h_n - p_b), all that friction needs of pore pressure [Pa]
+    effective_normal : ndarray, shape (n,); max(0, rho' g_n h_n - p_b), the stress on which friction acts
+    [Pa]
     liquefaction : ndarray, shape (n,); rho' g h_n cos(theta), of static gravity g [Pa]
     excess_pore_pressure : ndarray, shape (n,); p_b, above hydrostatic, at the base [Pa]
     """
@@ -29,7 +30,7 @@ class BasalStress(NamedTuple):
 
 
 class BasalState(NamedTuple):
-    """The base of the flow under each of n particles, as friction and erosion laws read it.
+    """The base of the flow under each of n particles; friction and erosion laws read it.
 
     Attributes
     ----------
@@ -42,7 +43,7 @@ class BasalState(NamedTuple):
     eroded_depth : ndarray, shape (n,); vertical, taken from the bed in this event; (1,) for friction laws [m]
     material : Material; densities [kg m-3], porosity [-], gravity [m s-2]
     parameters : object; the law's parameters as attributes, each (n,) or (1,), in SI units (angles in rad)
-    variables : object; the law's own variables as attributes, (n,): written in place, they are there in the next step
+    variables : object; the law's own variables as attributes, (n,), written in place for the next step
     """
 
     depth: Array
@@ -58,7 +59,7 @@ class BasalState(NamedTuple):
 
 
 class BaseContact(IntEnum):
-    """Condition at the base of a column; a step is told one of the first three.
+    """Condition at the base of a column; a step is given one of the first three.
 
     ================ ==================== ============================ ===========================
     contact          base of the column   pressure of incoming soil    stands for
@@ -87,10 +88,10 @@ class BaseContact(IntEnum):
 class ColumnState(NamedTuple):
     """The pore-pressure columns of n particles, written by the column law.
 
-    ``profile`` and ``memory`` are in a form of the law's own, so that it may leave a column alone, or
-    keep it in another form, while nothing is missed; a law's ``synchronise`` turns them into pressures.
-    A new column has its pressure at equally spaced levels in ``profile``, index 0 at the base and the
-    last at the surface, and zeros in ``memory``; its first ``advance``, of 0 seconds, tells it its load.
+    ``profile`` and ``memory`` are in a form of the law's own, so that it may skip updates of a column, or keep another
+    representation; a law's ``synchronise`` turns them into pressures. A new column has its pressure at equally spaced
+    levels in ``profile``, index 0 at the base and the last at the surface, and zeros in ``memory``; its first
+    ``advance``, of 0 seconds, tells it its load.
 
     Attributes
     ----------
@@ -144,7 +145,7 @@ class FrictionLaw(Protocol):
 
 
 class ErosionLaw(Protocol):
-    """How fast the flow asks soil from the bed."""
+    """Rate at which the flow erodes the bed."""
 
     def entrainment_rate(self, state: BasalState, out: Array) -> None:
         """Write the demanded erosion rate into `out`, shape (n,): bed volume per map area and time [m s-1].
@@ -174,7 +175,7 @@ class ColumnLaw(Protocol):
 
 
 MIXTURE, WATER = 0, 1
-"""What a particle is of: grains, with the water between them if the flow law has one phase; or water."""
+"""Phase of a particle: grains, with the water between them if the flow law has one phase; or water."""
 
 
 class Smoothing(NamedTuple):
@@ -189,7 +190,7 @@ class MixtureState(NamedTuple):
     """Mixture at each of n particles, as a flow law of two phases reads it, with the arrays for its results."""
 
     phase: Array  # (n,) MIXTURE or WATER (int8)
-    share: Array  # (n,) of the thickness that is of the own phase, of the step before [-]
+    share: Array  # (n,) fraction of the thickness that belongs to the own phase, of the step before [-]
     cross_term: Array  # (n,) as that of `spatial.cross_summation.CrossPhaseSums`, of the step before [-]
     mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
     material: Any  # physics.material.Material
@@ -202,13 +203,13 @@ class MixtureSums(NamedTuple):
     Particles in sleeping cells are left unchanged.
     """
 
-    share: Array  # (m,) of the thickness that is of the own phase [-]
+    share: Array  # (m,) fraction of the thickness that belongs to the own phase [-]
     cross_term: Array  # (m,) [-]
-    mean_pressure: Array  # (m,) depth mean of the excess pore pressure, of the grains around, at water only [Pa]
+    mean_pressure: Array  # (m,) for water only: depth mean of the excess pore pressure of the grains around [Pa]
 
 
 class FlowState(NamedTuple):
-    """The moving mass as the flow law sees it, n particles on the surface, ghosts behind walls included.
+    """The moving mass that a flow law reads: n particles on the surface, ghosts behind walls included.
 
     Attributes
     ----------
@@ -260,10 +261,10 @@ class Phases(Protocol):
     `particles` are all particles, `which` some n, `exchange` is the state of the exchange between grains and water.
     """
 
-    variables: tuple  # of Variable, beyond the variables of every particle
+    variables: tuple  # `Variable`s beyond those of every flow
     phase_fractions: tuple  # phase and volume fraction of each kind of particle that a volume is divided into
-    solid_fraction: float  # part of the soil that becomes the eroding particle's own: grains of two phases, all of one
-    sleeps: bool  # whether particles that lie still may be left alone
+    solid_fraction: float  # of the soil: volume that the eroding particle keeps, the grains of two phases, all of one
+    sleeps: bool  # whether particles at rest may sleep
 
     def density(self, particles) -> Array:
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
@@ -284,7 +285,7 @@ class Phases(Protocol):
         """Return whether friction (yield stress [Pa], drag [Pa s m-1]) and walls would hold `which` at rest, (n,)."""
 
     def limit_entrainment(self, exchange, rate) -> None:
-        """Set the erosion rate to 0 where no particle could take all of the soil, in place."""
+        """Set the erosion rate to 0, in place, where no particle could take the water of the soil."""
 
     def share_entrained(self, particles, exchange) -> None:
         """Give to other particles the volume of entrained soil that the eroding particle does not keep."""
@@ -296,4 +297,4 @@ class Phases(Protocol):
         """Update the mean pore pressure [Pa] by `forcing` in `dt` [s]; `profiles()` gives columns at levels [Pa]."""
 
     def celerity_squared(self, particles, dt: float) -> Array:
-        """Return by how much the square of the celerity is higher than weight makes it, (n,) or (1,) [m2 s-2]."""
+        """Return the part of the squared celerity that is not due to weight, (n,) or (1,) [m2 s-2]."""

@@ -13,8 +13,8 @@ from ..core.parameters import declared, parameter
 class Material:
     """Debris, saturated or (with ``water_density=0``) dry; the defaults are the values of Tsing Shan.
 
-    The basal friction acts on the *buoyant* weight, so an angle printed for a saturated flow is the
-    angle of the grains, about twice the apparent one.
+    The basal friction acts on the *buoyant* weight, so its angle is that of the grains. The apparent angle of a
+    saturated flow is about half as large.
 
     Examples
     --------

@@ -46,7 +46,7 @@ def ground_of(maps: xr.Dataset, before: xr.Dataset | xr.DataArray | None = None)
     maps : xarray.Dataset
         As `DebrisFlow.maps` returns them, or read from their file.
     before : xarray.Dataset or xarray.DataArray, optional
-        Maps or elevation before the event [m]; by default as the file of the maps tells, if it does.
+        Maps or elevation before the event [m]; by default those kept with the maps, if there are any.
 
     Returns
     -------
@@ -100,7 +100,7 @@ def elevation_before(maps: xr.Dataset, before: xr.Dataset | xr.DataArray | None 
 def elevation_change(maps: xr.Dataset, before: xr.Dataset | xr.DataArray | None = None) -> xr.DataArray:
     """Return the change of elevation [m]: deposit above 0, erosion and the scar below.
 
-    Without the ground before, deposit less erosion, in which the scar of the release is not.
+    Without the ground before the event: deposit less erosion, which lacks the scar of the release.
     """
     if ELEVATION in maps:
         ground = ground_of(maps, before)

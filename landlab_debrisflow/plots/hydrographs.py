@@ -81,7 +81,7 @@ def draw_gauges(
     variables : sequence of str
         Variables of a panel each, over ``time`` and ``gauge``.
     axes, title
-        As of `draw_hydrographs`.
+        As in `draw_hydrographs`.
 
     Returns
     -------

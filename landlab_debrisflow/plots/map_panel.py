@@ -84,7 +84,7 @@ def draw_colour_bar(
     unit : str
         Unit of the values.
     extent : Extent
-        Of the panel.
+        Extent of the panel.
     """
     bar_beside(axes, image, norm, extend_of(norm, values), unit, extent)
 

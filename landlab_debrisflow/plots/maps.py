@@ -143,7 +143,7 @@ def draw_shown(
     region : xarray.DataArray of bool, optional
         Region whose rim is drawn.
     limits, contours, shapes
-        As of `draw_map`.
+        As in `draw_map`.
     """
     norm, scale = shown.norm(region), shown.quantity.scale
     if limits is not None:

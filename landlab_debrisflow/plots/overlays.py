@@ -22,7 +22,7 @@ def draw_outline(axes: Axes, region: xr.DataArray, *, color: str = "black", line
     region : xarray.DataArray of bool
         Over ``y`` and ``x``.
     color, linestyle : str
-        As of matplotlib.
+        Colour, as in matplotlib.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def draw_shapes(axes: Axes, shapes: Any, *, color: str = "black") -> LineCollect
         GeoDataFrame, geometry of shapely, GeoJSON mapping, or arrays of vertices of shape (n, 2) in map coordinates
         [m]; a sequence of them, or a mapping of names to them.
     color : str
-        As of matplotlib.
+        Colour, as in matplotlib.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def draw_shapes(axes: Axes, shapes: Any, *, color: str = "black") -> LineCollect
     Raises
     ------
     InputError
-        If they have no coordinates.
+        If a shape has no coordinates.
     """
     lines = LineCollection(list(lines_of(shapes)), colors=color, linewidths=1.0, path_effects=halo(2.0), zorder=7)
     axes.add_collection(lines, autolim=False)
@@ -89,7 +89,7 @@ def lines_of(shapes: Any) -> Iterator[np.ndarray]:
     Parameters
     ----------
     shapes : object
-        As of `draw_shapes`.
+        As in `draw_shapes`.
 
     Examples
     --------

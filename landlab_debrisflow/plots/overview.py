@@ -48,7 +48,7 @@ def draw_overview(
     title : str, optional
         Title of the figure; by default volumes [m3] and elapsed time [s], if the maps have them.
     least_depth, extent, margin, contours, shapes
-        As of `draw_map`.
+        As in `draw_map`.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def draw_overview(
     Raises
     ------
     InputError
-        As of `draw_map`.
+        As in `draw_map`.
     """
     if names is None:
         names = [name for name in OVERVIEW if name in map_names(maps)] or map_names(maps)[:1] or OVERVIEW[:1]

@@ -32,7 +32,7 @@ class Quantity(NamedTuple):
     colours : str
         Name of a matplotlib colour map.
     factor : float
-        By which values of the map are multiplied.
+        Factor by which values of the map are multiplied.
     scale : str
         ``linear`` from 0, ``diverging`` about 0, ``logarithmic``, ``ratio`` from 0 to 1, ``time``, or ``plain``.
     least : float
@@ -95,7 +95,7 @@ class ShownMap(NamedTuple):
     quantity: Quantity
 
     def norm(self, scar: xr.DataArray | None = None) -> Normalize:
-        """Return the scale of the colours; that of a change is for what lies outside of a scar, if anything does."""
+        """Return the scale of the colours; the scar sets that of elevation changes only if all changes lie in it."""
         values, scale = [self.values.values], self.quantity.scale
         if self.name == CHANGE and scar is not None and np.isfinite(beyond := np.where(scar, np.nan, values[0])).any():
             values = [beyond]

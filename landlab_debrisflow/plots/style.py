@@ -146,7 +146,7 @@ def halo(width: float = 2.5) -> list[AbstractPathEffect]:
     Parameters
     ----------
     width : float
-        Of the rim and the line within [points].
+        Width of the rim and the line within [points].
     """
     return [withStroke(linewidth=width, foreground="white")]
 

@@ -1,4 +1,4 @@
-"""Volumes of a flow against time: where the debris came from, and what of it has settled or left."""
+"""Volumes of a flow against time: released, eroded and flowed in, moving, settled and left."""
 
 import xarray as xr
 from matplotlib.axes import Axes

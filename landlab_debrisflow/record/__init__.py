@@ -1,4 +1,4 @@
-"""Datasets, files, observers and measures. Reads the model, is never imported by it."""
+"""Datasets, files, observers and measures. The modules here read the model, which imports none of them."""
 
 from .budget_series import BudgetSeries
 from .checkpoints import Checkpoints

@@ -18,13 +18,13 @@ from ..core.version import __version__
 from ..physics.registry import LAWS, law_name
 
 OF_A_MOMENT = ("budget_", "elapsed_time", "date_created")
-"""Beginnings of the names of attributes that hold at one moment of one run only."""
+"""Beginnings of the names of attributes that belong to one moment of one run."""
 
 CF_UNITS = {"-": "1", "deg": "degree"}
 """Names in files of units that have another name in the package."""
 
 NO_FILL = {"_FillValue": None}
-"""Encoding of coordinates, which are missing nowhere."""
+"""Encoding of coordinates: they have no fill value."""
 
 LARGEST_INTEGER = 2**63 - 1
 """Largest integer that a file can hold."""
@@ -85,7 +85,7 @@ def file_value(value: Any) -> str | int | float | tuple[float, ...] | None:
         return str(value)
     if isinstance(value, NodeValues):
         return repr(value).strip("<>")
-    if isinstance(value, Integral | np.bool_):  # true and false are 1 and 0
+    if isinstance(value, Integral | np.bool_):  # files hold true and false as 1 and 0
         return int(value) if abs(int(value)) <= LARGEST_INTEGER else str(value)
     if isinstance(value, Real):
         return float(value)
@@ -117,7 +117,7 @@ def parameter_attributes(kind: str, obj: Any) -> dict[str, Any]:
 
 
 def law_attributes(setup: Any) -> dict[str, str]:
-    """Return the class of every law under its kind, and the name it is chosen by, or where it is from."""
+    """Return the class of every law under its kind, and its name, or its module if it has none."""
     attributes: dict[str, str] = {}
     for kind in LAWS:
         law = getattr(setup, kind)

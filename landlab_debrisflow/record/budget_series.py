@@ -16,7 +16,7 @@ class BudgetSeries:
     Parameters
     ----------
     interval : float
-        Event time between two of them [s].
+        Event time between two rows of terms [s].
 
     Raises
     ------
@@ -37,7 +37,7 @@ class BudgetSeries:
         flow : DebrisFlow
             The component after a step.
         """
-        while self._times and self._times[-1] >= flow.elapsed_time:  # of a call that was undone
+        while self._times and self._times[-1] >= flow.elapsed_time:  # rows of a call that was undone
             for values in (self._times, *self._terms.values()):
                 values.pop()
         self._times.append(flow.elapsed_time)

@@ -27,11 +27,11 @@ TRAILER = struct.Struct(f"<{len(MAGIC)}sIQ32s")
 
 
 WORTH_COMPRESSING = 4096
-"""Size from which on an array is compressed [bytes]: its index alone takes 2 kB."""
+"""Size from which on an array is compressed [bytes]: the index of a compressed array alone takes 2 kB."""
 
 
 def previous_path(path: str | os.PathLike[str]) -> Path:
-    """Return where the checkpoint before the last one is kept, beside it.
+    """Return the path of the checkpoint before the last one.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def write_checkpoint(path: str | os.PathLike[str], dataset: xr.Dataset) -> Path:
     path : str or os.PathLike
         The file.
     dataset : xarray.Dataset
-        Of numbers and texts.
+        Dataset of numbers and texts.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def read_checkpoint(path: str | os.PathLike[str]) -> xr.Dataset:
     Raises
     ------
     InputError
-        If it is missing, was truncated or damaged, or is something else.
+        If the file is missing, was truncated or damaged, or is no checkpoint.
     """
     path = Path(path)
     try:
@@ -162,10 +162,10 @@ def _remove_leftovers(path: Path) -> None:
         found = re.fullmatch(rf"\.{re.escape(path.stem)}\.(\d+){re.escape(path.suffix)}", other.name)
         try:
             if found:
-                os.kill(int(found[1]), 0)  # asks only
+                os.kill(int(found[1]), 0)  # signal 0 only asks whether the process exists
         except ProcessLookupError:
             other.unlink(missing_ok=True)
-        except (OSError, OverflowError):  # somebody else's
+        except (OSError, OverflowError):  # a process of another user
             continue
 
 
@@ -179,12 +179,13 @@ def _keep(path: Path, previous: Path) -> None:
         os.replace(path, previous)
         return
     os.replace(beside, previous)
-    beside.unlink(missing_ok=True)  # it stays where both are one file: after a process that was killed in between
+    # os.replace leaves it if both names are one file, after a process that was killed in between
+    beside.unlink(missing_ok=True)
 
 
 def _to_bytes(dataset: xr.Dataset) -> bytes:
     """Return a Dataset as a NetCDF file in memory."""
-    from netCDF4 import Dataset  # takes a tenth of a second, which an import of the package need not
+    from netCDF4 import Dataset  # imported here because loading takes a tenth of a second
 
     file = Dataset("checkpoint.nc", mode="w", memory=1 << 20)
     encoding = {

@@ -11,7 +11,7 @@ from .observers import check_interval
 class Checkpoints:
     """Saves the flow at intervals of wall time, and when a call is interrupted.
 
-    It looks at the clock after every step, when all observers have seen it. The checkpoint before the last one is kept
+    The clock is read after every step, when all observers have been called. The checkpoint before the last one is kept
     beside it, under a name with ``.previous`` in it. `DebrisFlow.load` goes on from either.
 
     Parameters
@@ -33,12 +33,12 @@ class Checkpoints:
     """
 
     interval = float("inf")
-    """Event time between looks [s]: it needs none."""
+    """Event time between calls of `observe` [s]: none are needed."""
 
     def __init__(self, path: str | os.PathLike[str], interval: float = 60.0) -> None:
         self.path, self.wall_interval = check_writable(path), check_interval(interval, type(self).__name__)
         self._last: float | None = None  # wall time [s]
-        self._tried: float | None = None  # elapsed time, if it was the last step [s]
+        self._tried: float | None = None  # elapsed time of the step that was saved last [s]
 
     def observe(self, flow: Any) -> None:
         """Do nothing: checkpoints are made between steps."""
@@ -62,7 +62,7 @@ class Checkpoints:
         if self._last is None:
             self._last = now
         due = now - self._last >= self.wall_interval
-        if broken_off:  # what was saved after this step, or failed, is not tried again
+        if broken_off:  # a save after this step that succeeded, or failed, is not repeated
             due = self._tried != flow.elapsed_time
         self._tried = None
         if due:

@@ -56,8 +56,8 @@ def combine_maps(directory: str | os.PathLike[str], path: str | os.PathLike[str]
     directory : str or os.PathLike
         Where the series is.
     path : str or os.PathLike
-        The file, ``.nc`` for NetCDF, or store, ``.zarr``; what stood there under this name is replaced when the new one
-        is complete. It covers the rectangle of all maps; values are 0 where a map did not reach.
+        The file, ``.nc`` for NetCDF, or store, ``.zarr``; an earlier one of this name is replaced when the new one is
+        complete. It covers the rectangle of all maps; values are 0 where a map did not reach.
 
     Returns
     -------
@@ -232,6 +232,7 @@ def _write_zarr(path: Path, frame: Frame) -> None:
         store.create_array(GRID_MAPPING, shape=(), dtype="i4", dimension_names=(), attributes=words)
     for k, variable, layer in _layers(frame):
         arrays[variable][k] = layer
-    with warnings.catch_warnings():  # xarray looks for it first, zarr says that it is no part of its standard
+    # xarray looks for consolidated metadata first; zarr warns that they are no part of its standard
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)

@@ -10,8 +10,8 @@ from .identities import places_of
 def crossings(start: np.ndarray, end: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find where straight paths cross a line.
 
-    Positions count as shifted by less than any distance, (d, d^2) with d -> 0: then none is on the line, none is lost
-    and none counts twice, also at a vertex (simulation of simplicity, Edelsbrunner & Muecke, 1990).
+    Positions count as shifted by (d, d^2) with d -> 0. So no position lies on the line, and every crossing counts
+    exactly once, at a vertex, too (simulation of simplicity, Edelsbrunner & Muecke, 1990).
 
     Parameters
     ----------
@@ -73,14 +73,14 @@ def _area(first, last, point):
 
 
 class Paths:
-    """Paths of particles between two steps, whatever order they are in.
+    """Paths of particles between two steps, in whatever order the particles are.
 
     Attributes
     ----------
     identity : ndarray of int, shape (n,)
         Numbers of the particles after the last step.
     position : ndarray, shape (2, n)
-        Their x and y then [m].
+        x and y of the particles after the last step [m].
     """
 
     def __init__(self) -> None:
@@ -91,7 +91,7 @@ class Paths:
         self.identity, self.position = particles.identity.copy(), np.array([particles.x, particles.y])
 
     def since(self, particles: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Return the places of particles that were there at the last step, shape (k,), and where they were, (2, k) [m].
+        """Return places, (k,), and former positions, (2, k) [m], of the particles that existed after the last step.
 
         Examples
         --------

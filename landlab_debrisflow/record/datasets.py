@@ -47,7 +47,7 @@ def particles_dataset(particles: Any, lower_left: Sequence[float], setup: Any, t
             data[variable.name] = ("particle", values[order], attributes)
     data["x"] = ("particle", particles.x[order] + lower_left[0], variable_attributes("m", "map coordinate of the grid"))
     data["y"] = ("particle", particles.y[order] + lower_left[1], variable_attributes("m", "map coordinate of the grid"))
-    # no date: equal particles make identical Datasets
+    # without a date, so that equal particles make identical Datasets
     attributes = file_attributes() | moment_attributes(time, particles) | law_attributes(setup)
     return xr.Dataset(data, {"particle": _numbers(particles.identity[order])}, attributes)
 
@@ -105,8 +105,8 @@ def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment:
     shown : mapping of str to ndarray, shape (nodes,)
         By the names of fields.
     setup : Setup
-        A parameter that varies in space becomes a map named as its attribute would be. One given at all nodes is there
-        as it was given, too, under a name with two underscores, by which `Setup.from_dataset` finds it.
+        A parameter that varies in space becomes a map with the name that its attribute would have. A parameter given at
+        all nodes is also kept as it was given, under a name with two underscores that `Setup.from_dataset` reads.
     moment : mapping
         Attributes: see `attributes.moment_attributes`.
 
@@ -118,7 +118,7 @@ def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment:
     data, encoding = {}, {"_FillValue": np.nan}
     for name, values in shown.items():
         field, missing = FIELDS[name], closed
-        if field.intent == "out":  # what lay there before the nodes were closed is in the budget, too
+        if field.intent == "out":  # the budget counts debris left there before the nodes were closed, too
             missing = closed & (values == field.start) & (name not in ON_WALLS)
         values = np.where(missing, np.nan, values).reshape(grid.shape)
         data[name] = (("y", "x"), values, variable_attributes(field.unit, field.doc), encoding)

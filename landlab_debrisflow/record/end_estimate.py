@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 HALF = 0.5
-"""Part of its peak below which the energy must have fallen before its decay says anything [-]."""
+"""Fraction of its peak below which the energy must have fallen before its decay is used [-]."""
 
 RECENT = 30.0
 """Wall time over which the pace of a run is averaged [s]."""
@@ -30,8 +30,9 @@ class EndEstimate:
 
     Once the energy has fallen below half of its peak, its decay is continued exponentially, at the rate at which it was
     last halved, to the part of the peak at which the flow counts as at rest. Friction stops a flow sooner than an
-    exponential does, creep later: it is right within a factor of about two (`python -m benchmarks.forecast`). Before,
-    and if it does not fall, all that is known is a bound: the longest duration at the present pace.
+    exponential decay, creep later: the estimate is right within a factor of about two (`python -m
+    benchmarks.forecast`). Before that, and if the energy does not fall, only a bound is known: the longest duration at
+    the present pace.
 
     Parameters
     ----------

@@ -36,7 +36,7 @@ def check_writable(path: str | os.PathLike[str]) -> Path:
     if not folder.is_dir():
         word = "is not a directory" if folder.exists() else "does not exist"
         raise InputError(f"cannot write {path}: {folder} {word}; create it first (mkdir -p) or choose another")
-    try:  # the only honest test: permission bits say nothing on read-only or full file systems
+    try:  # writing is the only reliable test: permission bits do not tell of read-only or full file systems
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
@@ -76,12 +76,12 @@ def check_directory(path: str | os.PathLike[str]) -> Path:
 
 
 def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], object]) -> Path:
-    """Write a file so that `path` never holds half of it: beside it first, then renamed.
+    """Write a file beside `path` and rename it when it is complete, so that `path` never holds half a file.
 
     Parameters
     ----------
     path : str or os.PathLike
-        The file wanted.
+        The file to be written.
     write : callable
         Called with the temporary path, which has the same suffix.
 
@@ -111,11 +111,11 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
 
 
 LEAST_ROOM = 2**22
-"""Room below which a disk is full [bytes]: less than a chunk of HDF5 may need."""
+"""Free space below which a disk counts as full [bytes]: a chunk of HDF5 may need more."""
 
 
 def raise_if_full(path: Path, failure: Exception) -> None:
-    """Raise an OSError from a failure if the disk is full: HDF5, GDAL and SQLite report that as anything else.
+    """Raise an OSError from a failure if the disk is full: HDF5, GDAL and SQLite report a full disk as other errors.
 
     Parameters
     ----------

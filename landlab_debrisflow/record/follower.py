@@ -62,7 +62,7 @@ class TimeRows:
 
 
 class Follower(ABC):
-    """Base of observers that follow the particles; looks at the grid neither cost time nor are needed.
+    """Base of observers that follow the particles and need no fields of the grid.
 
     A subclass has a method ``sample(particles, time)``, called at the beginning, after every step that crosses a
     multiple of the interval, and when the flow comes to rest.
@@ -79,7 +79,7 @@ class Follower(ABC):
     """
 
     interval = np.inf
-    """The grid need not be shown to it, except at rest."""
+    """The grid need not be shown to the observer, except at rest."""
 
     def __init__(self, interval: float) -> None:
         self.sampling_interval = check_interval(interval, type(self).__name__)
@@ -88,7 +88,7 @@ class Follower(ABC):
         self._particles: Any = None
 
     def prepare(self, grid: Any, setup: Any) -> None:
-        """Note where the grid lies.
+        """Note the place of the grid on the map.
 
         Parameters
         ----------
@@ -162,7 +162,7 @@ class _Clock:
 
 
 def check_same_names(owner: str, state: Mapping[str, Any], names: Any) -> None:
-    """Refuse the state of an observer of other places.
+    """Refuse the state of an observer that watched other places.
 
     Parameters
     ----------
@@ -176,7 +176,9 @@ def check_same_names(owner: str, state: Mapping[str, Any], names: Any) -> None:
     Raises
     ------
     InputError
-        If they are others, or in another order.
+        If the names of the places differ, or their order.
     """
     if (then := str(state["names"]).split("\n")) != (now := list(names)):
-        raise InputError(f"{owner}: the checkpoint has {', '.join(then)}, here are {', '.join(now)}; give the same")
+        raise InputError(
+            f"{owner}: the checkpoint has {', '.join(then)}, here are {', '.join(now)}; give those of the checkpoint"
+        )

@@ -18,8 +18,9 @@ from .places import check_on_grid, line
 class Front(Follower):
     """Distance of the front along a thalweg against time.
 
-    Each particle is where the thalweg is nearest to it. The front is there where a fraction of the volume lies behind,
-    as in `measures`: a stray particle is none. What is beyond an end of the thalweg counts at that end.
+    The distance of a particle is that of the nearest point of the thalweg; beyond an end of the thalweg it is the
+    distance of that end. The front is the distance behind which a fraction of the volume lies, as in `measures`, so
+    that single particles far ahead do not count.
 
     Parameters
     ----------
@@ -44,7 +45,7 @@ class Front(Follower):
         self.fraction = float(fraction)
 
     def prepare(self, grid: Any, setup: Any) -> None:
-        """Note where the grid lies.
+        """Note the place of the grid on the map.
 
         Parameters
         ----------
@@ -104,7 +105,7 @@ class Front(Follower):
 
 
 def distance_along(thalweg: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return how far along a line the place is that is nearest to each point.
+    """Return the distance along a line of the point on it that is nearest to each of some points.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ def grid_mapping_attributes(crs: str) -> dict[str, Any]:
     except CRSError as error:
         raise InputError(f"crs: no such coordinate reference system, got {crs!r}; give WKT or 'EPSG:number'") from error
     wkt = system.to_wkt()
-    return system.to_cf() | {"crs_wkt": wkt, "spatial_ref": wkt}  # the second is what GDAL reads
+    return system.to_cf() | {"crs_wkt": wkt, "spatial_ref": wkt}  # GDAL reads the second attribute
 
 
 def georeferenced(dataset: xr.Dataset, crs: str | None) -> xr.Dataset:

@@ -21,21 +21,21 @@ from .georeference import GRID_MAPPING, grid_mapping_attributes
 from .observers import check_interval
 
 SERIES = "depth", "speed", "basal_excess_pore_pressure", "eroded_depth", "deposit_depth"
-"""Fields that a series of maps holds unless others are asked for."""
+"""Fields of a series of maps by default."""
 
 REACHED = "depth", "max_depth", "eroded_depth", "deposit_depth"
-"""Fields of which one is above 0 wherever flow is or was."""
+"""Fields of which at least one is above 0 wherever flow is or was."""
 
 PREFIX = "maps"
 """Beginning of the names of files, before the number."""
 
 
 class MapSeries:
-    """Writes maps at intervals, each to a small NetCDF file of its own, numbered from 0.
+    """Observer that writes maps at intervals, each to a small NetCDF file of its own, numbered from 0.
 
     A file holds numbers of single precision over a rectangle of nodes that has all flow so far in it, and is there as a
-    whole or not at all. Values are 0 where nothing is, also at closed nodes. `combine_maps` makes one small file
-    of all: single maps are not compressed, which would take longer than all the rest.
+    whole or not at all. Values are 0 where there is no debris, at closed nodes, too. `combine_maps` makes one small
+    file of all. Single maps are not compressed, because this would take longer than the rest of the observer.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class MapSeries:
         began, time : float
             Beginning and end of the step [s].
         """
-        if self._window is None:  # erosion and deposit of an earlier component
+        if self._window is None:  # includes erosion and deposit of an earlier component
             self._window = occupied([_over_grid(self._grid, OUTPUT_PREFIX + name) for name in REACHED])
         if particles.count:
             grid, (rows, columns) = self._grid, self._window or (NOWHERE, NOWHERE)
@@ -147,10 +147,10 @@ class MapSeries:
             If the file cannot be written, because the disk is full perhaps; all maps before are there.
         """
         time = flow.elapsed_time
-        if self._times and self._times[-1] >= time:  # the call was undone
+        if self._times and self._times[-1] >= time:  # times of a call that was undone
             self._times = [each for each in self._times if each < time]
             self._remove_from(len(self._times))
-        if not self._times:  # of an earlier series
+        if not self._times:  # files of an earlier series
             self._remove_from(0)
         content = self._file(time)
         write_atomically(self._path(len(self._times)), lambda temporary: temporary.write_bytes(content))
@@ -257,7 +257,7 @@ def occupied(fields: Sequence[np.ndarray]) -> tuple[tuple[int, int], tuple[int, 
 
 
 NOWHERE = sys.maxsize, -1
-"""First and last row or column of nothing."""
+"""First and last row or column of an empty span."""
 
 
 def _widened(span, place, spacing, count):

@@ -1,4 +1,4 @@
-"""Measures of an event: how far, how large, how deep, how fast."""
+"""Measures of an event: run-out, areas, volumes, depths and speeds."""
 
 from collections.abc import Callable
 from typing import Any
@@ -24,8 +24,8 @@ def measures(flow: Any, before: xr.Dataset | None = None, *, distance: Callable 
     flow : DebrisFlow or xarray.Dataset
         The component, moving or at rest, or its `maps`.
     before : xarray.Dataset, optional
-        The `maps` of the component before the event began, with elevation and release. Without it there are no
-        measures that start at the release, unless `distance` is given.
+        The `maps` of the component before the event began, with elevation and release. Without these maps run-out from
+        the release is not measured, unless `distance` is given.
     distance : callable, optional
         ``distance(x, y)``: distance of map positions from where run-out is counted [m], such as the way along a valley;
         by default in plan from the centre of the release, weighted with its thickness.
@@ -33,7 +33,8 @@ def measures(flow: Any, before: xr.Dataset | None = None, *, distance: Callable 
         Nodes to which areas, depths, peaks and the volumes of erosion and deposit are limited. Budget and run-out
         always belong to the whole event.
     front_fraction : float
-        Part of the volume that lies behind the front [-], in (0, 1]: a stray particle is no front.
+        Fraction of the volume that lies behind the front [-], in (0, 1]; below 1 single particles far ahead do not
+        count.
     flow_threshold, erosion_threshold, deposit_threshold : float
         Least depth that counts as inundated, eroded or deposit, >= 0; depths of 0 never count [m].
 

@@ -54,7 +54,7 @@ def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping
     dataset : xarray.Dataset
         As `write_memories` returned it.
     observers : sequence
-        Observers that shall get it.
+        Observers that get the memory.
 
     Returns
     -------
@@ -63,7 +63,7 @@ def read_memories(dataset: xr.Dataset, observers: Sequence[Any]) -> list[Mapping
     Raises
     ------
     InputError
-        If their classes are others than those of the Dataset.
+        If the classes of the observers differ from the classes in the Dataset.
     """
     written, given = json.loads(dataset.attrs["observers"]), [_class(one) for one in observers]
     if written != given:
@@ -91,7 +91,8 @@ def pack_maps(maps: Sequence[xr.Dataset]) -> dict[str, Any]:
     packed: dict[str, Any] = {"words": json.dumps({"variables": words, "maps": each})}
     for name in names:
         values = [one.variables[name].values for one in maps if name in one.variables]
-        packed[f"map {name}"] = np.stack(values[:1] if words[name][0] == (name,) else values)  # an axis is the same
+        # coordinates are the same for all maps
+        packed[f"map {name}"] = np.stack(values[:1] if words[name][0] == (name,) else values)
     return packed
 
 

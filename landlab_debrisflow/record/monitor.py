@@ -20,21 +20,21 @@ LIVE, LOGGED = 0.2, 30.0
 """Wall time between updates of a line that is shown, and between lines of a log [s]."""
 
 COMPILING = "compiling kernels, once after an installation: about a minute"
-"""Said while the first step of all waits for numba."""
+"""Text shown while the first step waits for numba."""
 
 
 class Monitor:
     """Observer that shows a run by the wall clock: time, moving volume, elevation of the front, speed, estimated end.
 
     On a terminal and in a notebook one line is renewed; in any case a line goes to the logger
-    "landlab_debrisflow.progress" at the level INFO every half minute. Fields of the grid are not written for it, and
-    between two updates it reads the clock and nothing else. "At most" so much time left is
-    the longest duration at the pace of the last half minute, "about" an estimate: see `EndEstimate`.
+    "landlab_debrisflow.progress" at the level INFO every half minute. Fields of the grid are not written for the
+    monitor; between two updates it reads nothing but the clock. "At most" so much time left is the longest duration at
+    the pace of the last half minute, "about" an estimate: see `EndEstimate`.
 
     Parameters
     ----------
     console : rich.console.Console, optional
-        Where the line is shown; standard error by default. None of it is shown where that is no terminal.
+        Where the line is shown; standard error by default. If this is no terminal, no line is shown.
     live : bool
         Whether a line is shown at all.
     clock : callable
@@ -70,7 +70,7 @@ class Monitor:
         self._estimate = EndEstimate(until, rest_energy)
 
     def follow(self, particles: Any, began: float, time: float) -> None:
-        """Show the flow after a step, if the last time is long enough ago.
+        """Show the flow after a step, if the last update is long enough ago.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class Monitor:
         log.info("%s", self.line)
 
     def say(self, text: str) -> None:
-        """Show a text in place of the line until the next step, such as the reason why the first one takes long."""
+        """Show a text in place of the line until the next step, for example why the first step takes long."""
         if text != self._said:
             log.info("%s", text)
         self._said = text
@@ -138,7 +138,7 @@ class Monitor:
 
 
 def _display(console: "Console | None") -> "TerminalLine | NotebookLine | None":
-    from rich.console import Console  # takes 30 ms, which an import of the package need not
+    from rich.console import Console  # imported here because loading takes 30 ms
 
     console = console or Console(stderr=True)
     if console.is_jupyter:
@@ -179,7 +179,7 @@ class NotebookLine:
 
     def show(self, text: str) -> None:
         """Show a text in place of the last one."""
-        from IPython.display import display  # there, since a notebook runs
+        from IPython.display import display  # IPython is installed wherever a notebook runs
 
         data = {"text/plain": text}
         if self._handle is None:

@@ -1,14 +1,14 @@
 """Observers of a run, given to `DebrisFlow` and never imported by the model.
 
 An observer has an attribute ``interval`` [s] and a method ``observe(flow)``, called at the end of every step that
-crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers change nothing: steps
-are as long as without them, so a look comes a little after the multiple, and its time is `flow.elapsed_time`.
-A step that crosses several multiples is looked at once. With ``interval = EVERY_STEP`` an observer looks before the
-first step of a call and after every step. It sees the grid as if the call ended there, except
-that nothing settles; it may not run the flow itself.
+crosses a multiple of the interval, and of the step in which the flow comes to rest. Observers do not influence the
+result: steps are as long as without them. So `observe` is called a little after the multiple, and the time of the call
+is `flow.elapsed_time`. For a step that crosses several multiples it is called once. With ``interval = EVERY_STEP`` it
+is called before the first step of a call and after every step. An observer sees the grid as if the call ended there,
+except that nothing settles; it may not run the flow itself.
 
 An observer that raises ends the call after that step, with everything computed kept: call again to go on. The other
-observers still look at the step, and no look is repeated.
+observers are still called for this step, and no call is repeated.
 """
 
 import os
@@ -54,7 +54,7 @@ class Progress:
     """
 
     def __init__(self, interval: float = 1.0, label: str = "debris flow", console: "Console | None" = None):
-        from rich.console import Console  # takes 30 ms, which an import of the package need not
+        from rich.console import Console  # imported here because loading takes 30 ms
 
         self.interval = check_interval(interval, type(self).__name__)
         self._label, self._console = label, console or Console(stderr=True)
@@ -79,7 +79,7 @@ class Progress:
 
 
 class Snapshots:
-    """Keeps `flow.maps` at intervals, as one Dataset over ``time``, which is that of the looks.
+    """Observer that keeps `flow.maps` at intervals, as one Dataset over the ``time`` of the snapshots.
 
     Parameters
     ----------
@@ -128,7 +128,9 @@ class Snapshots:
             try:
                 self.write()
             except (OSError, InputError) as failure:
-                failure.add_note("Snapshots: all are kept; make room and call write(), or write(path) elsewhere")
+                failure.add_note(
+                    "Snapshots: all snapshots are kept; make room and call write(), or write(path) elsewhere"
+                )
                 raise
 
     def state(self) -> dict[str, Any]:
@@ -147,7 +149,7 @@ class Snapshots:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """All snapshots so far over ``time`` [s], with the attributes that all of them have in common.
+        """All snapshots so far over ``time`` [s], with the attributes that are equal in all of them.
 
         Raises
         ------
@@ -156,7 +158,7 @@ class Snapshots:
         """
         if not self._maps:
             raise InputError("Snapshots: nothing was observed yet; give it to DebrisFlow(observers=[...]) and run")
-        # elapsed time has no date to count from, so to CF it is a quantity, no time axis
+        # elapsed time counts from no date, so after CF it is a quantity and no time axis
         time = variable_attributes("s", "elapsed time")
         series, last = stack(self._maps, "time", self._times, **time), self._maps[-1].attrs
         return series.assign_attrs(number_of_particles=last["number_of_particles"])
@@ -167,7 +169,7 @@ class Snapshots:
         Parameters
         ----------
         path : str or os.PathLike, optional
-            Instead of the one given at the beginning.
+            Path instead of the one given at the beginning.
 
         Returns
         -------
@@ -191,7 +193,7 @@ def check_interval(interval: object, owner: str) -> float:
     Parameters
     ----------
     interval : float
-        What was given [s].
+        Interval given by the user [s].
     owner : str
         Name of the observer, for the message.
 

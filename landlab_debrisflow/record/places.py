@@ -55,7 +55,7 @@ def line(owner: str, coordinates: ArrayLike) -> np.ndarray:
     Returns
     -------
     ndarray, shape (n, 2)
-        Without vertices that repeat the one before.
+        The vertices, without those that repeat the one before.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def point(owner: str, coordinates: ArrayLike) -> np.ndarray:
 
 
 def check_on_grid(owner: str, vertices: np.ndarray, grid: Any) -> None:
-    """Refuse points of which none lies on the grid, or a line that does not come over it.
+    """Refuse points of which none lies on the grid, or a line that does not touch the grid.
 
     Parameters
     ----------

@@ -17,21 +17,22 @@ from .observers import check_interval
 from .places import check_on_grid, line, named_places
 
 COLUMNS = "section", "time", "volume", "solid_volume", "bearing_volume", "depth", "speed", "pressure"
-"""Columns of a crossing: number of the section, time [s]; volume, grains and what pore pressure acts in, > 0 in the
-positive direction [m3]; depth [m], speed [m s-1] and excess pore pressure at the base [Pa]."""
+"""Columns of a crossing: number of the section, time [s]; volume, volume of grains and volume of particles with a
+pore-pressure column, > 0 in the positive direction [m3]; depth [m], speed [m s-1] and excess pore pressure at the base
+[Pa]."""
 
 MEANS = {
-    "depth": ("m", "vertical depth of the flow, mean over what crossed"),
-    "speed": ("m s-1", "speed of the flow, mean over what crossed"),
-    "pressure": ("Pa", "excess pore pressure at the base, mean over what crossed"),
+    "depth": ("m", "vertical depth of the flow, mean over the volume that crossed"),
+    "speed": ("m s-1", "speed of the flow, mean over the volume that crossed"),
+    "pressure": ("Pa", "excess pore pressure at the base, mean over the volume that crossed"),
 }
 
 
 class Sections:
     """Hydrographs at lines across the flow, from every particle that crosses one between two steps.
 
-    All volume that crosses is counted, once for each time, with the volume that the particle has then: what is beyond a
-    line now, less what was eroded or flowed in there, plus what left the grid there, is what crossed, to rounding. The
+    A particle counts each time it crosses, with its volume at that time. So the volume beyond a line, less the volume
+    eroded or flowed in beyond it, plus the volume that left the grid there, equals the crossed volume to rounding. The
     positive direction is the one in which the ground falls across the line.
 
     Parameters
@@ -55,7 +56,7 @@ class Sections:
     """
 
     interval = np.inf
-    """The grid need not be shown to it."""
+    """The grid need not be shown to the observer."""
 
     def __init__(self, lines: Mapping[str, ArrayLike] | Iterable[Any], interval: float = 10.0) -> None:
         self.bin = check_interval(interval, "Sections")
@@ -97,7 +98,7 @@ class Sections:
         began, time : float
             Beginning and end of the step [s]; equal before the first step of a call.
         """
-        if began == time:  # what is later is of a call that was undone
+        if began == time:  # later crossings belong to a call that was undone
             self._events = [event for event in self._events if event[0, 1] <= time]
         else:
             self._count(particles, began, time)
@@ -107,7 +108,7 @@ class Sections:
         self._time = time
 
     def observe(self, flow: Any) -> None:
-        """Do nothing: everything was seen by `follow`.
+        """Do nothing: `follow` has counted all crossings.
 
         Parameters
         ----------
@@ -144,10 +145,10 @@ class Sections:
     def dataset(self) -> xr.Dataset:
         """Hydrographs over ``section`` and ``time``, the middle of the bins [s].
 
-        ``volume`` is all that crossed in a bin [m3], ``discharge`` that over the time, ``solid_...`` of the grains
-        alone; ``depth``, ``speed`` and ``basal_excess_pore_pressure`` are means weighted with the volume, NaN where
-        nothing crossed. ``crossed_volume`` and ``crossed_solid_volume`` are the sums, ``line_x`` and ``line_y`` over
-        ``vertex`` the lines [m].
+        ``volume`` is the volume that crossed in a bin [m3], ``discharge`` this volume over the length of the bin,
+        ``solid_...`` of the grains alone; ``depth``, ``speed`` and ``basal_excess_pore_pressure`` are means weighted
+        with the volume, NaN where nothing crossed. ``crossed_volume`` and ``crossed_solid_volume`` are the sums,
+        ``line_x`` and ``line_y`` over ``vertex`` the lines [m].
         """
         names, events = list(self.lines), self.crossings
         count = max(int(np.ceil(self._time / self.bin * (1.0 - 1e-12))), 0)

@@ -1,4 +1,4 @@
-"""Observer that measures the flow at given times, between which steps it interpolates."""
+"""Observer that measures the flow at given times, by interpolation between steps."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -17,7 +17,7 @@ class Series:
     Parameters
     ----------
     times : array_like, shape (n,)
-        When the measures are wanted, increasing [s of `flow.elapsed_time`].
+        Times of the measures, increasing [s of `flow.elapsed_time`].
     measure : callable
         Called with the flow before the first step of a call and after every step. Returns a mapping of names to
         numbers or arrays, the same names and shapes every time.

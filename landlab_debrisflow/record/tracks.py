@@ -22,19 +22,19 @@ TRACKED = {
     "basal_excess_pore_pressure": ("Pa", "excess pore pressure at the base"),
     "volume": ("m3", "volume of debris carried"),
 }
-"""Unit and meaning of what is known of a particle at a time."""
+"""Unit and meaning of the quantities of a track."""
 
 
 class Tracks(Follower):
-    """Tracks of some particles: where they are, how deep and fast the flow is there, and its basal pore pressure.
+    """Tracks of some particles: position, depth and speed of the flow there, and basal pore pressure.
 
     Parameters
     ----------
     interval : float
         Event time between two places [s].
     particles : int or sequence of int
-        A number of particles, taken evenly from those that are there first; or the numbers of particles, in order of
-        release and inflow from 0.
+        A number of particles, taken evenly from the first particles of the flow; or the numbers of particles, in order
+        of release and inflow from 0.
 
     Raises
     ------
@@ -54,7 +54,7 @@ class Tracks(Follower):
             self._chosen = chosen_particles("Tracks", particles)
 
     def sample(self, particles: Any, time: float) -> None:
-        """Note where the particles are.
+        """Add the present positions to the tracks.
 
         Parameters
         ----------
@@ -187,11 +187,11 @@ def chosen_particles(owner: str, particles: Any) -> np.ndarray:
     Raises
     ------
     InputError
-        If they are no whole numbers >= 0, or one is twice among them.
+        If a number is no whole number >= 0, or is given twice.
     """
     try:
         numbers = np.asarray(particles)
-    except ValueError:  # of unequal lengths
+    except ValueError:  # sequences of unequal lengths
         numbers = np.empty(0)
     if numbers.ndim != 1 or numbers.size == 0 or numbers.dtype.kind not in "iu" or numbers.min() < 0:
         raise InputError(f"{owner}: particles must be whole numbers >= 0, at least one, got {particles!r}")

@@ -29,7 +29,7 @@ ELEVATION_BEFORE, RELEASED_DEPTH = "topographic__elevation_before", OUTPUT_PREFI
 def mask_peaks(maps: xr.Dataset, least_depth: float = LEAST_DEPTH) -> xr.Dataset:
     """Return maps whose peaks are missing (NaN) where the flow was never as deep as a least depth.
 
-    A film of a millimetre that runs at full speed is no peak for a hazard map. Closed nodes keep the impact pressure
+    A film of a millimetre at full speed would be misleading in a hazard map. Closed nodes keep the impact pressure
     and run-up at their faces, where there were any.
 
     Parameters
@@ -37,7 +37,7 @@ def mask_peaks(maps: xr.Dataset, least_depth: float = LEAST_DEPTH) -> xr.Dataset
     maps : xarray.Dataset
         As `DebrisFlow.maps` returns them; they are not changed.
     least_depth : float
-        Least peak depth [m], >= 0; 0 masks what nothing reached only.
+        Least peak depth [m], >= 0; 0 masks only nodes that no debris reached.
 
     Returns
     -------

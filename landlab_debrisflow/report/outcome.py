@@ -49,7 +49,7 @@ def outcome_of(results: Results, maps: xr.Dataset) -> Outcome:
     Parameters
     ----------
     results : Results
-        Of a run that came to its end.
+        Results of a run that came to its end.
     maps : xarray.Dataset
         As `Results.maps` returns them.
 

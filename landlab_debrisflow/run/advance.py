@@ -30,7 +30,7 @@ def start(grid: Any, setup: Setup, releases: Sequence[ScheduledRelease], observe
     setup : Setup
     releases : sequence of ScheduledRelease
     observers : observer or sequence of them
-        As of `DebrisFlow`.
+        As in `DebrisFlow`.
 
     Returns
     -------

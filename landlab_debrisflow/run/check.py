@@ -18,7 +18,7 @@ class PlannedRun:
     ----------
     plan : Plan
     notes, doubts : tuple of str
-        Remarks on files, and what is odd.
+        Remarks on files, and doubts.
     """
 
     plan: Plan
@@ -36,17 +36,17 @@ def check(scene: Any, notify: Callable[[str], None] | None = None) -> Forecast |
     ----------
     scene : Scene
     notify : callable, optional
-        Is told, in words, which pilot run begins.
+        Called with a text when a pilot run begins.
 
     Returns
     -------
     Forecast or PlannedRun
-        The second if numerics leave the number of particles to a plan.
+        A `PlannedRun` if numerics leave the number of particles to a plan.
 
     Raises
     ------
     InputError, ParameterError
-        If something of the scene cannot be used.
+        If a value or a file of the scene cannot be used.
     """
     if not scene.setup.numerics.automatic:
         return forecast(scene)

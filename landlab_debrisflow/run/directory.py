@@ -60,7 +60,7 @@ class OutputDirectory:
                 _remove_temporaries(path)
                 yield cls(path)
         finally:
-            with contextlib.suppress(OSError):  # it holds something, as it should
+            with contextlib.suppress(OSError):  # the directory is not empty after a run
                 path.rmdir()
 
     @property
@@ -70,7 +70,7 @@ class OutputDirectory:
 
     @property
     def checkpoints(self) -> list[Path]:
-        """Checkpoints that are there, the latest first."""
+        """Checkpoints in the directory, the latest first."""
         return checkpoints_in(self.path)
 
     def begin(self, record: RunRecord, overwrite: bool = False) -> None:
@@ -79,7 +79,7 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the run that begins.
+            Record of the run that begins.
         overwrite : bool
             Whether the results of an earlier run may be removed; other files stay.
 
@@ -124,12 +124,12 @@ class OutputDirectory:
         Parameters
         ----------
         record : RunRecord
-            Of the scene as it is now.
+            Record of the scene as it is now.
 
         Raises
         ------
         InputError
-            If anything differs that changes results, or the scene is to end before what was computed.
+            If a difference changes results, or the scene is to end earlier than the run has come.
         """
         if found := self.record.differences(record, FREE):
             raise InputError(
@@ -153,12 +153,12 @@ class OutputDirectory:
             self.note(files=[*self.record.files, *new])
 
     def publish(self, write: Callable[[Path], object]) -> list[str]:
-        """Write files so that they appear here together, when all are complete; return their names.
+        """Write files that appear in the directory together, when all are complete; return their names.
 
         Parameters
         ----------
         write : callable
-            Called with an empty directory, into which it writes them.
+            Called with an empty directory, into which it writes the files.
         """
         temporary = self.path / UNFINISHED
         shutil.rmtree(temporary, ignore_errors=True)
@@ -181,7 +181,7 @@ class OutputDirectory:
         if any((self.path / f"{SERIES}{suffix}").exists() for suffix in SERIES_SUFFIX.values()):
             for path in self.path.glob(f"{SERIES}/maps_*.nc"):
                 path.unlink()
-            with contextlib.suppress(OSError):  # it holds something else
+            with contextlib.suppress(OSError):  # it holds other files
                 (self.path / SERIES).rmdir()
 
     def remove_page(self) -> None:
@@ -211,7 +211,7 @@ class OutputDirectory:
                     path.unlink()
                 elif path.suffix == ".zarr" and (path / "zarr.json").is_file():
                     shutil.rmtree(path)
-            with contextlib.suppress(OSError):  # it holds something else
+            with contextlib.suppress(OSError):  # it holds other files
                 if (parent := (self.path / name).parent) != self.path:
                     parent.rmdir()
         (self.path / RECORD).unlink(missing_ok=True)
@@ -243,7 +243,7 @@ def _remove_temporaries(directory: Path) -> None:
 
 @contextlib.contextmanager
 def _lock(directory: Path) -> Iterator[None]:
-    """Hold a lock on a directory, which ends with the process, however that ends."""
+    """Hold a lock on a directory until the block or the process ends, even if the process is killed."""
     try:
         import fcntl
     except ImportError:  # on Windows two runs in one directory are not noticed

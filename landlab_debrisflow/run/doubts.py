@@ -90,7 +90,7 @@ def _release_doubts(scene: Any, release, cell: float) -> Iterator[str]:
 
 
 def below_lip(elevation: np.ndarray, depth: np.ndarray) -> tuple[float, float]:
-    """Return how much of a release lies in pits of the ground below it.
+    """Return the depth of a release that lies in pits of the ground below.
 
     The ground without the release is filled up to the level at which water would run out of it, by repeated minima
     over neighbours (Planchon & Darboux, 2001), and the filling counted where the release is and the ground had no pit.

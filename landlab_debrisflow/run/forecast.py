@@ -18,8 +18,8 @@ FACTOR = 2.0
 with few particles it came to rest sooner (`python -m benchmarks.forecast`, benchmarks/forecast.txt)."""
 
 COMPILED = 2.0
-"""CPU time before the first step from which on kernels may have been compiled, in the steps as well: both pilot runs
-are made again, as their times tell nothing [s]."""
+"""CPU time before the first step from which on kernels may have been compiled in it and in later steps [s]: both pilot
+runs are then made again, because their times are of no use."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -47,11 +47,11 @@ class Forecast:
     duration : float
         Elapsed time at the end of the event [s].
     complete : bool
-        Whether the pilot run came to that end; False: the event lasts longer.
+        Whether the pilot run came to the end of the event; False: the event lasts longer.
     at_rest : bool
         Whether the flow comes to rest before `max_duration`.
     eroded, peak_depth, peak_speed : float
-        Of the pilot run [m3, m, m s-1].
+        Volume eroded, peak depth and peak speed of the pilot run [m3, m, m s-1].
     steps : float
         Number of time steps.
     seconds : float
@@ -59,7 +59,7 @@ class Forecast:
     memory : float
         Memory of this process at the start of the run [bytes].
     notes, doubts : tuple of str
-        Remarks on files, and what is odd.
+        Remarks on files, and doubts.
     """
 
     nodes: tuple[int, int]
@@ -133,7 +133,7 @@ def forecast(scene: Scene) -> Forecast:
     The pilot run goes to the end of the event, or for ten seconds. It gives the duration, T_e and Pe_b. The number of
     steps follows from the length of its steps: those that pressure waves limit are shorter by the square root of the
     ratio of the numbers of particles (`Pilot.steps_with`). The first steps with all particles give T_c and the CPU
-    time of a step on this machine; how that changes in a run, the pilot run tells.
+    time of a step on this machine; the change of this time during a run is that of the pilot run.
 
     Parameters
     ----------

@@ -19,10 +19,10 @@ from .directory import OutputDirectory
 from .files import SERIES, SERIES_SUFFIX
 
 NEVER = 1e12
-"""Wall time between checkpoints of which there is to be none but at an interruption [s]."""
+"""Wall time between checkpoints if they are wanted at interruptions only [s]."""
 
 BUDGET_INTERVAL = 5.0
-"""Time between two values of the budget unless maps are written as the run goes [s]."""
+"""Elapsed time between two values of the budget, if no maps are written during the run [s]."""
 
 TABLES = ("budget", "gauges", "sections", "thalweg")
 """Series that are written as tables, too, for spreadsheets."""

@@ -1,4 +1,4 @@
-"""Pictures of a run: all that its directory, or a file of results, can show, each as a file."""
+"""Pictures of a run, each as a file, from its directory or from a file of results."""
 
 import contextlib
 import logging
@@ -120,7 +120,7 @@ def _chosen(recorded: Recorded, names: Sequence[str] | None) -> list[str]:
 
 
 def _drawings(recorded: Recorded, names: Sequence[str], with_overview: bool) -> dict[str, Callable[[], Any]]:
-    """Return what is to be drawn by the names of the files, as functions that return a figure."""
+    """Return functions that return a figure, by the names of the files."""
     maps, found = recorded.maps, recorded.datasets
     drawings: dict[str, Callable[[], Any]] = {}
     if maps is not None:

@@ -23,11 +23,11 @@ FIRST, TIMED = 4, 24
 """Steps before the timed ones of a start, and steps until its end."""
 
 NEAR_LIMIT = 0.8
-"""Part of the limit by the terrain from which on it is that which limits a step [-]."""
+"""Length of a step over the limit by the terrain, from which on this limit counts as the cause [-]."""
 
 
 FAST = 0.5
-"""Part of the peak speed from which on a flow is fast [-]."""
+"""Speed over peak speed from which on a flow counts as fast [-]."""
 
 
 class Pilot(NamedTuple):
@@ -36,11 +36,11 @@ class Pilot(NamedTuple):
     Attributes
     ----------
     duration : float
-        Elapsed time of its end [s].
+        Elapsed time at the end of the run [s].
     complete : bool
-        Whether that is the end of the scene, at rest or at its longest time.
+        Whether the scene came to its end, at rest or at its longest time.
     at_rest : bool
-        Whether it came to rest.
+        Whether the flow came to rest.
     particles : int
         Number of particles that it had.
     steps : list of tuple of float
@@ -154,7 +154,7 @@ class _Steps:
 
 
 class _Clock:
-    """Observer that times steps and ends a run after some of them."""
+    """Observer that measures the time of steps and ends a run after some steps."""
 
     interval = math.inf
 
@@ -180,7 +180,7 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     particles : int
         Number of particles of each release.
     longest : float
-        Longest wall time [s]; then it is not complete.
+        Longest wall time [s]; a longer run ends there, and is not complete.
 
     Returns
     -------

@@ -46,9 +46,9 @@ def plan_scene(scene: Any, notify: Callable[[str], None] | None = None, **wishes
     ----------
     scene : Scene
     notify : callable, optional
-        Is told, in words, what begins; by default the logger is.
+        Called with a text when a pilot run begins; by default the text is logged.
     **wishes
-        As of `Wishes`; tolerance and quantities to be held are those of the scene, if it has any.
+        Attributes of `Wishes`; tolerance and quantities to be held are by default those of the scene.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def plan_scene(scene: Any, notify: Callable[[str], None] | None = None, **wishes
     Raises
     ------
     InputError, ParameterError, SimulationError, KeyboardInterrupt
-        As of `DebrisFlow.plan`.
+        As in `DebrisFlow.plan`.
     """
     known = wishes_of(scene.setup, **wishes)
     return make_plan(event_of_scene(scene), known, *(() if notify is None else (notify,)))

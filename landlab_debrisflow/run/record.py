@@ -1,4 +1,4 @@
-"""Record of a run in its directory: scene, digests of its files, versions, and how far it came."""
+"""Record of a run in its directory: scene, digests of its files, versions, and progress."""
 
 import dataclasses
 import json
@@ -39,13 +39,13 @@ class RunRecord:
     digest : str
         Digest of both.
     scene_file : str or None
-        The scene file, from the directory of the results; None for a scene that came from none.
+        The scene file, relative to the directory of the results; None for a scene without a file.
     state : str
-        ``running`` (or ended without a word), ``interrupted``, ``failed`` or ``finished``.
+        ``running`` (or killed), ``interrupted``, ``failed`` or ``finished``.
     elapsed_time : float
         Elapsed time at the end, or at the interruption [s].
     at_rest : bool
-        Whether all came to rest.
+        Whether the whole flow came to rest.
     steps : int
         Number of time steps.
     budget : dict of str to float
@@ -146,7 +146,7 @@ class RunRecord:
         write_atomically(path, lambda temporary: temporary.write_text(text + "\n", encoding="utf-8"))
 
     def differences(self, other: "RunRecord", free: tuple[str, ...] = ()) -> list[str]:
-        """Return in words where another record has another scene or other files, but for `free` keys."""
+        """Return the differences of another record in scene and files, `free` keys left out, as text."""
         mine, theirs = dict(leaves(self.scene)), dict(leaves(other.scene))
         keys = [key for key in dict.fromkeys([*mine, *theirs]) if mine.get(key) != theirs.get(key)]
         found = [

@@ -1,4 +1,4 @@
-"""What a run has recorded, read for pictures: from its directory, its last checkpoint, or one file."""
+"""Records of a run, read for pictures: from its directory, its last checkpoint, or one file."""
 
 import dataclasses
 import logging
@@ -51,7 +51,7 @@ class Recorded:
 
 
 def read_recorded(path: Path) -> Recorded:
-    """Read what a run has recorded.
+    """Read the records of a run.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def read_recorded(path: Path) -> Recorded:
 
 
 def _of_unfinished(results: Results, asked: tuple[str, ...]) -> Recorded:
-    """Return the maps of the last checkpoint of a run that was not finished, and those written as it went."""
+    """Return the maps of the last checkpoint of an unfinished run, and the maps written during the run."""
     path, state = results.directory, results.record.state
     maps, failure = None, ""
     for checkpoint in results.checkpoints:

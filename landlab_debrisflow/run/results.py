@@ -32,7 +32,7 @@ class Results:
     Attributes
     ----------
     record : RunRecord
-        Scene, digests, versions, and how far the run came.
+        Scene, digests, versions and progress of the run.
     """
 
     directory: Path
@@ -52,7 +52,7 @@ class Results:
 
     @property
     def at_rest(self) -> bool:
-        """Whether all came to rest within the longest duration."""
+        """Whether the whole flow came to rest within the longest duration."""
         return self.record.at_rest
 
     @property

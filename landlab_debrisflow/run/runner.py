@@ -38,24 +38,24 @@ def run_scene(scene: Any, *, overwrite: bool = False, monitor: Monitor | None = 
     overwrite : bool
         Whether the results of an earlier run in its output directory may be removed.
     monitor : Monitor, optional
-        Shows how the run gets on; by default a line on the terminal or in the notebook.
+        Shows the progress of the run; by default a line on the terminal or in the notebook.
 
     Returns
     -------
     Results
-        They appear in `Scene.output_directory` when all are complete.
+        The files appear in `Scene.output_directory` when all are complete.
 
     Raises
     ------
     InputError, ParameterError
-        If something of the scene cannot be used, or the directory holds something else.
+        If a value or a file of the scene cannot be used, or the directory holds files of something else than this run.
     OutputError, OSError
-        If a file cannot be written. What was computed until the last checkpoint is kept.
+        If a file cannot be written. The run is kept up to the last checkpoint.
     KeyboardInterrupt
-        After the step. What was computed is kept: `resume_scene` goes on.
+        After the step. The run is kept up to this step: `resume_scene` goes on.
     """
     _ = scene.places
-    check_mass(scene)  # before anything is written, and results of before removed
+    check_mass(scene)  # before files are written, or earlier results removed
     with OutputDirectory.claimed(scene.output_directory) as directory:
         directory.begin(_record(scene, directory), overwrite)
         scene = _planned(scene, directory, monitor)
@@ -72,7 +72,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     ----------
     scene : Scene
     monitor : Monitor, optional
-        As of `run_scene`.
+        As in `run_scene`.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
     InputError
         If there is no run of this scene, or the scene or a file of it has changed.
     OutputError, OSError, KeyboardInterrupt
-        As of `run_scene`.
+        As in `run_scene`.
     """
     path = scene.output_directory
     if not (path / RECORD).is_file():
@@ -110,7 +110,7 @@ def resume_scene(scene: Any, *, monitor: Monitor | None = None) -> Results:
 
 
 def _planned(scene: Any, directory: OutputDirectory, monitor: Monitor | None) -> Any:
-    """Return the scene with the plan of the run, if its number of particles is left to one; a first one is made."""
+    """Return the scene with the plan of its run, if a plan is to choose the number of particles; make a missing one."""
     if not scene.setup.numerics.automatic:
         return scene
     if directory.record.plan is not None:
@@ -180,7 +180,7 @@ def _compute(
 def _note_failure(directory: OutputDirectory, failure: BaseException, time: float) -> None:
     """Note why a run ended early at a time [s], and add to the failure how to go on."""
     state = INTERRUPTED if isinstance(failure, KeyboardInterrupt) else FAILED
-    failure.__notes__ = [f"at {time:.6g} s"] if time > 0.0 else []  # in place of what is said to callers of a flow
+    failure.__notes__ = [f"at {time:.6g} s"] if time > 0.0 else []  # replaces the note for callers of a flow
     with contextlib.suppress(OSError, ValueError):  # the disk may be full
         if not directory.checkpoints and time == 0.0:
             directory.remove_results()
@@ -201,4 +201,4 @@ def _write(folder: Path, flow: DebrisFlow, scene: Any, observers: Observers) -> 
 
 
 def _statement(flow: DebrisFlow) -> Statement:
-    return dataclasses.replace(flow.report(), seconds=math.nan)  # of another run it would be another time
+    return dataclasses.replace(flow.report(), seconds=math.nan)  # left out, so that equal runs write equal files

@@ -1,4 +1,4 @@
-"""A scene: everything that a scene file says, as a grid, a flow and a run."""
+"""A scene: the content of a scene file as a grid, a flow and a run."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ from .results import Results
 class Scene:
     """Terrain, releases, setup and output of a run.
 
-    Files are read when they are needed, each once. Pickling a scene takes its keys along, not what was read.
+    Files are read when they are needed, each once. A pickled scene holds its keys, and no content of files.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Scene:
         Parameters
         ----------
         mapping, folder, name
-            As of the class.
+            As for the class.
 
         Returns
         -------
@@ -162,7 +162,7 @@ class Scene:
         files = {name: checksum_of(path) for name, path in named_files(content, self.folder).items()}
         return digest([content, files])
 
-    # ---- what the keys stand for ----
+    # ---- terrain, releases and setup of the keys ----
 
     @cached_property
     def terrain(self) -> xr.Dataset:
@@ -229,7 +229,7 @@ class Scene:
         grid : RasterModelGrid, optional
             Grid to run on, which is changed; by default a new one.
         observers : observer or sequence of them
-            As of `DebrisFlow`.
+            As in `DebrisFlow`.
 
         Returns
         -------
@@ -246,8 +246,8 @@ class Scene:
         Parameters
         ----------
         **wishes
-            As of `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
-            ``notify`` is a function that is told what begins.
+            As in `DebrisFlow.plan`, without max_duration; tolerance and hold are by default those of numerics.
+            ``notify`` is a function that is called with a text when a pilot run begins.
         """
         from .planning import plan_scene
 
@@ -260,7 +260,7 @@ class Scene:
         return planned
 
     def run(self, *, overwrite: bool = False) -> Results:
-        """Run the scene to rest and write its results; a line shows how it gets on.
+        """Run the scene to rest and write its results; a line shows the progress.
 
         Parameters
         ----------
@@ -275,14 +275,14 @@ class Scene:
         Raises
         ------
         InputError, ParameterError, OutputError, OSError, KeyboardInterrupt
-            As of `runner.run_scene`; after an interruption `resume` goes on.
+            As in `runner.run_scene`; after an interruption `resume` goes on.
         """
         from .runner import run_scene
 
         return run_scene(self, overwrite=overwrite)
 
     def resume(self) -> Results:
-        """Go on with a run that was interrupted, to the results that it would have had without.
+        """Go on with an interrupted run, to the results of a run without interruption.
 
         Returns
         -------

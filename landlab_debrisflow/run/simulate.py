@@ -40,7 +40,7 @@ def simulate(
     Returns
     -------
     xarray.Dataset
-        As `DebrisFlow.maps`; the attribute ``at_rest`` tells whether all had come to rest (1) or not (0).
+        As `DebrisFlow.maps`; the attribute ``at_rest`` tells whether the whole flow had come to rest (1) or not (0).
 
     Raises
     ------

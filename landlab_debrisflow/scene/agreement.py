@@ -22,7 +22,7 @@ def law_digests(setup: Setup) -> dict[str, str]:
 
 
 def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
-    """Return the setup of a Dataset, of which some attributes are given again.
+    """Return the setup of a Dataset; laws that no file can hold are given again.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
     Raises
     ------
     ParameterError
-        If one given differs, or one is missing that cannot be built from plain values.
+        If a given value differs, or a law is missing that cannot be built from plain values.
     """
     legal = [field.name for field in dataclasses.fields(Setup)]
     for name in given:
@@ -52,7 +52,7 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
         if kind not in given:
             raise ParameterError(
                 f"load: the {kind} law of the checkpoint is a {written[kind].get('law')}, which no file can hold; give "
-                f"the same again: {kind}=..."
+                f"the same law again: {kind}=..."
             )
     setup = Setup.from_mapping(written | dict(given))
     now = setup.to_mapping()
@@ -61,9 +61,10 @@ def agreed_setup(dataset: xr.Dataset, given: Mapping[str, Any]) -> Setup:
         if (different := _difference(written.get(name), now[name])) or (
             name in digests and _digest(name, law) != digests[name]
         ):
-            words = different or "it prints the same, but consists of something else"
+            words = different or "it prints as the same text, but has other contents"
             raise ParameterError(
-                f"load: {name} is not that of the checkpoint: {words}; give the same, or leave out what a file can hold"
+                f"load: {name} is not that of the checkpoint: {words}; give the value of the checkpoint, or leave "
+                "out laws that a file can hold"
             )
     return setup
 
@@ -73,7 +74,7 @@ def _digest(kind, law) -> str:
 
 
 def _difference(written, now) -> str:
-    """Return in words how a value of a setup in a file and a given one differ; "" if they do not."""
+    """Return the difference of a value of a setup in a file and a given one as text; "" if there is none."""
     if isinstance(written, Mapping) and isinstance(now, Mapping):
         found = (f"{key}: {words}" for key in written if (words := _difference(written[key], now.get(key))))
         return next(found, "")

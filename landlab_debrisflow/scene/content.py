@@ -53,7 +53,7 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
     mapping : mapping
         Plain values by the keys of a scene.
     file : YamlFile, optional
-        Where they were read from, to name lines.
+        File from which the values were read, to name lines.
 
     Returns
     -------
@@ -178,7 +178,7 @@ def named_files(mapping: Mapping[str, Any], folder: Path) -> dict[str, Path]:
 def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
-    except (OSError, ValueError):  # a word too long for a name, or with a null character
+    except (OSError, ValueError):  # not a name: too long, or with a null character
         return False
 
 

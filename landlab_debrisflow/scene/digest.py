@@ -13,7 +13,7 @@ from ..core.values import NodeValues
 
 
 def digest(value: Any) -> str:
-    """Return 32 hexadecimal digits that differ where anything a value is made of differs.
+    """Return 32 hexadecimal digits that are equal for equal values, and differ otherwise.
 
     Examples
     --------
@@ -24,12 +24,12 @@ def digest(value: Any) -> str:
 
 
 def text_of(obj: Any) -> str:
-    """Return how an object prints, without its address."""
+    """Return the printed form of an object, without its address."""
     return re.sub(" at 0x[0-9A-Fa-f]+", "", repr(obj))
 
 
 def state_of(obj: Any) -> Any:
-    """Return the attributes of an object by name; of one that shows none, how it prints."""
+    """Return the attributes of an object by name, or its printed form if it shows none."""
     if dataclasses.is_dataclass(obj):
         return {field.name: getattr(obj, field.name, None) for field in dataclasses.fields(obj)}
     slots = [name for cls in type(obj).__mro__ for name in _tuple(getattr(cls, "__slots__", ()))]
@@ -49,7 +49,7 @@ def _token(value: Any, inside: tuple) -> str:
     if value is None or isinstance(value, bool | int | str | bytes):
         return repr(value)
     if isinstance(value, float | complex):
-        return repr(value + 0.0)  # of -0.0 and 0.0, which are equal
+        return repr(value + 0.0)  # -0.0 and 0.0 are equal and get one text
     if isinstance(value, NodeValues):
         value = value.values
     if isinstance(value, np.ndarray) and value.dtype != object:
@@ -77,7 +77,7 @@ def _token(value: Any, inside: tuple) -> str:
 def _array(values: np.ndarray) -> str:
     if values.dtype.kind in "fc":
         values = np.array(values)
-        values += 0.0  # -0.0 and 0.0 are equal, and so are all that are no number
+        values += 0.0  # -0.0 and 0.0 count as equal, and so do all NaN
         values[np.isnan(values)] = np.nan
     return f"{values.dtype.str}{values.shape}{blake2b(np.ascontiguousarray(values).data, digest_size=16).hexdigest()}"
 

@@ -16,15 +16,15 @@ from ..geo.shapes import Shape, read_shapes
 from .terrain_keys import Edit
 
 FEWEST_ACROSS = 3
-"""Nodes across below which sums over neighbours reach through an obstacle (README, Limits)."""
+"""Least width of an obstacle in nodes: sums over neighbours reach through a thinner one."""
 CREST_WIDTH = 3.0
-"""Of a dam, if it is not given [m]."""
+"""Default width of the crest of a dam [m]."""
 SLOPES = {"dam": math.degrees(math.atan(2.0 / 3.0)), "excavation": 45.0}
-"""Of the sides, if it is not given [deg]."""
+"""Default angle of the sides [deg]."""
 FARTHEST = 100.0
-"""Length of a line over the diagonal of the terrain, from which on it is not meant [-]."""
+"""Length of a line over the diagonal of the terrain above which it is refused [-]."""
 FAR = 4.0
-"""Width of a side over that on level ground, from which on the user is told."""
+"""Width of a side over its width on level ground, from which on a note says so [-]."""
 SQUARE = np.ones((FEWEST_ACROSS, FEWEST_ACROSS), bool)
 
 
@@ -59,11 +59,11 @@ def edit_ground(edits: Iterable[Edit], ground: Ground, extent: Lattice, folder: 
     edits : iterable of Edit
     ground : Ground
     extent : Lattice
-        Of the whole DEM, in which shapes have to lie.
+        Extent of the whole DEM, in which shapes have to lie.
     folder : Path
         Directory to which names of files are relative.
     notes : list of str
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Raises
     ------
@@ -96,9 +96,9 @@ def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
     width = edit.crest_width or (least if upright else CREST_WIDTH)
     if upright and width < least * (1.0 - 1e-9):
         raise InputError(
-            f"{shape.label} is {width:g} m thick, less than {FEWEST_ACROSS} nodes of {max(dx, dy):g} m: the flow would "
-            f"feel what is behind; give a spacing of at most {_rounded_down(width / FEWEST_ACROSS)} m, or a thicker "
-            "wall by crest_width"
+            f"{shape.label} is {width:g} m thick, less than {FEWEST_ACROSS} nodes of {max(dx, dy):g} m: sums over "
+            f"particles would reach through it; give a spacing of at most {_rounded_down(width / FEWEST_ACROSS)} m, "
+            "or a thicker wall by crest_width"
         )
     half = max(0.5 * width, 0.5 * math.hypot(dx, dy))
     stations, profile = _crest(edit, shape, ground)
@@ -114,7 +114,7 @@ def _raise_crest(edit: Edit, shape: Shape, ground: Ground) -> str:
     beside[beside < 1e-6 * half] = 0.0
     body = np.where(beside == 0.0, crest, crest - beside * steepness if math.isfinite(steepness) else -np.inf)
     before = ground.elevation.reshape(-1)[near.nodes]
-    raised = body > before  # not where there are no data
+    raised = body > before  # nodes without data stay without
     if not raised.any():
         raise InputError(
             f"{shape.label}: no node is raised, the crest ({profile.min():g} to {profile.max():g} m) lies below the "
@@ -164,8 +164,8 @@ def _check_thickness(shape: Shape, nodes: np.ndarray, ground: Ground, width: flo
         base = width + 2.0 * height / steepness
         raise InputError(
             f"{shape.label} is nowhere {FEWEST_ACROSS} nodes thick ({base:.3g} m at its base, nodes every "
-            f"{max(ground.lattice.spacing):g} m): the flow would feel what is behind; give a spacing of at most "
-            f"{_spacing_for(base)} m, or a wider crest by crest_width"
+            f"{max(ground.lattice.spacing):g} m): sums over particles would reach through it; give a spacing of "
+            f"at most {_spacing_for(base)} m, or a wider crest by crest_width"
         )
 
 
@@ -227,7 +227,7 @@ def _build(edit: Edit, shapes: list[Shape], ground: Ground) -> str:
         widths = [_width(shape.geometry) for shape in thin]
         raise InputError(
             f"{len(thin)} of {len(shapes)} buildings, the first {thin[0].label}, are not {FEWEST_ACROSS} nodes thick, "
-            f"nodes are {max(lattice.spacing):g} m apart: the flow would feel what is behind; a spacing of "
+            f"nodes are {max(lattice.spacing):g} m apart: sums over particles would reach through it; a spacing of "
             f"{_spacing_for(min(widths))} m would do for all of them, {_spacing_for(float(np.median(widths)))} m for "
             "half; or leave them out by thin: leave_out"
         )

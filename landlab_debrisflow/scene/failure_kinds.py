@@ -1,4 +1,4 @@
-"""Kinds of failing bodies: each a family of depths that grows with one number, from nothing to all that can leave."""
+"""Kinds of failing bodies: each a family of depths that grows with one number, from 0 to the largest that can leave."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -17,11 +17,11 @@ class Family(NamedTuple):
     Attributes
     ----------
     depth : callable
-        Takes a number and returns the depth, shape (rows, columns) [m]: nowhere less for a larger number.
+        Takes a number and returns the depth, shape (rows, columns) [m], which nowhere decreases with the number.
     least, first : float
-        Number for which nothing fails, and one that is larger.
+        Number with which nothing fails, and a larger number to begin with.
     largest : ndarray, shape (rows, columns)
-        Depth to which that of large numbers tends [m].
+        Limit of the depth for large numbers [m].
     """
 
     depth: Callable[[float], np.ndarray]
@@ -36,9 +36,10 @@ def uniform(outline: Outline, floor_fall: float) -> Family:
 
 
 def tapered(outline: Outline, floor_fall: float) -> Family:
-    """Return bodies of even depth [m] but above the lower rim, where the floor falls by a part of the ground's fall.
+    """Return bodies of even depth [m], except above the lower rim, where the floor falls less than the ground.
 
-    `floor_fall` is that part [-]; it is less if all is rim, and the number then stands for the depth at the top.
+    `floor_fall` is the fall of the floor over that of the ground [-]; it is less if the whole body is rim, and the
+    number then stands for the depth at the top.
     """
     fall = outline.fall
     highest = max(float(fall.max()), 1e-300)
@@ -56,7 +57,8 @@ def ellipsoid(outline: Outline, floor_fall: float) -> Family:
     places, weight = np.stack([columns.ravel() * dx, rows.ravel() * dy]), outline.fraction.ravel()
     centred = places - np.average(places, axis=1, weights=weight)[:, None]
     moments = np.cov(places, aweights=weight, bias=True) + np.diag([dx * dx, dy * dy]) / 12.0
-    variances, axes = np.linalg.eigh(moments)  # of an ellipse a quarter of the squares of its half axes
+    # the variances of an ellipse are a quarter of the squares of its half axes
+    variances, axes = np.linalg.eigh(moments)
     radius2 = ((axes.T @ centred) ** 2 / (4.0 * variances[:, None])).sum(axis=0).reshape(outline.inside.shape)
     shape = np.sqrt(np.maximum(0.0, 1.0 - radius2)) * outline.inside
     largest = np.where(shape > 0.0, outline.fall, 0.0)
@@ -73,7 +75,7 @@ def sloping_local_base_level(outline: Outline, floor_fall: float) -> Family:
     number = np.full(inside.shape, -1)
     rows, columns = np.nonzero(inside)
     number[rows, columns] = np.arange(rows.size)
-    links, bend = np.zeros((2, rows.size))  # sum of the links of each node; Laplacian of the ground
+    links, bend = np.zeros((2, rows.size))  # sum of the weights of the neighbours of each node; Laplacian of the ground
     entries = []
     for down, along in SIDES:
         there = rows + down, columns + along
@@ -92,7 +94,7 @@ def sloping_local_base_level(outline: Outline, floor_fall: float) -> Family:
         body[rows, columns] = obstacle.solve(laplacian, bend)
         return np.minimum(body, outline.fall)
 
-    even = float(bend.min())  # a floor that is less curved lies nowhere below the ground
+    even = float(bend.min())  # with less curvature the floor would lie nowhere below the ground
     return Family(depth, even, even + float(outline.fall.max()) / outline.area, outline.fall)
 
 
@@ -116,7 +118,7 @@ class Obstacle:
         self._answers: np.ndarray | None = None
 
     def solve(self, even: float, uneven: np.ndarray) -> np.ndarray:
-        """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), is always the same."""
+        """Return u for the load even - uneven, shape (n,); `uneven`, shape (n,), never changes."""
         load = even - uneven
         while True:
             if self._answers is None:

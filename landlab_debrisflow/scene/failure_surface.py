@@ -12,7 +12,7 @@ from .failure_kinds import KINDS
 from .outline import CALLER, read_outline
 
 ALL = 1.0 - 1e-12
-"""Part of all that can leave, from which on a body is all of it."""
+"""Fraction of the largest body that can leave, from which on the largest body is taken [-]."""
 
 
 def failure_surface(
@@ -28,9 +28,9 @@ def failure_surface(
 ) -> np.ndarray:
     """Return the vertical depth of the body that fails within an outline [m].
 
-    Depth as it stands in a polygon digs a pit with upright walls: below the lower rim its floor lies deeper than the
-    ground, and most of the mass piles up there. Here no floor lies below the place where the fall line of the ground
-    leaves the outline, so that the scar can empty, and the volume is kept to rounding.
+    A uniform depth inside a polygon digs a pit with upright walls: at the lower rim its floor lies below the ground
+    outside, and most of the mass piles up against this wall. Here no floor lies below the place where the fall line of
+    the ground leaves the outline, so that the scar can empty, and the volume is kept to rounding.
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ def failure_surface(
         ``"tapered"``: the same depth everywhere but towards the lower rim, where the floor falls less than the ground.
         ``"sloping_local_base_level"``: the floor that curves evenly, by Jaboyedoff et al. (2004).
         ``"ellipsoid"``: half of one with the axes of the outline, cut at it.
-        ``"uniform"``: the same depth everywhere. It is the only one that digs a pit; meant for `lay_on_top`.
+        ``"uniform"``: the same depth everywhere. Only this kind digs a pit; it is meant for `lay_on_top`.
     mean_depth, largest_depth, volume : float, optional
         Exactly one of them: volume over area of the outline [m], largest depth at a node [m], or volume [m3].
     floor_fall : float
-        Of ``"tapered"``: fall of the floor over that of the ground above the lower rim, from 0, level, to less than 1.
+        For ``"tapered"``: fall of the floor over that of the ground above the lower rim, from 0, level, to less than 1.
         Where floor_fall times the slope of the ground is less than the friction, some of the mass stays.
 
     Returns
@@ -69,14 +69,14 @@ def failure_surface(
 
         h = min(d, (1 - floor_fall) D)
 
-    On a slope theta its rim is d / ((1 - floor_fall) tan(theta)) wide, 14 m for 1 m on 20 degrees. Upper and side
-    rims are not tapered: nothing has to leave over them. Of an outline that falls by less than d / (1 - floor_fall) in
-    total all is rim; if the size asks for more, the floor falls less, down to level.
+    On a slope theta its rim is d / ((1 - floor_fall) tan(theta)) wide, 14 m for 1 m on 20 degrees. Upper and side rims
+    are not tapered: no mass has to leave over them. If an outline falls by less than d / (1 - floor_fall) in total, the
+    whole body is rim. If the size asks for a deeper body, the floor falls less, until it is level.
 
-    The sloping local base level is what remains when again and again every node is lowered to the mean of its
-    neighbours less a tolerance C, if it lies above: z = min(ground, mean - C). Its fixed point is found at once, as
-    the obstacle problem that it is: laplacian(z) = 4 C / spacing^2 where z lies below the ground. The size asked for
-    fixes C, which is negative under a ridge that is to lose less than it would with C = 0.
+    The sloping local base level is the limit of repeated lowering: every node above the mean of its neighbours less a
+    tolerance C is lowered to this value, z = min(ground, mean - C). Its fixed point is the solution of an obstacle
+    problem, which is solved directly: laplacian(z) = 4 C / spacing^2 where z lies below the ground. The size asked for
+    determines C. C is negative under a ridge if the size is less than that with C = 0.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""Fall lines of the ground within an outline: how high every node lies above the place where its fall line leaves."""
+"""Fall lines of the ground within an outline: height of every node above the exit of its fall line."""
 
 import heapq
 
@@ -10,7 +10,8 @@ SIDES = ((0, 1), (0, -1), (1, 0), (-1, 0))
 """Steps in rows and columns to the four nodes beside a node."""
 
 RISE = 1e-6
-"""Rise of a filled pit per node towards its inside [m]: it gives its nodes a way out, and is no slope."""
+"""Rise of a filled pit per node towards its inside [m]: small enough to be no slope, but with a way out for every
+node."""
 
 
 def fall_to_exit(inside: np.ndarray, elevation: np.ndarray, spacing: tuple[float, float]) -> np.ndarray:
@@ -40,7 +41,7 @@ def fall_to_exit(inside: np.ndarray, elevation: np.ndarray, spacing: tuple[float
     number = np.full(elevation.shape, -1)
     filled = fill_pits(inside, elevation)
     rows, columns = np.nonzero(inside & np.isfinite(filled))
-    order = np.argsort(filled[rows, columns], kind="stable")  # every node follows all those that it falls to
+    order = np.argsort(filled[rows, columns], kind="stable")  # every node comes after the nodes to which it falls
     rows, columns = rows[order], columns[order]
     number[rows, columns] = np.arange(rows.size)
     total, known = np.zeros((2, rows.size))
@@ -48,7 +49,8 @@ def fall_to_exit(inside: np.ndarray, elevation: np.ndarray, spacing: tuple[float
     for down, along in SIDES:
         there = rows + down, columns + along
         drop = filled[rows, columns] - filled[there]
-        weight = np.where(drop > 0.0, drop, 0.0) / spacing[0 if along else 1] ** 2  # 0 towards NaN
+        # no slope towards nodes without data
+        weight = np.where(drop > 0.0, drop, 0.0) / spacing[0 if along else 1] ** 2
         total += weight
         within = number[there] >= 0
         entries.append((weight[within], np.flatnonzero(within), number[there][within]))
@@ -91,7 +93,8 @@ def fill_pits(inside: np.ndarray, elevation: np.ndarray) -> np.ndarray:
         level, row, column = heapq.heappop(waiting)
         for down, along in SIDES:
             there = row + down, column + along
-            within = 0 <= there[0] < inside.shape[0] and 0 <= there[1] < inside.shape[1]  # a rim may be the edge
+            # the rim of the outline may be the edge of the raster
+            within = 0 <= there[0] < inside.shape[0] and 0 <= there[1] < inside.shape[1]
             if within and inside[there] and filled[there] == np.inf:
                 filled[there] = max(float(elevation[there]), level + RISE)
                 heapq.heappush(waiting, (float(filled[there]), *there))

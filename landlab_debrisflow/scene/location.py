@@ -11,12 +11,12 @@ from .read_yaml import YamlFile
 
 @contextmanager
 def located(file: YamlFile | None, *path: str | int) -> Iterator[None]:
-    """Enter a block whose refusals get the name of a part of a scene, and its line in the file, put before them.
+    """Enter a block; its refusals begin with the name of a part of a scene and its line in the file.
 
     Parameters
     ----------
     file : YamlFile or None
-        Where the scene was read from; None: from nowhere.
+        File from which the scene was read; None without a file.
     *path : str or int
         Keys and indices that lead to the part, such as ``"release", 0``; none: the whole scene.
 
@@ -32,7 +32,7 @@ def located(file: YamlFile | None, *path: str | int) -> Iterator[None]:
         if file is not None and message.startswith(f"{file.path} line "):
             raise
         blamed = path if file is None else _blamed(file.mapping, path, message)
-        if blamed[:1] != path[:1]:  # files of releases are read for the window of the terrain
+        if blamed[:1] != path[:1]:  # the terrain reads files of releases to find its window
             path = blamed[:2] if len(blamed) > 1 and isinstance(blamed[1], int) else blamed[:1]
         first = str(path[0]) if path else "scene"
         label = first + "".join(f"[{step}]" if isinstance(step, int) else f": {step}" for step in path[1:])

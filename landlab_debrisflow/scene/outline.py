@@ -1,4 +1,4 @@
-"""Outline of a landslide on the ground: checked arrays, and how far the ground falls from each node to its exit."""
+"""Outline of a landslide on the ground: checked arrays, and the fall of the ground from each node to its exit."""
 
 from typing import Any, NamedTuple
 
@@ -9,7 +9,7 @@ from ..core.errors import InputError
 from .fall_lines import fall_to_exit
 
 TALLEST = 1e5
-"""Largest relief of the ground that is computed with [m]; beyond, its values rather mark missing data."""
+"""Largest relief of the ground [m]; a larger one means that some values mark missing data."""
 
 CALLER = "failure_surface: "
 

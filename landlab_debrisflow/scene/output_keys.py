@@ -10,7 +10,7 @@ PREFIX = "debris_flow__"
 MAPS = tuple(field.name.removeprefix(PREFIX) for field in NODE_FIELDS if field.intent == "out")
 """Names of output fields without their prefix."""
 ALWAYS = ("max_depth", "max_speed", "arrival_time", "eroded_depth", "deposit_depth")
-"""Maps that are written as GeoTIFF without being asked for."""
+"""Maps that are written as GeoTIFF by default."""
 LOOKED_AT = ("depth", "speed", "basal_excess_pore_pressure", "eroded_depth", "deposit_depth")
 """Variables that are written as they change, by default."""
 

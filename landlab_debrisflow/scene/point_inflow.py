@@ -27,7 +27,7 @@ def point_hydrographs(
     Parameters
     ----------
     releases : iterable of ReleaseKeys
-        Those of other kinds are passed over.
+        Releases of the scene, of which those at points count.
     terrain : xarray.Dataset
         As `build_terrain` returns it.
     folder : Path
@@ -58,7 +58,7 @@ def point_hydrographs(
 
 
 def _hydrograph(keys: ReleaseKeys, table, point: np.ndarray, ground: Ground, label: str) -> Hydrograph:
-    width, speed = float(keys.width or 0.0), float(keys.speed or 0.0)  # both are set: the keys agree on that
+    width, speed = float(keys.width or 0.0), float(keys.speed or 0.0)  # the checks of the keys ensure that both are set
     (dx, dy), (rows, columns) = ground.lattice.spacing, ground.lattice.shape
     column, row = (point - ground.lattice.lower_left) / (dx, dy)
     if not (0.5 <= column <= columns - 1.5 and 0.5 <= row <= rows - 1.5):

@@ -18,15 +18,15 @@ from ..model.inflow.hydrograph import Hydrograph
 from .release_keys import ReleaseKeys
 
 MOST_EXAMINED = 1_000_000
-"""Most nodes that are examined at once; of larger parts every second, third, ... is."""
+"""Most nodes that are examined at once; of a larger part of the DEM only every second, third, ... node is."""
 HEAD = 20.0
 """Energy above the ground that a release may begin with, its thickness included [m]."""
 MARGIN_NODES, MARGIN = 10, 50.0
-"""Least width of the margin around what is reached, in nodes and in m."""
+"""Least width of the margin around the reached ground, in nodes and in m."""
 FIRST_BOX = 500.0
 """Width of the ground around the releases that is examined first [m]."""
 MOST_STARTS = 20
-"""Releases that get an energy line each; more share the highest one."""
+"""Largest number of releases with an energy line of their own; further releases share the highest one."""
 
 
 def starting_shapes(
@@ -39,7 +39,7 @@ def starting_shapes(
     releases : iterable of ReleaseKeys
     inflow : iterable of Hydrograph
     lattice : Lattice
-        Of the whole DEM.
+        Lattice of the whole DEM.
     folder : Path
         Directory to which names of files are relative.
 
@@ -85,7 +85,7 @@ def reachable_window(source: RasterSource, starts: Sequence[Any], travel_angle: 
 
     A line falls from the highest point of a release, and `HEAD` above it, with the travel angle in every direction; the
     distance is the straight one, so that bends of the way make the part larger than needed, never smaller. Around it
-    there is a margin. Of the DEM only what has to be known is read, thinned out where it is large.
+    there is a margin. Only the necessary part of the DEM is read, thinned out where it is large.
 
     The angle of 5 degrees by default is below those of long run-outs: L = 1.9 V^0.16 H^0.83 (Rickenmann 1999) gives 6.0
     degrees for 1e7 m3 that fall 300 m, 10.5 degrees for 1e6 m3 and 1000 m; H/L = 0.97 V^-0.105 (Corominas 1996, debris

@@ -144,7 +144,7 @@ class _Reader:
         return self._mapping(path)
 
     def _check(self, event) -> None:
-        """Refuse what means more than it shows."""
+        """Refuse tags and aliases, whose meaning is not in the text."""
         if isinstance(event, self._yaml.AliasEvent) or event.anchor is not None:
             self._refuse(event, "anchors (&) and aliases (*) are not read; write the value out")
         if event.tag is not None:
@@ -173,7 +173,7 @@ class _Reader:
 
     def _scalar(self, event) -> Any:
         text = event.value
-        if not event.implicit[0]:  # quoted
+        if not event.implicit[0]:  # quoted text stays text
             return text
         if text in WORDS:
             return WORDS[text]

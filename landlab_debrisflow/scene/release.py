@@ -22,7 +22,7 @@ def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
     inside : array_like, shape (nodes,) or (rows, columns)
         Nodes of the outline, as bool, or the fraction of every cell that lies inside.
     **keywords
-        As of `failure_surface`: the kind, and one of ``mean_depth``, ``largest_depth`` and ``volume``.
+        As in `failure_surface`: the kind, and one of ``mean_depth``, ``largest_depth`` and ``volume``.
 
     Returns
     -------
@@ -32,7 +32,7 @@ def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
     Raises
     ------
     InputError
-        As of `failure_surface`, or if `inside` does not fit the grid.
+        As in `failure_surface`, or if `inside` does not fit the grid.
     """
     outline = np.asarray(inside)
     if outline.size != grid.number_of_nodes:
@@ -47,18 +47,19 @@ def failing_depth(grid: Any, inside: Any, **keywords: Any) -> np.ndarray:
 def lay_on_top(grid: Any, depth: Any) -> None:
     """Lay mass on the ground, in addition to the release so far, to flow from the next call on [m].
 
-    Elevation and, if the grid has it, ``soil__depth`` rise by the depth, and the next call takes as much off again:
-    below the release lies the ground as it was. RAMMS, AvaFrame and most published cases release so. Until that call
-    other components see the raised ground and the mass as soil.
+    Elevation and, if the grid has it, ``soil__depth`` rise by the depth, and the next call takes the same depth off
+    again, so that the former ground lies below the release. RAMMS, AvaFrame and most published cases release mass in
+    this way. Until that call other components see the raised ground and the mass as soil.
 
-    The budget counts the volume as released. From the ground as it was before, elevation has risen at the end by
-    deposited + released on top - released - eroded over the whole grid.
+    The budget counts the volume as released. At the end elevation has risen, over the whole grid and against the ground
+    before, by deposited + released on top - released - eroded.
 
     Parameters
     ----------
     grid : RasterModelGrid
         ``topographic__elevation``, ``soil__depth`` if there is one, and ``debris_flow__release_depth``, which is added
-        if it is missing, grow by the depth. Add with ``+=`` to the last one what is to fail from the ground.
+        if it is missing, grow by the depth. Depth that is to fail from the ground is added to the release field with
+        ``+=``.
     depth : array_like, shape (nodes,) or (rows, columns)
         Vertical depth of the mass [m]; 0 elsewhere.
 

@@ -19,7 +19,7 @@ from .shapes import shapes_of
 from .terrain import lattice_of
 
 MOST_DEPTH = 1000.0
-"""Deeper than any landslide: the unit is wrong [m]."""
+"""Largest depth that is accepted [m]: no landslide is deeper, so that the unit must be wrong."""
 
 
 class Ground(NamedTuple):
@@ -84,7 +84,7 @@ class Body(NamedTuple):
     depth : ndarray, shape (rows, columns)
         Vertical depth [m].
     notes : list of str
-        Remarks on what was done.
+        Remarks for the user.
     """
 
     depth: np.ndarray
@@ -131,7 +131,7 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
             "use a larger DEM, or move the polygon"
         )
     if inside < 0.999 * whole:
-        kept = "the volume is kept" if "volume" in amount else "what lies there is left out"
+        kept = "the volume is kept" if "volume" in amount else "the part there is left out"
         notes.append(
             f"{shape.label}: {100.0 * (1.0 - inside / whole):.3g} % of it lie outside, on the edge of the grid or "
             f"without elevation; {kept}"
@@ -145,12 +145,13 @@ def _polygon_body(keys: ReleaseKeys, shape: Shape, ground: Ground) -> Body:
 def _failing_depth(
     keys: ReleaseKeys, usable: np.ndarray, amount: dict[str, float], ground: Ground, label: str
 ) -> np.ndarray:
-    """Return the depth of the body that fails within an outline [m]; only the nodes around it are looked at.
+    """Return the depth of the body that fails within an outline [m]; only the nodes around it are read.
 
     `usable` is the fraction of each cell inside [-], shape (rows, columns); `amount` as `_amount` returns it.
     """
     rows, columns = np.nonzero(usable)
-    near = slice(rows.min() - 1, rows.max() + 2), slice(columns.min() - 1, columns.max() + 2)  # the rim has no release
+    # no release on the edge of the grid
+    near = slice(rows.min() - 1, rows.max() + 2), slice(columns.min() - 1, columns.max() + 2)
     depth, kind = np.zeros_like(usable), keys.failure_surface or "tapered"
     try:
         depth[near] = failure_surface(
@@ -166,11 +167,12 @@ def _failing_depth(
 
 
 AMOUNTS = {"depth": "mean_depth", "largest_depth": "largest_depth", "volume": "volume"}
-"""Attributes and keys that say how much of a polygon fails, and what they are to `failure_surface`."""
+"""Attributes and keys for the size of the body in a polygon, and the arguments of `failure_surface` that they
+become."""
 
 
 def _amount(keys: ReleaseKeys, shape: Shape) -> dict[str, float]:
-    """Return how much of a polygon fails: mean depth [m], largest depth [m] or volume [m3], by its name."""
+    """Return the size of the body in a polygon by name: mean depth [m], largest depth [m] or volume [m3]."""
     attributes = {str(name).lower(): value for name, value in shape.attributes.items()}
     found = {name: number for name in AMOUNTS if (number := _number(name, attributes, shape)) is not None}
     if len(found) > 1:
@@ -180,7 +182,7 @@ def _amount(keys: ReleaseKeys, shape: Shape) -> dict[str, float]:
     if not found:
         names = list(shape.attributes)
         near = "".join(did_you_mean(name, AMOUNTS) for name in names)
-        told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attributes"
+        told = f"attributes are {', '.join(map(str, names))}{near}" if names else "it has no attribute with a value"
         raise InputError(
             f"{shape.label} has neither an attribute depth [m] nor volume [m3] with a value; {told}; add one, or the "
             "key depth or volume to the release"
@@ -199,7 +201,10 @@ def _number(name: str, attributes: dict[str, Any], shape: Shape) -> float | None
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{shape.label}: {name} must be a number, got {value!r:.60}") from None
+        raise InputError(
+            f"{shape.label}: {name} must be a number, got {value!r:.60}; write it with a decimal point and without "
+            "unit, or give the attribute a numeric type"
+        ) from None
     if isinstance(value, bool) or not 0.0 < number < np.inf:
         raise InputError(f"{shape.label}: {name} must be a number more than 0, got {value!r:.60}")
     return number
@@ -223,7 +228,7 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
     Raises
     ------
     InputError
-        If the raster does not reach the terrain, has values of both signs, or nothing in it lies on core nodes.
+        If the raster does not reach the terrain, has values of both signs, or has no depth on core nodes.
     """
     notes: list[str] = []
     path = folder / str(keys.raster)
@@ -241,12 +246,14 @@ def raster_depth(keys: ReleaseKeys, ground: Ground, folder: Path) -> list[Body]:
     fails = depth > 0.0
     if np.count_nonzero(fails) > 1 and (depth[fails] == 1.0).all():
         notes.append(
-            f"{path.name}: every depth is exactly 1 m; if the raster marks what fails, rather than how deep, multiply "
-            "it by the depth, or turn it into polygons"
+            f"{path.name}: every depth is exactly 1 m; if the raster marks where ground fails, not how deep, "
+            "multiply it by the depth, or turn it into polygons"
         )
     usable = np.where(ground.core, depth, 0.0)
     if usable.max() <= 0.0:
-        raise InputError(f"{path.name} has no depth > 0 where the terrain may hold mass; look at values and place")
+        raise InputError(
+            f"{path.name} has no depth > 0 where the terrain may hold mass; check its values and its place"
+        )
     if lost := float((depth - usable).sum()) * ground.lattice.area:
         notes.append(f"{path.name}: {lost:.4g} m3 on the edge of the grid or without elevation are left out")
     return [Body(usable, notes)]

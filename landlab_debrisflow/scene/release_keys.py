@@ -46,7 +46,7 @@ class ReleaseKeys:
         "-", "whether the mass fails out of the ground or is laid on top of it", "ground", choices=SOURCES
     )
     failure_surface: str | None = parameter(
-        "-", "shape of what fails out of the ground; by default tapered", None, choices=SURFACES
+        "-", "shape of the body that fails out of the ground; by default tapered", None, choices=SURFACES
     )
     velocity: Any = parameter("m s-1", "at the start, towards east and north", None, kind=tuple, length=2)
     speed: float | None = parameter(
@@ -80,7 +80,8 @@ class ReleaseKeys:
                 raise ParameterError(f"release: give {' or '.join(given)}, not both")
         if self.from_ == "above" and self.failure_surface is not None:
             raise ParameterError(
-                "release: failure_surface shapes what fails out of the ground, but from is above; leave one of them out"
+                "release: failure_surface shapes a body that fails out of the ground, but from is above; leave one "
+                "of them out"
             )
         if self.kind == "points":
             self._check_hydrograph()

@@ -15,7 +15,7 @@ from .release import lay_on_top
 from .release_depths import Ground, polygon_depths, raster_depth
 
 FEWEST_NODES = 12
-"""A release over fewer nodes is hardly resolved."""
+"""Least number of nodes with which a release is resolved."""
 
 
 class ScheduledRelease(NamedTuple):
@@ -34,7 +34,7 @@ class ScheduledRelease(NamedTuple):
     label : str
         Key of the scene, for messages.
     notes : tuple of str
-        Remarks on what was done, and doubts.
+        Remarks and doubts for the user.
     """
 
     time: float
@@ -110,7 +110,7 @@ def _start_velocity(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> np.
 
 
 NEGLIGIBLE = 0.01
-"""Depth below the soil that is not worth a note: a mean depth as deep as the soil is met to less [m]."""
+"""Depth below the soil up to which no note is given [m]: a mean depth equal to that of the soil has larger rounding."""
 
 
 def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
@@ -118,8 +118,8 @@ def _doubts(keys: ReleaseKeys, depth: np.ndarray, ground: Ground) -> list[str]:
     lattice, count, notes = ground.lattice, int(np.count_nonzero(depth)), []
     if count < FEWEST_NODES:
         notes.append(
-            f"the release covers {count} nodes of {lattice.spacing[0]:g} m; its volume is kept, its shape is not: "
-            "a finer spacing of the terrain would resolve it"
+            f"the release covers {count} node{'s' * (count > 1)} of {lattice.spacing[0]:g} m; its volume is kept, its "
+            "shape is not: a finer spacing of the terrain would resolve it"
         )
     if depth.max() > 100.0:
         notes.append(f"the release is up to {depth.max():.4g} m deep; depths are in m, volumes in m3")
@@ -145,7 +145,7 @@ def set_release(grid: Any, release: ScheduledRelease) -> None:
     depth, at = release.depth.reshape(-1), grid.at_node
     asked = _field(grid, "debris_flow__release_depth")
     names = [f"debris_flow__release_velocity_{axis}" for axis in "xy"]
-    if release.velocity is not None or names[0] in at:  # one without a velocity slows another one on the same nodes
+    if release.velocity is not None or names[0] in at:  # a release from rest slows another release on the same nodes
         at_rest = np.zeros((2, depth.size))
         for name, values in zip(names, at_rest if release.velocity is None else release.velocity, strict=True):
             velocity = _field(grid, name)

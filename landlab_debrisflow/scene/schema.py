@@ -1,7 +1,7 @@
-"""JSON schema of scene files, made of the declarations, for editors that complete and check while one types.
+"""JSON schema of scene files, made from the declarations, for editors that complete and check text as it is typed.
 
-The schema knows names, types, words and bounds. What keys must agree on with each other, and what files hold, only
-`Scene` checks.
+The schema knows names, types, words and bounds. Only `Scene` checks the content of files, and whether keys agree with
+each other.
 """
 
 import dataclasses
@@ -91,7 +91,7 @@ def _reference(name: str) -> dict[str, Any]:
 
 
 def _is_set(key: str) -> dict[str, Any]:
-    """Return the schema of mappings in which a key is there and not null."""
+    """Return the schema of mappings that have a key with another value than null."""
     return {"required": [key], "properties": {key: {"not": {"type": "null"}}}}
 
 

@@ -20,7 +20,7 @@ from ..physics.registry import LAWS, build_declared, build_law, law_name
 from .digest import digest, state_of, text_of
 
 UNSET: Any = None
-"""Default of what `Setup` builds by itself, of any type."""
+"""Default of an attribute that `Setup` builds itself; of any type for mypy."""
 
 
 class NodeArray(NamedTuple):
@@ -43,7 +43,7 @@ class NodeArray(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Setup:
-    """One law of each kind, the material, the numerics and the inflow: a whole run but for its grid.
+    """One law of each kind, the material, the numerics and the inflow: a whole run except its grid.
 
     It is compared, hashed and pickled as a value, and its attributes are the keywords of `DebrisFlow`, so that
     ``DebrisFlow(grid, **vars(setup))`` runs it.
@@ -81,7 +81,7 @@ class Setup:
     numerics: Numerics = UNSET
     inflow: tuple[Hydrograph, ...] = ()
 
-    if TYPE_CHECKING:  # what is given is not yet what the attributes are
+    if TYPE_CHECKING:  # arguments are words and mappings, the attributes are objects
 
         def __init__(
             self,
@@ -169,7 +169,7 @@ class Setup:
     def digest(self) -> str:
         """Return 32 hexadecimal digits, equal in every process for equal setups and different otherwise.
 
-        Of a law that is not declared they tell class, state and how it prints.
+        For a law that is not declared, class, state and printed form count.
 
         Returns
         -------

@@ -20,7 +20,7 @@ def shapes_of(
     kind : {"point", "line", "polygon"}
         Kind of shape.
     lattice : Lattice
-        Whose coordinate reference system the shapes get, and outside of which they are refused.
+        Lattice whose coordinate reference system the shapes get; shapes outside are refused.
     folder : Path
         Directory to which names of files are relative.
     notes : list of str, optional

@@ -41,7 +41,8 @@ USUAL: dict[type, tuple[str, ...]] = {
     Numerics: ("particle_count",),
     OutputKeys: ("max_duration", "interval", "maps", "gauges", "sections", "exposure"),
 }
-"""Keys that a short scene shows although they are not set; of the laws of `USUAL_LAWS` all keys of the one chosen."""
+"""Keys that a short scene shows although they are not set; for the kinds in `USUAL_LAWS`, all keys of the chosen
+law."""
 USUAL_LAWS = ("friction", "erosion")
 INFLOW = {
     "line_start": [0.0, 0.0], "line_end": [0.0, 20.0], "times": [0.0, 60.0, 300.0], "discharge": [0.0, 20.0, 0.0],

@@ -29,7 +29,7 @@ from .zones import VECTORS, VaryingParameter, has_suffix, parameter_fields, poly
 
 ELEVATION, SOIL, RATIO = "topographic__elevation", "soil__depth", "bed__excess_pore_pressure_ratio"
 FEW_NODES = 250_000
-"""DEMs of at most so many nodes are taken whole unless a window is asked for: a part would save nothing."""
+"""Largest number of nodes of a DEM that is taken as a whole if no window is given: a part of it would save nothing."""
 SMALLEST = 5
 """Least number of rows and of columns of a terrain."""
 
@@ -46,14 +46,14 @@ def build_terrain(
     folder : Path
         Directory to which names of files are relative.
     releases : sequence of ReleaseKeys
-        From which ``window: reach`` starts.
+        Releases, from which ``window: reach`` starts.
     inflow : sequence of Hydrograph
-        From which it starts, too.
+        Inflow, from which ``window: reach`` starts, too.
     parameters : sequence of VaryingParameter
         As `varying_parameters` returns them.
 
     bed_pressure_ratio : float
-        Of the material, which holds outside the zones that give another one, unless the terrain gives it [-].
+        Ratio of the material [-]: it holds outside the zones with a ratio of their own, unless the terrain gives one.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def build_terrain(
         With ``topographic__elevation`` [m], NaN where there are no data; ``soil__depth`` [m] if there is erodible soil;
         ``bed__excess_pore_pressure_ratio`` [-] if given; a field for each of the `parameters`; and ``closed``, bool, if
         buildings close nodes. Attributes: ``crs_wkt``, the coordinate reference system, "" if it is not known; ``dem``
-        and ``dem_sha256``, name and checksum of the file; ``notes``, remarks on what was done and what is odd.
+        and ``dem_sha256``, name and checksum of the file; ``notes``, remarks and doubts for the user.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def _window(keys: TerrainKeys, source: RasterSource, folder: Path, releases, inf
 
 
 def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: list[str]):
-    """Return lattice and elevation of the terrain, of another spacing if that is asked for."""
+    """Return lattice and elevation of the terrain, resampled if another spacing is given."""
     own, spacing = source.lattice, keys.spacing
     if min(window.shape) < SMALLEST:
         rows, columns = window.shape
@@ -156,7 +156,7 @@ def _elevation(keys: TerrainKeys, source: RasterSource, window: Window, notes: l
         return own.cut(window), read_window(source, window, missing=keys.nodata, notes=notes)
     west, south, east, north = own.bounds
     shape = math.floor((north - south) / spacing + 1e-6), math.floor((east - west) / spacing + 1e-6)
-    # cells are counted from the south-western corner of the DEM, whatever the window
+    # cells begin at the south-western corner of the DEM, so that they do not depend on the window
     whole = Lattice(shape, (spacing, spacing), (west + 0.5 * spacing, south + 0.5 * spacing), own.crs)
     part = whole.window_around(own.cut(window).bounds)
     if min(part.shape) < SMALLEST or part.shape[0] * part.shape[1] > MOST_NODES:

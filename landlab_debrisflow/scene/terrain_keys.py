@@ -106,12 +106,10 @@ class TerrainKeys:
     crs: str | None = parameter("-", "coordinate reference system of files that name none", None, kind=str)
     nodata: float | None = parameter("m", "further value that marks missing data in the DEM, such as 0", None)
     window: Any = parameter(
-        "m", "part of the DEM: reach, what releases can reach, by default of DEMs of over 250 000 nodes; all; or a "
-        "list of west, south, east, north", None, kind=tuple, choices=("reach", "all"), length=4,
+        "m", "part of the DEM: reach, the part that releases can reach, by default of DEMs of over 250 000 nodes; "
+        "all; or a list of west, south, east, north", None, kind=tuple, choices=("reach", "all"), length=4,
     )  # fmt: skip
-    travel_angle: float = parameter(
-        "deg", "least angle between a release and what it reaches, for window: reach", 5.0, (0.1, 45.0)
-    )
+    travel_angle: float = parameter("deg", "least travel angle of the releases, for window: reach", 5.0, (0.1, 45.0))
     spacing: float | None = parameter(
         "m", "of the nodes; by default that of the DEM", None, (0.0, None), open_below=True
     )

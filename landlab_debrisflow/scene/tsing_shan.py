@@ -43,8 +43,8 @@ def tsing_shan_valley(
     A channel descends from west to east along the middle row, reaches 100 m elevation, and opens onto a
     plain. From the parent landslide to 100 m the path is 714 m long, over which 2350 m3 grow to
     20 000 m3 at 3e-3 per metre: ln(20000/2350)/3e-3. With the default slopes the ground falls some
-    490 m over the first 1000 m from the crown, as at Tsing Shan. Where the flow ends, and with that its
-    travel angle, is left to the model.
+    490 m over the first 1000 m from the crown, as at Tsing Shan. The end of the flow, and with it the travel angle, is
+    a result of the model.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def tsing_shan_valley(
         ``soil__depth`` above 100 m elevation [m]; 0 below. At the foot of the channel 20 000 m3 that
         grow by 3e-3 per metre take 60 m3 from every metre of path. Over half the channel width that is
         3 m on average. The default of 12 m leaves a factor of four for the middle, where the flow is
-        deepest and the cut draws more flow in: the bed is nowhere exhausted.
+        deepest and the cut draws more flow in: the soil is nowhere used up.
     roughness : float
         Standard deviation of correlated roughness added to the surface [m].
     seed : int
@@ -111,7 +111,7 @@ def tsing_shan_valley(
     along, height, path = _thalweg(erodible_length, slopes, transition_length, runout_length)
     head = np.interp(-erodible_length, path, along)  # plan position of the parent landslide; 100 m is at 0
     west = spacing * np.floor((head - HEAD_ROOM) / spacing)
-    rows = 2 * round(0.5 * width / spacing) + 1  # odd: the thalweg runs through the middle row, if there is no offset
+    rows = 2 * round(0.5 * width / spacing) + 1  # an odd number: without offset the thalweg runs through the middle row
     columns = int((runout_length - west) / spacing) + 1
     grid = RasterModelGrid((rows, columns), xy_spacing=spacing)
     x = grid.x_of_node + west - offset[0] * spacing
@@ -127,7 +127,7 @@ def tsing_shan_valley(
     grid.add_field("soil__depth", soil, at="node", units="m")
 
     parent = _cap(x - head, y, PARENT_HALF_AXES, PARENT_VOLUME, spacing)
-    above = PARENT_HALF_AXES[0] + TRIGGER_HALF_AXES[0]  # the trigger has just hit the parent
+    above = PARENT_HALF_AXES[0] + TRIGGER_HALF_AXES[0]  # the trigger touches the parent
     trigger = _cap(x - head + above, y, TRIGGER_HALF_AXES, TRIGGER_VOLUME, spacing)
     release = grid.add_field("debris_flow__release_depth", parent + trigger, at="node", units="m")
     _check(

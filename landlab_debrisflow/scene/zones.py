@@ -31,9 +31,9 @@ class VaryingParameter(NamedTuple):
     Attributes
     ----------
     kind : str
-        Of the law, such as "friction".
+        Kind of the law, such as "friction".
     name : str
-        Of the parameter.
+        Name of the parameter.
     base : float or str
         Value outside of zones [unit of the parameter], or the file of a raster of values.
     fallback : float
@@ -43,7 +43,7 @@ class VaryingParameter(NamedTuple):
     unit : str
         Unit as declared.
     values : tuple of float or None
-        Value in each zone of the scene, None where the zone does not say.
+        Value in each zone of the scene, None where the zone gives none.
     """
 
     kind: str
@@ -74,7 +74,7 @@ def varying_parameters(setup: Setup, zones: Iterable[Zone]) -> tuple[VaryingPara
     Parameters
     ----------
     setup : Setup
-        As the scene writes it.
+        Setup written in the scene.
     zones : iterable of Zone
 
     Returns
@@ -149,7 +149,7 @@ def parameter_fields(
     folder : Path
         Directory to which names of files are relative.
     notes : list of str
-        Is appended to.
+        Remarks for the user are appended to it.
 
     Returns
     -------
@@ -193,11 +193,11 @@ def zone_nodes(
     lattice : Lattice
         Nodes of the terrain.
     extent : Lattice
-        Of the whole DEM, in which polygons have to lie.
+        Extent of the whole DEM, in which polygons have to lie.
     folder : Path
         Directory to which names of files are relative.
     notes : list of str
-        Is appended to.
+        Remarks for the user are appended to it.
     """
     found = []
     for k, zone in enumerate(zones):

@@ -1,1 +1,1 @@
-"""Mathematics without debris: cell lists, SPH sums, transfer between particles and nodes."""
+"""Mathematics of particles and rasters: cell lists, SPH sums, transfer between particles and nodes."""

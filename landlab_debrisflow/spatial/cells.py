@@ -1,10 +1,10 @@
-"""Sort particles into square cells, and tell which cells may feel each other.
+"""Sort particles into square cells, and find the cells within reach of each other.
 
-Supports differ from particle to particle, and a pair interacts if *either* reaches the other. Each
-cell therefore knows its own reach (the largest support inside), the box around its particles, and its
-window: how many cells away the farthest cell lies whose reach, or its own, spans the gap.
+Supports differ from particle to particle, and a pair interacts if *either* reaches the other. The list holds for each
+cell its reach (the largest support inside), the box around its particles, and its window: the number of cells to the
+farthest cell for which the reach of one of the two spans the gap between them.
 
-A cell sleeps while nothing in its window has changed: its sums would come out the same.
+A cell sleeps while nothing in its window has changed, because its sums would not change either.
 """
 
 import os
@@ -18,7 +18,7 @@ import numpy as np
 from ..core.jit import kernel
 
 CELLS_PER_PARTICLE = 4
-"""Most cells: a flow far from its parts must not pay for the empty land between."""
+"""Largest number of cells: the empty land between distant parts of a flow must not cost memory or time."""
 
 
 class Cells(NamedTuple):
@@ -39,11 +39,11 @@ class Cells(NamedTuple):
     box : ndarray, shape (4, cells)
         Least and largest x, least and largest y inside [m].
     window : ndarray of int, shape (cells,)
-        Number of cells in x and in y within which others may be felt.
+        Number of cells in x and in y within which neighbours may lie.
     awake : ndarray of bool, shape (cells,)
-        Something in the window has changed.
+        Whether a particle in the window has changed.
     computed : ndarray of bool, shape (n,)
-        In a cell that is awake.
+        Whether the particle is in a cell that is awake.
     """
 
     columns: int
@@ -65,7 +65,7 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
     x, y : ndarray, shape (n,)
         Map coordinates [m].
     support : ndarray, shape (n,)
-        Radius within which each particle feels others [m].
+        Radius within which each particle has neighbours [m].
     changed : ndarray of bool, shape (n,), optional
         Particles whose neighbours' sums may differ from last time; all if not given.
     """
@@ -87,7 +87,7 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
         awake=np.zeros(cells, np.bool_),
         computed=np.empty(n, np.bool_),
     )
-    plain = tuple(found)  # calls kernels faster (core/structs.py)
+    plain = tuple(found)  # kernels are called faster with plain tuples (core/structs.py)
     _sort(x, y, support, changed, west, south, plain)
     _wake(plain)
     return found
@@ -116,7 +116,7 @@ def _sort(x, y, support, changed, west, south, cells):
     Parameters
     ----------
     x, y, support : ndarray, shape (n,)
-        Map coordinates and radius within which each particle feels others [m].
+        Map coordinates and radius within which each particle has neighbours [m].
     changed : ndarray of bool, shape (n,)
         Whether each particle has changed.
     west, south : float
@@ -138,7 +138,7 @@ def _sort(x, y, support, changed, west, south, cells):
         stirred[c] |= changed[i]
     for c in range(start.size - 1):
         start[c + 1] += start[c]
-    for i in range(x.size - 1, -1, -1):  # backwards and counting down: the order inside a cell is kept
+    for i in range(x.size - 1, -1, -1):  # backwards, so that particles keep their order within a cell
         c = cell[i]
         start[c + 1] -= 1
         order[start[c + 1]] = i
@@ -150,7 +150,7 @@ def _sort(x, y, support, changed, west, south, cells):
 
 @kernel
 def _wake(cells):
-    """Find the windows, and turn ``awake``, whether something changed in a cell, into whether its sums did.
+    """Find the windows; turn ``awake`` from whether a cell has changed into whether its window has.
 
     Parameters
     ----------
@@ -194,8 +194,8 @@ def _pool(process: int, threads: int) -> ThreadPoolExecutor:
 def over_cells(function, cells: Cells, threads: int, *arguments):
     """Call ``function(first, last, *arguments)`` on ranges of cells with equal numbers of particles.
 
-    Every cell is computed whole by one thread and writes only to its own particles, so the result
-    does not depend on the number of threads, to the last bit.
+    One thread computes the whole of a cell and writes only to the particles in it. So the result does not depend on the
+    number of threads, to the last bit.
     """
     count = cells.start.size - 1
     if threads == 1:

@@ -1,6 +1,6 @@
-"""SPH sums of the particles of one phase over those of the other.
+"""SPH sums of the particles of one phase over the particles of the other.
 
-The same smoothing kernel, smoothing lengths and layout as in `summation`, which has the formulas and the reasons. A
+Smoothing kernel, smoothing lengths and layout are those of `summation`, where the formulas and their reasons stand. A
 phase is a subset of the particles, in the cells of all of them.
 """
 
@@ -16,13 +16,13 @@ from .summation import NORM, SLOPE
 _X, _Y, _Z = 0, 1, 2
 _INVERSE, _REACH, _COEFFICIENT, _VOLUME, _AVERAGED = range(5)
 
-# numba computes in double where a constant is one
+# a constant in double precision would make numba compute in double
 _F = np.float32
 _ZERO, _ONE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(4.0), _F(1e-12)
 
 
 class CrossPhaseInput(NamedTuple):
-    """State of all n particles, of either phase, that the sums over the other phase read.
+    """State of all n particles, of either phase, for the sums over the other phase.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class CrossPhaseSums(NamedTuple):
     cross_term : ndarray, shape (n,)
         L/(2 own thickness) d(thickness of the other phase)/dl [-].
     mean : ndarray, shape (n,)
-        Mean of the averaged quantity over the other phase, in its unit; 0 where there is none.
+        Mean of the averaged quantity over the other phase, in its unit; 0 where there are no particles of this phase.
     force : ndarray, shape (3, n)
         Force per volume [N m-3]; is added to.
     """
@@ -89,7 +89,7 @@ def sum_over_other_phase(
     Parameters
     ----------
     one, other : Cells
-        Of the phases, made by `cells_of_phase` of the same cells.
+        Cells of the phases, made by `cells_of_phase` of the same cells.
     given : CrossPhaseInput
         State of the particles of both phases.
     sums : CrossPhaseSums
@@ -102,7 +102,8 @@ def sum_over_other_phase(
     f_i = - sum_j V_j [s_i grad W(l_i) + s_j grad W(l_j)]: V_i f_i and V_j f_j are equal and opposite.
     """
     packed_one, packed_other = empty_packed(one, values=5), empty_packed(other, values=5)
-    plain, found = (tuple(given.position), *given[1:]), tuple(sums)  # calls kernels faster (core/structs.py)
+    # kernels are called faster with plain tuples (core/structs.py)
+    plain, found = (tuple(given.position), *given[1:]), tuple(sums)
     _pack(one.order, plain, packed_one)
     _pack(other.order, plain, packed_other)
     over_cells(_sum, one, threads, tuple(one), tuple(other), packed_one, packed_other, found)
@@ -145,7 +146,7 @@ def _sum(first, last, targets, sources, packed, packed_sources, sums):
     ----------
     first, last : int
     targets, sources : Cells
-        Of the phase that is summed for, and of the other.
+        Cells of the phase that is summed for, and of the other.
     packed, packed_sources : Packed
         Both phases, by `_pack`.
     sums : CrossPhaseSums

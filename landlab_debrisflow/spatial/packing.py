@@ -1,9 +1,9 @@
 """Particles packed in the order of their cells, in 32 bits, and the neighbourhood of a cell copied out of them.
 
-Positions are packed as whole numbers of a 2^-23 of the width of a cell, so their differences are exact and the same
-seen from either side; all other values as floats, whose rounding, 6e-8, is far below the error of the sums. A cell
-copies its neighbourhood, one stretch for every row of cells, into a small contiguous scratch: a loop over that has no
-branches, and the compiler turns it into vector code.
+Positions are packed as whole numbers of a 2^-23 of the width of a cell, so that the differences of two particles are
+exact, and equal and opposite for both; all other values as floats, whose rounding, 6e-8, is far below the error of the
+sums. A cell copies its neighbourhood, one stretch for every row of cells, into a small contiguous scratch: the loop
+over the scratch has no branches, and the compiler turns it into vector code.
 """
 
 from typing import NamedTuple
@@ -15,12 +15,12 @@ from ..core.structs import struct
 from .cells import Cells
 
 PLACES_PER_CELL = 2.0**23
-"""Whole numbers over the width of a cell: +-2^31 of them are 256 cells, far beyond any window."""
+"""Number of quanta over the width of a cell: +-2^31 quanta are 256 cells, more than any window."""
 
 LANES = 16
 """Floats in the widest vector register."""
 
-_U64 = np.uint64  # an index that may be negative is not vectorised
+_U64 = np.uint64  # unsigned: loops with an index that may be negative are not vectorised
 
 
 class Position(NamedTuple):
@@ -89,7 +89,7 @@ def copy_neighbourhood(cell, cells, packed, scratch):
     -------
     int
         Number of entries of the scratch to loop over: a multiple of `LANES`, the floats of one vector. Entries beyond
-        the particles copied weigh nothing.
+        the copied particles have no volume.
     """
     columns, _, _, start, reach, box, window, _, _ = cells
     places, values, _ = packed
@@ -106,7 +106,8 @@ def copy_neighbourhood(cell, cells, packed, scratch):
             if gap_x * gap_x + gap_y * gap_y < distance * distance:
                 low = d if low < 0 else low
                 high = d
-        if low >= 0:  # a row of cells is one stretch of sorted particles; whole vectors of it, the rest is overwritten
+        # a row of cells is one range of sorted particles; whole vectors are copied, the surplus is overwritten
+        if low >= 0:
             first, here = _U64(start[low]), _U64(m)
             count = start[high + 1] - start[low]
             whole = _U64(count + LANES - 1) // _U64(LANES) * _U64(LANES)
@@ -117,7 +118,7 @@ def copy_neighbourhood(cell, cells, packed, scratch):
                 for k in range(whole):
                     near_values[v, here + k] = values[v, first + k]
             m += count
-    for k in range(m, m + LANES):  # fill up with particles that weigh nothing
+    for k in range(m, m + LANES):  # fill up the last vector with particles of no volume
         near_places[0, k], near_places[1, k], near_places[2, k] = 0, 0, 0
         for v in range(near_values.shape[0]):
             near_values[v, k] = np.float32(0.0)

@@ -1,4 +1,4 @@
-"""Partners: the particles of the other phase with whom a particle exchanges momentum, and their weights."""
+"""Partners: the particles of the other phase with which a particle exchanges momentum, and their weights."""
 
 from typing import NamedTuple
 
@@ -9,15 +9,17 @@ from .cells import Cells
 from .packing import Position
 
 MOST_PARTNERS = 32
-"""Room for the partners of a particle; there are some 6, and the rest counts for those beyond."""
+"""Largest number of partners of a particle; it mostly has about 6, and partners beyond the largest number are left
+out."""
 
 PARTNER_RADIUS = 1.0
 """Distance to the farthest partner over smoothing length [-]."""
 
 NEAREST = 0.1
-"""Distance over that of the farthest within which all partners count alike. The weights are those of Franke & Nielson
-(1980), ((R - r)/(R r))^2, but finite: most of all counts who is nearest. A mean over all around lies behind where the
-velocity grows towards an edge, as it does at every front, and would hold grains back there, and push water ahead."""
+"""Distance over that of the farthest partner within which all partners have equal weights. The weights are those of
+Franke & Nielson (1980), ((R - r)/(R r))^2, made finite: the nearest partner counts most. An even mean over all
+particles around would be biased at every front, where the velocity grows towards the edge: it would hold grains back
+and push water ahead."""
 
 
 class Partners(NamedTuple):
@@ -42,14 +44,14 @@ class Partners(NamedTuple):
 
 
 def find_partners(targets: Cells, sources: Cells, position: Position, volume, smoothing_length) -> Partners:
-    """Find the partners of some particles among others.
+    """Find the partners of the particles of one phase among the other phase.
 
     Parameters
     ----------
     targets, sources : Cells
-        Of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+        Cells of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
     position : Position
-        Of the n particles that have and may be partners; the cells may have more behind them.
+        Position of the n particles that have, or may be, partners; the cells may hold further particles.
     volume, smoothing_length : ndarray, shape (n,)
         [m3], [m]
     """
@@ -77,7 +79,7 @@ def _find(targets, sources, position, volume, length, partners):
     volume, length : ndarray, shape (n,)
         Volume [m3] and smoothing length [m].
     partners : Partners
-        Written but for ``of``, which is in the order of the targets.
+        Written, except ``of``, which is in the order of the targets.
     """
     columns, _, order, start, _, box, window, _, _ = targets
     _, _, source_order, source_start, _, _, _, _, _ = sources

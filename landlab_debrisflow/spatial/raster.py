@@ -72,7 +72,7 @@ class Raster(NamedTuple):
 
 @inner
 def nearest_line(coordinate, spacing):
-    """Return the number, as a float, of the row or column nearest to a coordinate [m]; they go on beyond the edge."""
+    """Return the number of the row or column nearest to a coordinate [m], as a float, also beyond the edge."""
     return np.floor(coordinate / spacing + 0.5)
 
 
@@ -89,6 +89,6 @@ def nearest_node(x, y, dx, dy, columns, rows):
     `x`, `y` are floats from the lower left node, `dx`, `dy` node spacings [m]; `columns` and `rows` are the shape of
     the raster.
     """
-    if not (abs(x) < np.inf and abs(y) < np.inf):  # isfinite() may be reordered away (core/jit.py)
+    if not (abs(x) < np.inf and abs(y) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
         return -1
     return nearest_place(y, dy, rows) * columns + nearest_place(x, dx, columns)

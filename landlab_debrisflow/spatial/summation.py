@@ -9,8 +9,8 @@ sums carry the corresponding gradient terms (Springel & Hernquist 2002; Price 20
 nothing converges in a spreading flow.
 
 Particles are first packed in the order of the cells, in 32 bits (packing.py). Every cell then copies its
-neighbourhood into a small contiguous scratch and loops over it without branches: the compiler turns that into vector
-code, with one reciprocal root and no division a pair.
+neighbourhood into a small contiguous scratch and loops over it without branches: the compiler turns the loop into
+vector code, with one reciprocal root and no division per pair.
 
 The formulas stand in the loops that use them: numba's cache watches only a function's own file.
 """
@@ -27,8 +27,8 @@ SMOOTHING_RATIO = 1.4
 """Smoothing length over particle spacing (V/h)^(1/2) [-]."""
 
 SELF_WEIGHT = 0.9764
-"""Weight of a particle's own term, with which a regular lattice sums to its exact thickness: with the
-plain Wendland sum it comes out 0.67 % too deep on square and hexagonal lattices alike."""
+"""Weight of a particle's own term with which a regular lattice sums to its exact thickness: the plain Wendland sum is
+0.67 % too deep, on square and on hexagonal lattices."""
 
 LEAST_GRADIENT_TERM = 0.4
 """Floor of the grad-h term: it vanishes for a particle without neighbours, whose thickness is undefined."""
@@ -36,15 +36,16 @@ LEAST_GRADIENT_TERM = 0.4
 NORM = 7.0 / (4.0 * np.pi)
 SLOPE = NORM / SMOOTHING_RATIO**2
 _X, _Y, _Z = 0, 1, 2  # rows of `Packed.places`
-_U, _V, _W, _INVERSE, _REACH, _COEFFICIENT, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)  # and of its values
+# rows of `Packed.values`
+_U, _V, _W, _INVERSE, _REACH, _COEFFICIENT, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)
 
-# numba computes in double where a constant is one
+# a constant in double precision would make numba compute in double
 _F = np.float32
 _ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12)
 
 
 class SummationInput(NamedTuple):
-    """State of n particles that the sums read. Those beyond the size of `Sums` act on others and are not moved.
+    """State of n particles that the sums read; particles beyond the size of `Sums` act, and get no sums.
 
     Attributes
     ----------
@@ -53,7 +54,7 @@ class SummationInput(NamedTuple):
     velocity : ndarray, shape (3, n)
         Velocity tangent to the bed [m s-1].
     volume : ndarray, shape (n,)
-        Volume [m3]; that of a hole is < 0 and pulls, see model/release/release.py.
+        Volume [m3]; a negative volume pulls, see model/release/placing.py.
     smoothing_length : ndarray, shape (n,)
         1.4 spacings [m].
     longest : ndarray, shape (n,)
@@ -130,12 +131,13 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
     damped. Equal and opposite between any two particles of equal volume. The signal velocity c_i + c_j - 3 w is
     that of Monaghan (1997).
 
-    The sum S(l) of thickness wants to be h(l) = ratio^2 V / l^2. Newton on h - S(l(h)) = 0 has the slope
+    The smoothing length is sought at which the sum S(l) of thickness equals h(l) = ratio^2 V / l^2. Newton on h -
+    S(l(h)) = 0 has the slope
     Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
     length was set: one pass per time step is enough. The pressure coefficient has Omega of the pass before.
     """
     packed = empty_packed(cells, values=10)
-    plain = tuple(given.position), *given[1:]  # a kernel is called faster with plain tuples (core/structs.py)
+    plain = tuple(given.position), *given[1:]  # kernels are called faster with plain tuples (core/structs.py)
     _pack(cells.order, plain, packed)
     over_cells(_sum, cells, threads, tuple(cells), packed, plain, viscosity, tuple(sums))
 
@@ -143,13 +145,13 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
 def plain_thickness(volume, smoothing_length, sums: Sums):
     """Return the plain sums S(l) that `sum_over_neighbours` made, the whole weight of a particle itself included.
 
-    Compared with the sum over another phase at the same place they have the same errors: where both phases lie alike
-    their parts come out exactly.
+    They have the same errors as the sums over the other phase at the same place: where the particles of both phases lie
+    alike, the fractions of the phases are exact.
 
     Parameters
     ----------
     volume, smoothing_length : ndarray, shape (n,)
-        [m3], [m] with which it was called.
+        [m3], [m] given to `sum_over_neighbours`.
     sums : Sums
         Results of the sums.
 
@@ -182,7 +184,8 @@ def _pack(order, given, packed):
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
     for k in range(order.size):
         i = order[k]
-        places[_X, k] = np.int32(np.int64((x[i] - x0) * per_metre))  # wraps around, and so do differences
+        # integers wrap around, and so do their differences, which are right again
+        places[_X, k] = np.int32(np.int64((x[i] - x0) * per_metre))
         places[_Y, k] = np.int32(np.int64((y[i] - y0) * per_metre))
         places[_Z, k] = np.int32(np.int64((z[i] - z0) * per_metre))
         values[_U, k], values[_V, k], values[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
@@ -205,11 +208,11 @@ def _sum(first, last, cells, packed, given, viscosity, sums):
     cells : Cells
         Cell list over the particles.
     packed : Packed
-        Of all particles, by `_pack`.
+        Values of all particles, by `_pack`.
     given : SummationInput
         With n particles.
     viscosity : float
-        Of shocks [-].
+        Strength of the viscosity of shocks [-].
     sums : Sums
         Written, for at most n particles.
     """

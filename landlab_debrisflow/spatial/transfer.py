@@ -2,15 +2,15 @@
 
 The rule, used for every field, for erosion, for the load on the bed and for the deposit: a particle is a hat function
 (bilinear) whose half-width is twice its own spacing (V/h)^(1/2), never less than the node spacing, never more than four
-of them, sharpened at the edge of the flow. Its weights are normalised over the *core* nodes that it reaches, so nothing
-is lost at a boundary or at the edge, and nothing is put outside.
+of them, sharpened at the edge of the flow. Its weights are normalised over the *core* nodes that it reaches, so that no
+volume is lost at a boundary or at the edge of the flow, or put outside.
 
-Wide hat functions keep the noise of the particles out of the depth, but blur an edge over their half-width a, which
-coarse particles have wide. Where the edge is, tells the *cover* of a node: the map area V/h of the particles, spread by
-whole hat functions, over that of the node. Inside a flow it is 1; at a distance d beyond a straight edge it is
-(1 - d/a)^2/2, and within the edge 1 less that. Weights are multiplied by the cover that hat functions of one node
-spacing would give at the same distance, over the cover there is: so an edge is blurred by one node, whatever the
-particles, as it is by particles that are very fine (`sharpened_cover`).
+Wide hat functions keep the noise of the particles out of the depth, but blur the edge of the flow over their half-width
+a, which is large for coarse particles. The *cover* of a node tells how far the edge is: the map area V/h of the
+particles, spread by whole hat functions, over that of the node. Inside a flow it is 1; at a distance d beyond a
+straight edge it is (1 - d/a)^2/2, and at the same distance inside the edge 1 less this value. Weights are multiplied by
+the cover that hat functions of one node spacing would give at this distance, over the actual cover. So an edge is
+blurred by one node, whatever the number of particles (`sharpened_cover`).
 
 The loops run in particle order in one thread: the only sums that several particles share.
 """
@@ -30,17 +30,17 @@ MOST_NODES_PER_STEP = 2.0
 """Largest part of a node spacing that a particle may cross in a step (model/numerics.py)."""
 
 REACH = int(WIDEST + MOST_NODES_PER_STEP) + 1
-"""Nodes within which a particle writes, also after a step."""
+"""Distance in nodes within which a particle writes, after a step, too."""
 
 
 @struct
 class Footprints(NamedTuple):
-    """Nodes on which each of n particles lies, and how much of it; a sparse matrix by rows, with gaps between them.
+    """Nodes on which each of n particles lies, with weights: a sparse matrix by rows, with gaps between the rows.
 
     Attributes
     ----------
     begin, end : ndarray of int, shape (n,)
-        First entry of each particle, and the one behind its last.
+        First entry of each particle, and the entry after its last one.
     node : ndarray of int, shape (m,)
         Nodes, core nodes all.
     weight : ndarray, shape (m,)
@@ -105,18 +105,19 @@ def scatter(footprints: Footprints, values, sums, touched):
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles, or of more, the first n of which are meant.
+        Footprints of the n particles, or of more, of which the first n count.
     values : ndarray, shape (n, k)
         Amounts; the first must be > 0 where a particle counts.
     sums : ndarray, shape (nodes, k)
-        Zero on entry; the amounts are added. Those of a node lie together: on a wide raster few pages are touched.
+        Zero on entry; the amounts are added. The amounts of a node lie together in memory, so that few pages of a wide
+        raster are touched.
     touched : ndarray of int, shape (nodes,)
         Scratch for the list of nodes reached.
 
     Returns
     -------
     ndarray of int
-        The nodes reached, in order of first touch: all that a caller needs to look at.
+        The nodes reached, in order of first touch; all other sums are 0.
     """
     return touched[: _scatter(footprints, values, sums, touched)]
 
@@ -156,7 +157,7 @@ def sharpened_cover(cover, blur):
 
 @kernel
 def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
-    """Spread the area of particles over nodes by hat functions, and sharpen these at the edge of what is covered.
+    """Spread the area of particles over nodes by hat functions, and sharpen these at the edge of the covered area.
 
     Parameters
     ----------
@@ -212,9 +213,9 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
         end[i] = last
     for i in range(x.size):
         blur = max(np.sqrt(cell) / half_width[i], 1.0 / WIDEST)
-        if blur >= 1.0:  # the hat function of one node spacing itself
+        if blur >= 1.0:  # the hat function has one node spacing already
             continue
-        largest = 0.0  # of a flow that is narrower than its hat functions, less than the area of a node
+        largest = 0.0  # less than the area of a node if the flow is narrower than its hat functions
         for k in range(begin[i], end[i]):
             largest = max(largest, cover[node[k]])
         kept, total = begin[i], 0.0
@@ -241,13 +242,13 @@ def _scatter(footprints, values, sums, touched):
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles at least.
+        Footprints of the n particles at least.
     values : ndarray, shape (n, k)
         Amounts, in any unit; particles whose first amount is not > 0 are left out.
     sums : ndarray, shape (nodes, k)
         Zero on entry; the amounts are added.
     touched : ndarray of int, shape (nodes,)
-        Written from its beginning: nodes in order of first touch. What it held before does not matter.
+        Written from its beginning: nodes in order of first touch. Earlier content is ignored.
 
     Returns
     -------

@@ -1,8 +1,8 @@
 """The bed: elevation, erodible soil, and the depth eroded so far.
 
-Every node value is the value at the beginning of the call less what was eroded since, in one
-subtraction: rounding does not pile up over thousands of steps, and elevation and soil move together.
-Values of the beginning are kept when a node is first lowered: a large raster costs nothing.
+Every node value is the value at the beginning of the call less the depth eroded since, in one subtraction: rounding
+errors do not accumulate over thousands of steps, and elevation and soil move together. The values at the beginning are
+copied when a node is first lowered, so that a large raster costs nothing.
 """
 
 from copy import copy
@@ -55,7 +55,7 @@ class Demand(NamedTuple):
     volume : ndarray, shape (nodes,)
         Soil asked for [m3]; 0 before and after.
     granted : ndarray, shape (nodes,)
-        Part of it that is there [-].
+        Fraction of the demand that the soil can supply [-].
     touched : ndarray of int, shape (nodes,)
         Nodes with a demand, as many as there are, in order of first touch.
     """
@@ -73,7 +73,7 @@ class Bed:
     raster : Raster
         Nodes, their statuses and spacing [m].
     surface : Surface
-        Kept in step with `elevation`.
+        Updated with `elevation`.
     elevation : ndarray, shape (nodes,)
         Bed elevation [m], changed in place.
     soil : ndarray, shape (nodes,), or None
@@ -85,9 +85,9 @@ class Bed:
     drained : ndarray of bool, shape (nodes,), or None
         Where a drain holds the excess pore pressure at 0; None: nowhere.
     pore_pressure : BedPressure, optional
-        Of which `pressure_ratio` then is the ratio, and which is told what lies on the bed.
+        Pore pressure of the bed, whose ratio `pressure_ratio` then is; it gets the load on the bed.
     earlier : ndarray, shape (nodes,), optional
-        Depth eroded in calls before this one that belong to the same event [m]; None: there were none.
+        Depth eroded in earlier calls of the same event [m]; None without earlier calls.
     """
 
     def __init__(
@@ -143,7 +143,7 @@ class Bed:
         spacing : tuple of float
             Node spacing (dx, dy) [m].
         soil : ndarray, shape (rows, columns), optional
-            Erodible depth [m], likewise.
+            Erodible depth [m], changed in place if it is contiguous.
         pressure_ratio : float
             Excess pore pressure of the bed over its liquefaction value [-].
         **others
@@ -157,7 +157,7 @@ class Bed:
         return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
     def footprints(self, p) -> Footprints:
-        """Return the nodes on which the particles `p` of a flow lie, all of them: where no others are is its edge."""
+        """Return the nodes on which all particles `p` of a flow lie; the outline of these is the edge of the flow."""
         return self._cover.footprints(p.x, p.y, p.volume, p.depth, p.share)
 
     def erode(self, footprints: Footprints, demanded):
@@ -166,14 +166,14 @@ class Bed:
         Parameters
         ----------
         footprints : Footprints
-            Of these particles, and of others that follow them.
+            Footprints of these particles, and of others that follow them.
         demanded : ndarray, shape (n,)
             Volume asked for [m3].
 
         Returns
         -------
         entrained : ndarray, shape (n,)
-            Volume given [m3], at most `demanded`.
+            Volume of soil given [m3], at most `demanded`.
         ratio : ndarray, shape (n,)
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
@@ -194,10 +194,10 @@ class Bed:
         return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
 
     def depth_of(self, footprints: Footprints, volume):
-        """Return the nodes under some particles and the depth their volume [m3] would have there [m].
+        """Return the nodes under some particles, and the depth that their volume [m3] would have on these nodes [m].
 
-        The footprints are those of all particles; `volume`, shape (n,), is 0 for those that do not count. Both results
-        have one entry per node.
+        The footprints are those of all particles; `volume`, shape (n,), is 0 for particles that do not count. Both
+        results have one entry per node.
         """
         at = scatter(footprints, volume[:, None], self._demand, self._touched).copy()
         depth = self._demand[at, 0] / self.raster.area
@@ -214,12 +214,12 @@ class Bed:
 
 @kernel
 def _erode(footprints, demanded, area, accounts, demand):
-    """Add up the demand for soil at every node, grant it as far as there is soil, and lower the node.
+    """Add up the demand for soil at every node, grant the part that the soil can supply, and lower the node.
 
     Parameters
     ----------
     footprints : Footprints
-        Of the n particles at least.
+        Footprints of the n particles at least.
     demanded : ndarray, shape (n,)
         Volume asked for [m3].
     area : float

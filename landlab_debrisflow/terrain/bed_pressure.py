@@ -3,9 +3,9 @@
     d(dp)/dt = B dL/dt - dp/T,    L = rho g_n h_n,    dp >= 0
 
 B is the part of a load that pore water takes up at once (Skempton 1954; undrained loading: Hutchinson & Bhandari
-1971), T the time in which it drains. Between two calls of `carry` L changes linearly, for which the step is exact.
-Soil that is eroded has the pressure ratio r_b = dp / p_liq, at most 1, p_liq being that of the flow on the node.
-Only nodes that the flow lies on, or has just left, are looked at; all others drain when next they are.
+1971), T the time in which it drains. Between two calls of `carry` L is taken to change linearly, for which the step is
+exact. Soil that is eroded has the pressure ratio r_b = dp / p_liq, at most 1, p_liq being that of the flow on the node.
+Only nodes under the flow, or just left by it, are updated; the drainage of all others is made up for later.
 """
 
 from copy import copy
@@ -106,15 +106,14 @@ class BedPressure:
         self.ratio[:], self._load[:], self._age[:] = (variables[name] for name in ("ratio", "load", "age"))
 
     def carry(self, footprints: Footprints, force, time: float, dt: float) -> None:
-        """Let the bed bear the flow as it is at `time`, after a step of `dt` [s].
+        """Load the bed with the flow at `time`, after a step of `dt` [s].
 
         Parameters
         ----------
         footprints : Footprints
             Nodes on which each of the n particles lies.
         force : ndarray, shape (n, 2)
-            What it presses on the bed with, slope-normal stress times map area: all, and less what pore water
-            bears [N].
+            Slope-normal stress on the bed times map area: total, and less hydrostatic pressure [N].
         """
         self._bear(footprints, force, time, dt, self._loading)
 
@@ -148,7 +147,7 @@ class BedPressure:
 
     @property
     def draining(self):
-        """The arrays that `finish` changes, also where the flow never was."""
+        """The arrays that `finish` changes, at nodes that the flow never reached, too."""
         return [self._pressure, self._age]
 
 
@@ -161,7 +160,7 @@ def _respond(left, reached, sums, response, nodes, age, dt):
     left, reached : ndarray of int, shape (k,)
         Nodes with flow before the step, of which some may still have it, and nodes with flow now.
     sums : ndarray, shape (nodes, 2)
-        Force on the bed, all and less what pore water bears [N]; 0 where there is no flow.
+        Force on the bed, total and less hydrostatic pressure [N]; 0 where there is no flow.
     response : BedResponse
         Response of the bed to a load.
     nodes : NodePressure
@@ -178,7 +177,7 @@ def _respond(left, reached, sums, response, nodes, age, dt):
         n = left[k] if k < left.size else reached[k - left.size]
         if k < left.size and sums[n, 0] > 0.0:
             continue
-        idle = age - dt - ages[n]  # under the same load since it was last looked at
+        idle = age - dt - ages[n]  # since its last update the node has had the same load
         if idle > 0.0:
             pressure[n] *= np.exp(-idle / drainage_time)
         new_load, liquefied = sums[n, 0] / area, sums[n, 1] / area

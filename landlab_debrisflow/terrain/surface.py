@@ -107,7 +107,7 @@ class Surface:
 def _fill(values, invalid):
     """Extrapolate linearly into invalid nodes from valid ones, two rings deep (all a read can reach).
 
-    What lies beyond is set to the mean of the valid nodes; nothing ever reads it.
+    Nodes beyond are set to the mean of the valid nodes; no point reads these.
     """
     values, valid = np.array(values, float), ~invalid
     values[invalid] = values[valid].mean() if valid.any() else 0.0

@@ -196,7 +196,7 @@ def test_functions_that_do_not_vary():
 
 
 def test_erosion_that_stops():
-    """What friction feels after it, of a tight column: erosion left no slope at the base but by the load."""
+    """Basal pressure after erosion, of a tight column: erosion left no slope at the base except by the load."""
     given = {
         "coefficient_of_consolidation": 4e-4, "loading": LOADING, "basal_pressure_ratio": 0.65, "initial": "linear",
         "times": [40.0, 43.2, 75.2, 203.2, 443.2], "bounded": True,
@@ -454,7 +454,7 @@ def after(value, time=5.0):
         ({"entrainment_rate": after([0.0, -1.0]), "thickness": [1.0, 2.0]}, "got -1 for column 1 at t = 5."),
         ({"entrainment_rate": after(-1.0, 0.0)}, "entrainment_rate must lie in [0, inf) m s-1, got -1 at t = 0 s"),
         ({"basal_pressure": after([1.0, 2.0])}, "basal_pressure returned shape (2,) at t = 5"),
-        ({"basal_pressure": after([1.0, 2.0])}, "it must return one number, or 1, one per column, at every time"),
+        ({"basal_pressure": after([1.0, 2.0])}, "a function must return one number, or 1, one per column, at every"),
         ({"divergence_rate": after(None)}, "divergence_rate must be one number or one per column, got None at t = 5"),
         ({"base": lambda t: "drained" if t < 5.0 else "wet"}, "got 'wet' at t = 5."),
         (

@@ -254,7 +254,7 @@ def test_debris_that_is_left_behind_is_said_once(caplog):
     flow.run_one_step(2.0)
     with caplog.at_level(logging.WARNING):
         other = DebrisFlow(grid)
-        assert "carries 225 m3 that have not settled: this one does not feel them" in caplog.text
+        assert "carries 225 m3 that have not settled: the flow of this one runs through them" in caplog.text
         caplog.clear()
         flow.run_one_step(1.0)  # the other one carries nothing
         other.run_one_step(1.0)

@@ -46,7 +46,7 @@ def test_a_dem_that_ends_inside_the_deposit_is_told_with_side_and_volume(caplog)
     budget = flow.budget
     share = budget["outflow"] / (budget["released"] + budget["eroded"])
     assert 0.05 < share < 0.9  # of the case
-    (message,) = told(caplog, "the DEM ends inside the flow's reach")
+    (message,) = told(caplog, "the DEM ends within the reach of the flow")
     volume, percent = re.match(rf"{NUMBER} m3 over the east edge left the grid, {NUMBER} %", message).groups()
     assert float(volume) == pytest.approx(budget["outflow"], rel=1e-3)  # four digits
     assert float(percent) == pytest.approx(100.0 * share, rel=1e-2)
@@ -60,6 +60,22 @@ def test_one_per_cent_is_where_telling_begins(caplog, left, tells):
     flow._simulation.state.outflow.count(np.array([60]), np.array([left * 225.0]), np.array([left * 225.0]))
     flow.run_one_step(1e-9)
     assert len(told(caplog, "left the grid")) == tells
+
+
+@pytest.mark.slow
+def test_outflow_of_the_flow_before_is_not_told_again(caplog):
+    first = DebrisFlow(ending(150.0, 58), numerics=COARSE)
+    first.run_until_rest()
+    assert len(told(caplog, "left the grid")) == 1
+    second = DebrisFlow(first.grid, numerics=COARSE, continues=first)
+    assert sum(second.outflow_by_edge.values()) == first.budget["outflow"] > 0.0
+    second.run_until_rest()  # without a release
+    assert told(caplog, "left the grid") == []
+    release_slab(first.grid, (30.0, 48.0), 8.0, 0.5, on_top=True)
+    second.run_until_rest()
+    volumes = [float(re.match(NUMBER, message)[0]) for message in told(caplog, "left the grid")]
+    left = second.budget["outflow"] - first.budget["outflow"]
+    assert left > 1.0 and volumes == [pytest.approx(left, rel=1e-3)]  # its own, of four digits
 
 
 def inclined_with_release():
@@ -146,7 +162,7 @@ def test_what_does_not_rest_is_told_with_volume_speed_and_place(caplog):
     expected = [float(p.volume.values[speed > 0.0].sum()), speed.max()]
     expected += [float(p[k].values[speed.argmax()]) for k in "xy"]
     assert [float(found[k]) for k in (0, 2, 3, 4)] == pytest.approx(expected, rel=1e-2)
-    for words in ("Nothing was settled", "run_until_rest() again", "larger max_duration"):
+    for words in ("No mass was settled", "run_until_rest() again", "larger max_duration"):
         assert words in message
     flow.run_until_rest(max_duration=1.0)
     assert len(told(caplog, "not at rest after 21 s")) == 1

@@ -30,7 +30,7 @@ class Beyond:
         return (p.x > self.x) & (p.y < self.north)
 
     def follow(self, p, began, time):
-        """Whoever was beyond before the step and is still there gained by erosion; new ones came in."""
+        """Particles beyond the line before and after the step gained by erosion; new particles came in."""
         beyond = self.is_beyond(p)
         if p.departed is not None and began < time:
             gone = p.departed
@@ -137,7 +137,7 @@ def test_a_run_that_goes_on_ends_with_the_same_hydrograph():
     flow._observers = once, second
     flow.run_one_step(6.0)
     assert second.dataset.identical(once.dataset) and float(once.dataset.crossed_volume[0]) > 10.0
-    with pytest.raises(InputError, match="the checkpoint has a, here are b; give the same"):
+    with pytest.raises(InputError, match="the checkpoint has a, here are b; give those of the checkpoint"):
         Sections({"b": line_at(WEST)}).restore(state)
     for changed in ({"position": state["position"][:, :-1]}, {"identity": 0 * state["identity"]}):
         with pytest.raises(InputError, match="has arrays that do not fit each other"):

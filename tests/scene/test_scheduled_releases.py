@@ -81,6 +81,8 @@ def test_polygons_of_another_reference_system_come_to_the_same_place(tmp_path):
         ({"depth": [0.0]}, "more than 0, got 0"),
         ({"volume": [-5.0]}, "more than 0, got -5"),
         ({"depth": ["deep"]}, "a number, got 'deep'"),
+        ({"depth": ["1,5"]}, "a number, got '1,5'; write it with a decimal point"),
+        ({"depth": [None]}, "neither an attribute depth .*it has no attribute with a value"),
         ({"depth": [1500.0]}, "at most 1000 m, got 1500"),
     ],
 )

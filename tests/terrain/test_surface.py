@@ -135,3 +135,18 @@ def test_a_cliff_has_no_dam_along_its_edge_and_no_ditch_at_its_foot(axis, height
     over = max(low - z.min(), z.max() - high) / abs(height)
     bend = abs(height) / (DX, DY)[axis]  # over the spacing: limited from 1 on, wholly from 2
     assert over < 1e-15 if bend >= 2.0 else over == pytest.approx(2.0 / 27.0, rel=1e-4)
+
+
+def test_slope_x_is_not_limited_along_y():
+    """Along the edge of a cliff that falls with y, dz/dx is off by 2/27 of its change; dz/dy is exact."""
+    row, column = np.mgrid[:8, :12]
+    surface = Surface(np.where(row < 4, 100.0 + column * DX, 0.0), (DX, DY))  # dz/dx is 1 above the cliff, 0 below
+    x, y = np.meshgrid(np.linspace(6.3, 15.7, 20), np.linspace(6.3, 28.7, 501))
+    x, y, small = x.ravel(), y.ravel(), 1e-5
+    sample = surface.sample(x, y)
+    slope_x = (surface.sample(x + small, y)[0] - surface.sample(x - small, y)[0]) / (2.0 * small)
+    slope_y = (surface.sample(x, y + small)[0] - surface.sample(x, y - small)[0]) / (2.0 * small)
+    # measured 2/27 less 1e-6, at the points nearest to a third of a node from the edge
+    assert abs(sample.slope_x - slope_x).max() == pytest.approx(2.0 / 27.0, rel=1e-4)
+    # the curvature, 24 per m at most, jumps on lines of nodes
+    np.testing.assert_allclose(sample.slope_y, slope_y, rtol=0, atol=0.5 * 24.0 * small)

@@ -14,7 +14,7 @@ def basin(x: ArrayLike, y: ArrayLike = 0.0, radius: float = 10.0, depth: float =
     x, y : array_like
         Position from the middle [m].
     radius, depth : float
-        Of the basin filled to its rim [m].
+        Radius and depth of the basin filled to its rim [m].
 
     Returns
     -------
@@ -29,7 +29,7 @@ def thacker_planar_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     Parameters
     ----------
     radius, depth : float
-        Of the basin [m].
+        Radius and depth of the basin [m].
     gravity : float
         Acceleration by gravity [m s-2].
 
@@ -52,9 +52,9 @@ def thacker_planar(
 ) -> tuple[np.ndarray, ...]:
     """Return depth and velocities of a flat surface that swings in a paraboloid.
 
-    A cap of constant shape whose centre moves on ``(a cos(w t), b sin(w t))``, any orbit of the oscillator
-    ``w = (2 g h0)^(1/2)/radius``: equal ``orbit = (a, b)`` is Thacker's circle, ``b = 0`` a start from rest, to and
-    fro along ``x``, which with ``y = 0`` is also the solution in one dimension.
+    A cap of constant shape whose centre moves on ``(a cos(w t), b sin(w t))``, any orbit of the oscillator ``w = (2 g
+    h0)^(1/2)/radius``. Equal a and b in ``orbit = (a, b)`` give Thacker's circle; ``b = 0`` gives a start from rest and
+    a motion along ``x``, which with ``y = 0`` is also the solution in one dimension.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def thacker_planar(
     time : float
         Time since the start [s].
     radius, depth : float
-        Of the basin [m].
+        Radius and depth of the basin [m].
     orbit : tuple of float
         a and b, half axes of the orbit of the centre [m].
     gravity : float
@@ -90,7 +90,7 @@ def thacker_curved_period(radius: float = 10.0, depth: float = 1.0, gravity: flo
     Parameters
     ----------
     radius, depth : float
-        Of the basin [m].
+        Radius and depth of the basin [m].
     gravity : float
         Acceleration by gravity [m s-2].
     """
@@ -117,9 +117,9 @@ def thacker_curved(
     time : float
         Time since the start [s].
     radius, depth : float
-        Of the basin [m].
+        Radius and depth of the basin [m].
     first_radius : float
-        Of the edge at time 0 [m].
+        Radius of the edge at time 0 [m].
     gravity : float
         Acceleration by gravity [m s-2].
 

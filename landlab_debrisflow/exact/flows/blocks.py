@@ -24,7 +24,7 @@ def sliding_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     speed : float
@@ -61,7 +61,7 @@ def eroding_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     growth : float
@@ -109,7 +109,7 @@ def consolidating_block(
     time : array_like
         Time since the start [s].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Friction coefficient without excess pore pressure [-].
     ratio : float
@@ -142,9 +142,9 @@ def consolidating_block(
 
     moving = np.asarray(time, dtype=float)
     if pull < 0.0:
-        # all that the pressure can ever give is lost again by then
+        # by this time friction has taken all the speed that pore pressure can give
         last = (lift / rate).sum() / -pull
-        tiny = 1e-9 * consolidation_time  # not the start, which is a root as well
+        tiny = 1e-9 * consolidation_time  # time 0 is a root, too, and not the one sought
         moves = pull + lift.sum() > 0.0
         moving = np.minimum(moving, brentq(velocity, tiny, 1.001 * last, xtol=1e-12) if moves else 0.0)
     decay = np.exp(-np.multiply.outer(moving, rate))

@@ -18,11 +18,11 @@ def ridge_half_width(
     Parameters
     ----------
     time : float
-        Since its release at rest [s].
+        Time since its release at rest [s].
     half_width, depth : float
         At time 0: half width along the slope, slope-normal thickness in the middle [m].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     gravity : float
         Acceleration by gravity [m s-2].
 
@@ -58,11 +58,11 @@ def ridge(
     x : array_like
         Position down the plane, the middle at time 0 at 0 [m].
     time : float
-        Since its release at rest [s].
+        Time since its release at rest [s].
     half_width, depth : float
         At time 0: half width along the slope, slope-normal thickness in the middle [m].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     gravity : float
@@ -98,9 +98,9 @@ def cap_radius(
     Parameters
     ----------
     time : array_like
-        Since its release at rest [s].
+        Time since its release at rest [s].
     radius, depth, slope, gravity : float
-        As of `cap`.
+        As in `cap`.
 
     Returns
     -------
@@ -128,11 +128,11 @@ def cap(
     x, y : array_like
         Position down and across the plane, the centre at time 0 at the origin [m].
     time : float
-        Since its release at rest [s].
+        Time since its release at rest [s].
     radius, depth : float
         At time 0: radius on the plane, slope-normal thickness in the middle [m].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     gravity : float
         Acceleration by gravity [m s-2].
 
@@ -168,20 +168,22 @@ def similarity_scales(
     Parameters
     ----------
     time : float
-        Since its release at rest [s].
+        Time since its release at rest [s].
     length, height, slope, friction, gravity : float
-        As of `similarity`.
+        As in `similarity`.
 
     Returns
     -------
     ndarray, shape (4,)
         ``g, f, dg/dt, df/dt`` [-, -, s-1, s-1].
     """
-    from scipy.integrate import solve_ivp  # takes a tenth of a second to load, and nothing else here needs it
+    from scipy.integrate import solve_ivp  # imported here because loading takes a tenth of a second
 
     pull, spread, hold = np.sin(slope), np.cos(slope) * height / length, np.cos(slope) * friction
-    second = np.array([2.0 * spread, 2.0 * spread * (pull - hold) / pull])  # g'' and f'' at 0, where f'/tau -> f''
-    begin, end = 1e-3, time * np.sqrt(gravity / length)  # the parabola is right to begin^4: 1e-14
+    # g'' and f'' at time 0, where f'/tau tends to f''
+    second = np.array([2.0 * spread, 2.0 * spread * (pull - hold) / pull])
+    # until `begin` the solution is a parabola, with an error of begin^4
+    begin, end = 1e-3, time * np.sqrt(gravity / length)
 
     def rates(tau, state):
         g, f, dg, df = state
@@ -213,11 +215,11 @@ def similarity(
     x, y : array_like
         Position down and across the plane, the centre at time 0 at the origin [m].
     time : float
-        Since its release at rest [s].
+        Time since its release at rest [s].
     length, height : float
         At time 0: radius on the plane, slope-normal thickness in the middle [m].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     gravity : float

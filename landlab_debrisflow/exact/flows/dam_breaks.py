@@ -18,9 +18,9 @@ def ritter(x: ArrayLike, time: float, depth: float = 1.0, gravity: float = GRAVI
     x : array_like
         Position, the dam at 0 [m].
     time : float
-        Since the dam broke, >= 0 [s].
+        Time since the dam broke, >= 0 [s].
     depth : float
-        Of the reservoir [m].
+        Depth of the reservoir [m].
     gravity : float
         Acceleration by gravity [m s-2].
 
@@ -55,11 +55,11 @@ def mangeney(
     x : array_like
         Position down the plane, the dam at 0 [m].
     time : float
-        Since the dam broke, >= 0 [s].
+        Time since the dam broke, >= 0 [s].
     depth : float
         Slope-normal thickness of the reservoir [m].
     slope : float
-        Of the plane [rad].
+        Slope of the plane [rad].
     friction : float
         Apparent friction coefficient [-].
     gravity : float
@@ -96,9 +96,9 @@ def mangeney_front(
     Parameters
     ----------
     time : array_like
-        Since the dam broke [s].
+        Time since the dam broke [s].
     depth, slope, friction, gravity : float
-        As of `mangeney`.
+        As in `mangeney`.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def stoker_states(depth: float = 1.0, depth_ahead: float = 0.1, gravity: float =
     Parameters
     ----------
     depth, depth_ahead : float
-        Of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
+        Depth of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
     gravity : float
         Acceleration by gravity [m s-2].
 
@@ -145,9 +145,9 @@ def stoker(
     x : array_like
         Position, the dam at 0 [m].
     time : float
-        Since the dam broke, >= 0 [s].
+        Time since the dam broke, >= 0 [s].
     depth, depth_ahead : float
-        Of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
+        Depth of the reservoir, and of the water at rest below the dam, ``0 < depth_ahead < depth`` [m].
     gravity : float
         Acceleration by gravity [m s-2].
 

@@ -12,10 +12,10 @@ from ...core.parameters import declared, parameter
 class Hydrograph:
     """Inflow across a straight line: discharge, velocity and pressure ratio, linear between given times.
 
-    The discharge is spread evenly over the line, so its thickness is discharge / (velocity x length). What
-    enters at one time moves with the velocity given until it has passed a strip of some particle
-    spacings behind the line; from there on it flows by itself. Ends of the line, times, discharge and velocity are
-    needed.
+    The discharge is spread evenly over the line, so its thickness is discharge / (velocity x length). Debris that
+    enters at one time moves with the velocity prescribed for that time until it has passed a strip of some particle
+    spacings behind the line. Beyond the strip it moves by the equations of the flow. Ends of the line, times, discharge
+    and velocity are needed.
 
     Examples
     --------
@@ -60,7 +60,9 @@ class Hydrograph:
             raise ParameterError(f"Hydrograph: line_start and line_end are the same point {self.line_end}; give a line")
         self._check_series()
         if self.volume == 0.0:
-            raise ParameterError("Hydrograph: discharge is 0 m3 s-1 at all times; leave it out, or give what flows in")
+            raise ParameterError(
+                "Hydrograph: discharge is 0 m3 s-1 at all times; leave the hydrograph out, or give a discharge > 0"
+            )
         if self._obliquity < 0.1:
             raise ParameterError(
                 f"Hydrograph: direction {self.direction:g} deg runs along the line, which nothing would cross; "
@@ -137,7 +139,8 @@ class Hydrograph:
     def largest_thickness(self) -> float:
         """Largest slope-normal thickness of the entering flow, discharge / (velocity x width) [m].
 
-        Between two times it is the quotient of two linear functions, so it is largest at one of them.
+        Between two times the thickness is the quotient of two linear functions, so that its largest value lies at one
+        of the times.
         """
         discharge, velocity = self.series("discharge", "velocity")
         flowing = velocity > 0.0

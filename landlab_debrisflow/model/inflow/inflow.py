@@ -1,13 +1,12 @@
 """Rows of particles that enter across a line, as hydrographs say.
 
-All particles of a hydrograph have the same volume, and a whole number of them is its volume exactly. They
-enter in rows: a row stands for the volume that crosses the line while it passes, and its middle crosses
-the line at the time at which half of that has. When which row enters is known from the beginning and
-does not depend on time steps.
+All particles of a hydrograph have the same volume, and a whole number of them is its volume exactly. Particles enter in
+rows: a row stands for the volume that crosses the line while it passes, and its middle crosses the line when half of
+this volume has crossed. The times at which rows enter are fixed from the beginning and do not depend on the time steps.
 
-A free surface right behind the line would push the flow back. So, as with the inflow buffers usual in
+A free edge directly behind the line would let the inflow spread backwards. So, as with the inflow buffers usual in
 SPH (Lastiwka et al. 2009; Federico et al. 2012), particles keep the prescribed velocity and thickness
-until they have passed a strip as long as their support: what flows freely has all its neighbours.
+until they have passed a strip as long as their support: every particle beyond the strip then has all its neighbours.
 """
 
 import numpy as np
@@ -21,7 +20,7 @@ from ..release.placing import THICKNESS_RANGE
 from .source import Source
 
 FREE = -1
-"""Number of the row of a particle that flows by itself."""
+"""Number of the row of particles outside of the strips, whose motion is not prescribed."""
 
 NONE = np.zeros(0, int)
 
@@ -34,7 +33,7 @@ class Inflow:
     hydrographs : sequence of Hydrograph
         Lines [m], discharge [m3 s-1] and velocity [m s-1] against time.
     numerics : Numerics, optional
-        Its `particle_count` is that of all hydrographs together, its `particle_spacing` that where the
+        `particle_count` counts the particles of all hydrographs together; `particle_spacing` is the spacing where the
         inflow is thickest.
     lower_left : array_like, shape (2,)
         Map coordinates of the lower left node [m].
@@ -60,13 +59,13 @@ class Inflow:
         self._count, self._source = count, source
         self._each = np.array([s.particle_volume for s in self.sources])[source]
         self._sum = np.concatenate([[0.0], np.cumsum(count * self._each)])
-        self._place = np.zeros(source.size, int)  # number of the row among those of its source
+        self._place = np.zeros(source.size, int)  # number of the row among the rows of its source
         for k in range(len(self.sources)):
             self._place[source == k] = np.arange(np.count_nonzero(source == k))
         self.rows_entered, self.directions = 0, np.zeros((len(self.sources), 2))
 
     def copy(self) -> "Inflow":
-        """Return an independent copy; of all that differs in a run, nothing is changed in place."""
+        """Return an independent copy; a run replaces attributes and changes none of them in place."""
         other = object.__new__(Inflow)
         vars(other).update(vars(self))
         return other
@@ -83,7 +82,7 @@ class Inflow:
 
     @property
     def next_time(self) -> float:
-        """Elapsed time at which the next row enters [s]; infinite if there is none."""
+        """Elapsed time at which the next row enters [s]; infinite if there is no further row."""
         return np.inf if self.over else float(self._time[self.rows_entered])
 
     @property
@@ -169,7 +168,7 @@ class Inflow:
         material, source = columns.material, self.sources[self._source[row]]
         direction = self.directions[self._source[row]]
         count, thickness, volume = self._count[row], self._thickness[row], self._each[row]
-        # rows are shifted by half a particle against each other, and none reaches beyond the line
+        # neighbouring rows are shifted by half a particle; no row reaches past the ends of the line
         share = (np.arange(count) + (0.5 if count == 1 else (0.25, 0.75)[self._place[row] % 2])) / count
         x, y = source.start[:, None] + share * (source.end - source.start)[:, None]
         fall = direction @ surface.sample(x, y)[1:3]

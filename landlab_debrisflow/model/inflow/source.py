@@ -7,10 +7,10 @@ from ...spatial.summation import SMOOTHING_RATIO
 from .hydrograph import Hydrograph, Integral
 
 LEAST_FALL = 1e-6
-"""Slope across the line below which the ground does not say where it falls to [-]."""
+"""Slope across the line below which the ground counts as level, so that the direction of the flow must be given [-]."""
 
 PARTS_OF_A_ROW = 4
-"""Of equal volume, over which its thickness is averaged."""
+"""Number of parts of a row, of equal volume, over which its thickness is averaged."""
 
 
 class Source:
@@ -47,7 +47,7 @@ class Source:
         rows, before, each = [], 0, self.particle_volume
         while before < self.particles:
             count = 1
-            for _ in range(8):  # thickness and number in the row follow from each other
+            for _ in range(8):  # thickness and number of particles in the row follow from each other
                 fit = self.hydrograph.width * np.sqrt(self._row(before, count)[1] / each)
                 count = min(max(1, round(fit)), self.particles - before)
             rows.append((*self._row(before, count), count))
@@ -57,7 +57,7 @@ class Source:
     def _row(self, before, count):
         """Return when half of a row has crossed the line [s], and its thickness, in the mean over the row [m].
 
-        Not the thickness then, which may be nothing between two surges that share a row.
+        The thickness at that one time would not do: between two surges that share a row it may be 0.
         """
         time = self.entered.when((before + 0.5 * count) * self.particle_volume)
         parts = before + count * (np.arange(PARTS_OF_A_ROW) + 0.5) / PARTS_OF_A_ROW
@@ -71,12 +71,12 @@ class Source:
         return np.interp(time, self.times, values)
 
     def direction(self, surface):
-        """Return the unit vector in which it flows, shape (2,): as the hydrograph says, or as the ground falls.
+        """Return the unit vector of the flow, shape (2,): as the hydrograph says, or as the ground falls.
 
         Raises
         ------
         InputError
-            If it falls to neither side of the line.
+            If the ground falls to neither side of the line.
         """
         if (given := self.hydrograph.direction) is not None:
             return np.array([np.cos(np.radians(given)), np.sin(np.radians(given))])

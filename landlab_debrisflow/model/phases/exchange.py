@@ -11,13 +11,13 @@ class Exchange:
     Attributes
     ----------
     partners : Partners or None
-        Of the grains among the water.
+        Partners of the grains among the water.
     generation : tuple of int or None
         `Particles.generation` for which they were found.
     age : int
         Sums over neighbours since then.
     steps : int
-        Times that the mean pore pressure was updated.
+        Number of updates of the mean pore pressure so far.
     """
 
     def __init__(self):
@@ -31,16 +31,18 @@ class Exchange:
 
 
 MOST_SCALED = 2.0
-"""Most by which the fraction of a water particle that grains claim is raised to make it whole. On lattices that lie
-anyhow over each other the fractions sum to 0.5 to 1.4; water with still fewer grains around flows partly by itself."""
+"""Largest factor by which the fractions of a water particle that grains claim are raised so that they sum to 1. With
+particles of both phases on lattices that do not match, the fractions sum to 0.5 to 1.4; water with still fewer grains
+around it flows partly on its own."""
 
 
 @kernel
 def make_whole(partners, porosity, volume):
     """Scale the weights so that the volumes that grains claim of each water particle sum to its own, in place.
 
-    Stiff drag leaves nothing of a kick but its balance, if all of the water takes part: of a tenth that does not
-    a tenth of the kick remains, and of a tenth taken twice its reverse.
+    Under stiff drag grains and water must end a kick with one velocity. They do so only if all of the water takes part:
+    if grains claim a tenth too little of the water, a tenth of the kick is left unbalanced; if they claim a tenth too
+    much, the error is the same with the opposite sign.
 
     Parameters
     ----------
@@ -74,9 +76,9 @@ def distribute_soil_water(partners, entrained, water_ratio, volume, velocity, ex
     water_ratio : float
         Water over grains in the soil [-].
     volume : ndarray, shape (n,)
-        That of the water is raised [m3].
+        Volume of the particles [m3]; that of the water is raised.
     velocity : ndarray, shape (3, n)
-        That of the water is lowered, like volume^-`exponent` [m s-1].
+        Velocity of the particles [m s-1]; that of the water is lowered, like volume^-`exponent`.
     exponent : float
         [-]
     """

@@ -3,8 +3,8 @@
 For each grain particle and its water, exactly for constant forces (docs/decisions.md, Two phases 3): grains of mass m_s
 and water of mass m_w, per area, with the relative velocity d = v_w - v_s, and x = dt C (1/m_s + 1/m_w):
 d' = d exp(-x) + dt phi(x) (a_w - a_s + f/m_s), phi = (1 - exp(-x))/x, and the sum of momenta changes by
-dt (m_s a_s + m_w a_w - f). So v_s' is linear in the friction f, with a compliance G, and friction stops grains just
-where f G takes all their speed.
+dt (m_s a_s + m_w a_w - f). So v_s' is linear in the friction f, with a compliance G, and friction stops grains exactly
+if f G takes all their speed.
 """
 
 from typing import NamedTuple
@@ -102,7 +102,7 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
     Parameters
     ----------
     partners : Partners
-        Of the m grain particles among the water.
+        Partners of the m grain particles among the water.
     motion : Motion
         Motion of n particles.
     mixture : GrainsAndWater
@@ -120,23 +120,23 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
     yield_stress, drag, phase_drag, water_drag, rest_speed = resistance
     free = _free_motion(motion, gravity)
     around, impulse = _gather_water(partners, free), np.empty((of.size, 3))
-    # 1. grains, and the momentum that their water gets by drag
+    # 1. kick the grains, and find the momentum that their water gets by drag
     for k in range(of.size):
         i, taken = of[k], around[k, 6]
         u, v, w = around[k, 0], around[k, 1], around[k, 2]
         ax, ay, az = around[k, 3], around[k, 4], around[k, 5]
-        # water around on other slopes moves across this one, too: that does not count
+        # water around on another slope moves across the bed here: this component is left out
         nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
         u, v, w = _along(u, v, w, nx, ny, nz)
         ax, ay, az = _along(ax, ay, az, nx, ny, nz)
         m_s = solid_density * (1.0 - porosity[i]) * thickness[i]
         m_w = water_density * porosity[i] * thickness[i]
-        # drag is per volume of water, of which the fraction `taken` is with these grains
+        # drag is per volume of water; these grains claim the fraction `taken` of it
         x = dt * phase_drag[i] * (taken / m_s + 1.0 / m_w)
         m_w *= taken if count[k] > 0 else 1.0
         lost = -np.expm1(-x)
         left, response = 1.0 - lost, dt * (lost / x if x > 1e-12 else 1.0)
-        water_fraction = m_w / (m_s + m_w)  # of the mass
+        water_fraction = m_w / (m_s + m_w)  # fraction of the mass
         compliance = (dt + m_w / m_s * response) / (m_s + m_w)
         us, vs, ws, bx, by, bz = free[i, 0], free[i, 1], free[i, 2], free[i, 3], free[i, 4], free[i, 5]
         du = (u - us) * left + response * (ax - bx)
@@ -147,7 +147,7 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
         fw = ws + dt * bz + water_fraction * (w - ws + dt * (az - bz) - dw)
         speed, grip = np.sqrt(fu * fu + fv * fv + fw * fw), compliance * yield_stress[i]
         factor = 0.0
-        if speed > 0.0 or not speed <= 0.0:  # a NaN must survive
+        if speed > 0.0 or not speed <= 0.0:  # a NaN must survive until the check after the step
             slow = speed - grip
             if slow < 0.0:
                 slow = 0.0
@@ -157,19 +157,20 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
             if slow < least and least == np.inf:
                 factor = 0.0
             elif slow < least and slow * slow < us * us + vs * vs + ws * ws:
-                reached = water_fraction * (dt - response)  # of the pull on water, by drag
+                reached = water_fraction * (dt - response)  # part of the pull on the water that drag passes on
                 ex, ey, ez = dt * bx + reached * (ax - bx), dt * by + reached * (ay - by), dt * bz + reached * (az - bz)
                 if ex * ex + ey * ey + ez * ez <= grip * grip:
                     factor = 0.0
         velocity[0, i], velocity[1, i], velocity[2, i] = factor * fu, factor * fv, factor * fw
-        # the water's velocity is that of the grains, and apart, and more apart for the friction on the grains
+        # velocity of the water: that of the grains, the difference left by drag, and a further one by friction on the
+        # grains
         more = factor + response / m_s * (1.0 - factor) / compliance
-        mass = water_density * volume[i] * porosity[i] / (1.0 - porosity[i])  # of the water with these grains
+        mass = water_density * volume[i] * porosity[i] / (1.0 - porosity[i])  # mass of the water with these grains
         impulse[k, 0] = mass * (more * fu + du - u - dt * ax)
         impulse[k, 1] = mass * (more * fv + dv - v - dt * ay)
         impulse[k, 2] = mass * (more * fw + dw - w - dt * az)
     received = _give_back(partners, impulse, phase.size)
-    # 2. water, with what it received and the drag of the bed
+    # 2. kick the water with the momentum it received and the drag of the bed
     for i in range(phase.size):
         if phase[i] != WATER:
             continue
@@ -189,7 +190,7 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
             factor = 0.0
         elif speed < slowest and speed < was:
             seepage = np.sqrt(ax * ax + ay * ay + az * az) * water_density * porosity[i] * thickness[i]
-            if seepage <= slowest * phase_drag[i]:  # drag would leave no more of its speed if the grains rest
+            if seepage <= slowest * phase_drag[i]:  # between grains at rest, drag would leave no more speed than this
                 factor = 0.0
         velocity[0, i], velocity[1, i], velocity[2, i] = factor * u, factor * v, factor * w
 

@@ -1,8 +1,8 @@
 """Flow of two phases: grains and water drag each other, share the entrained soil, and squeeze the pores.
 
 The particles of both phases are in the same arrays. Grains meet the bed, and carry the columns; water
-is dragged along. All is exchanged between grains and their partners among the water
-(`spatial.partners.find_partners`), with weights that sum to 1, so what one gives the other gets, to the last digit.
+is dragged along. Momentum and soil are exchanged between grains and their partners among the water
+(`spatial.partners.find_partners`), with weights that sum to 1, so that no digit is lost.
 """
 
 from typing import NamedTuple
@@ -21,18 +21,18 @@ from .exchange import distribute_soil_water, make_whole
 from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_both
 
 STEPS_BETWEEN_PROFILES = 16
-"""Steps after which the depth mean of the pore pressure is read off the columns; between, what changes of porosity make
-of it is followed, which can be fast, and drains at `DRAINAGE`."""
+"""Number of steps between two readings of the mean pore pressure from the columns. In between, the mean follows the
+changes of porosity, which can be fast, and drains at `DRAINAGE`."""
 
 DRAINAGE = 3.0
-"""Rate at which the mean is lost in between, over c_v/h^2: a steady source S then gives S h^2/(3 c_v), as in
-a column."""
+"""Rate at which the mean drains between readings, over c_v/h^2: a steady source S gives S h^2/(3 c_v), as in a
+column."""
 
 STEPS_WITH_PARTNERS = 4
-"""Steps for which grains keep their partners among the water: in so few nothing gets far."""
+"""Number of steps for which grains keep their partners among the water: so few that no particle moves far."""
 
 LEAST_FRACTION = 1e-6
-"""Least fraction of the volume that either phase is taken to have [-]."""
+"""Least fraction of the volume that is assumed for either phase [-]."""
 
 
 class PoreWater(NamedTuple):
@@ -75,7 +75,7 @@ class TwoPhaseDynamics:
     )  # fmt: skip
 
     sleeps = False
-    """It would save 1 to 2 %, and partners would have to follow."""
+    """Sleep would save 1 to 2 % of the time, and partners would have to be renumbered."""
 
     def __init__(self, law, material, stores_pressure: bool):
         self.law, self.material, self.stores_pressure = law, material, stores_pressure
@@ -91,7 +91,7 @@ class TwoPhaseDynamics:
         return p.volume * (p.phase != WATER)
 
     def coefficient_of_consolidation(self, p, which: slice):
-        """Return that of the columns of some particles [m2 s-1]: the drag between phases is that within a column."""
+        """Return c_v of the columns of some particles [m2 s-1]: it follows from the drag between the phases."""
         return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
 
     def after_summation(self, p, exchange, cells) -> None:
@@ -160,7 +160,7 @@ class TwoPhaseDynamics:
         free = _size(velocity)
         bear(p.x, p.y, velocity, p.surface_sample, walls)
         left = _size(velocity)
-        leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # along the wall friction holds it
+        leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # friction holds it along the wall
         free = Resistance(yield_stress=none, drag=none, mass=none + 1.0, rest_speed=at_rest)
         kick(pull, p.thrust, p.surface_sample, p.cos_slope, free, self.material.gravity, 1.0)
         bear(p.x, p.y, pull, p.surface_sample, walls)
@@ -168,15 +168,15 @@ class TwoPhaseDynamics:
         return np.where(p.phase == WATER, seeping <= p.rest_speed * p.phase_drag, leaning | (left == 0.0))
 
     def limit_entrainment(self, exchange, rate) -> None:
-        """Set the rate of erosion to 0 but for grains with water around to take its part, in place."""
+        """Set the erosion rate to 0, in place, for grains without water around to take the water of the soil."""
         takes = np.zeros(rate.size, bool)
         takes[exchange.partners.of[exchange.partners.count > 0]] = True
         rate[~takes] = 0.0
 
     def share_entrained(self, p, exchange) -> None:
-        """Give water its part of the soil of which the grains took theirs; from here on the flow changes porosity."""
+        """Give the water of the entrained soil to the water; porosity then changes by the flow alone."""
         if p.entrained_volume.any():
-            water_ratio = 1.0 / self.solid_fraction - 1.0  # over the grains in the soil
+            water_ratio = 1.0 / self.solid_fraction - 1.0  # water over grains, by volume
             exponent = 1.0 - self.material.basal_slip_ratio
             distribute_soil_water(exchange.partners, p.entrained_volume, water_ratio, p.volume, p.velocity, exponent)
         p.porosity_before[:] = p.porosity
@@ -184,8 +184,8 @@ class TwoPhaseDynamics:
     def column_forcing(self, p, forcing, prescribed, dt: float):
         """Return the forcing of the columns with the pressure that a change of porosity makes [Pa s-1].
 
-        Water that leaves relative to the grains lets their skeleton take up the load: with dn/dt the rate by
-        relative motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
+        Where water leaves the grains, their skeleton takes up load. With dn/dt, the rate of porosity by relative
+        motion, dp/dt = K/(1 - n) dn/dt (docs/decisions.md, Two phases 2).
         """
         if dt == 0.0:
             return forcing
@@ -197,7 +197,7 @@ class TwoPhaseDynamics:
     def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
         """Update the depth mean of the pore pressure, on which the pressure of the flow depends [Pa].
 
-        It is read off the columns now and then; in between it follows the source.
+        The mean is read from the columns every few steps; in between it follows the source.
         """
         if exchange.steps % STEPS_BETWEEN_PROFILES == 0:
             profile = profiles()
@@ -218,10 +218,10 @@ class TwoPhaseDynamics:
         exchange.steps += 1
 
     def celerity_squared(self, p, dt: float):
-        """Return by how much the square of the celerity is higher as the skeleton is stiff, shape (n,) [m2 s-2].
+        """Return the part of the squared celerity that is due to the stiffness of the skeleton, shape (n,) [m2 s-2].
 
-        Of the wave in which water moves against grains, K n (1/rho_w + n/((1 - n) rho_s)), drag leaves what is reached
-        of a velocity in a step of `dt` seconds, and drainage what is reached of a pressure.
+        Waves in which water moves against grains have K n (1/rho_w + n/((1 - n) rho_s)). Drag reduces the velocity that
+        a force reaches in a step of `dt` seconds, and drainage the pressure.
         """
         if not self.stores_pressure or p.count == 0:
             return NOT_STIFF
@@ -239,7 +239,7 @@ def _size(vectors):
 def _hold_back(velocity, light) -> None:
     """Limit the speed of light particles to that of the fastest particle that is not light, in place.
 
-    Drag is exchanged with the mean of the partners, in which what weighs next to nothing does not count.
+    Drag acts against the mean of the partners, and a light particle has almost no weight in this mean.
     """
     if light.any():
         speed = _size(velocity)
@@ -248,7 +248,7 @@ def _hold_back(velocity, light) -> None:
 
 
 def _reached(x):
-    """Return (1 - exp(-x))/x [-]: the fraction of a constant gain that is left when it decays x times meanwhile."""
+    """Return (1 - exp(-x))/x [-]: the fraction left of a constant gain during which x e-foldings of decay pass."""
     x = np.maximum(x, 1e-12)
     return -np.expm1(-x) / x
 
@@ -262,7 +262,7 @@ def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity,
     phase : ndarray of int8, shape (n,)
         MIXTURE, which are the grains, or WATER.
     phase_fraction : ndarray, shape (n,)
-        Of the thickness that is of the particle's own phase, changed in place [-].
+        Fraction of the thickness that belongs to the particle's own phase, changed in place [-].
     solid_density, water_density : float
         Densities of grains and water [kg m-3].
     porosity, density : ndarray, shape (n,)
@@ -271,7 +271,7 @@ def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity,
     for i in range(phase.size):
         phase_fraction[i] = min(max(phase_fraction[i], LEAST_FRACTION), 1.0 - LEAST_FRACTION)
         porosity[i] = phase_fraction[i] if phase[i] == WATER else 1.0 - phase_fraction[i]
-        # water presses on no grains: with its own density there is nothing that could be liquefied
+        # water has no buoyant weight, so that its liquefaction pressure is 0
         mixed = solid_density + porosity[i] * (water_density - solid_density)
         density[i] = water_density if phase[i] == WATER else mixed
 
@@ -286,7 +286,7 @@ def _follow_source(pore_water, source, unit_weight, dt):
     source : ndarray, shape (n,) or (1,)
         [Pa s-1]
     unit_weight : float
-        Of water [N m-3].
+        Unit weight of water [N m-3].
     dt : float
         Duration of the step [s].
     """

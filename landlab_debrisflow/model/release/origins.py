@@ -4,7 +4,7 @@ import numpy as np
 
 
 class Origins:
-    """For every particle released: its place, and the volume it took from each node.
+    """Place of every released particle, and the volume that it took from each node.
 
     The arrays are never changed in place.
 
@@ -24,7 +24,7 @@ class Origins:
         self._x, self._y, self._volume = np.zeros((3, 0))
         self._owner, self._node = np.zeros((2, 0), np.int64)
         self._part = np.zeros(0)
-        self.span = ()  # first and last node from which anything was taken
+        self.span = ()  # first and last node from which soil was taken
 
     def copy(self) -> "Origins":
         """Return an independent copy."""
@@ -40,7 +40,7 @@ class Origins:
         x, y : ndarray, shape (n,)
             Where the particles start [m].
         particle, node : ndarray of int, shape (m,)
-            Which of them took how much from which node.
+            Particle and node of every pair of which the particle took a volume from the node.
         part : ndarray, shape (m,)
             [m3]
         """
@@ -58,9 +58,9 @@ class Origins:
         Parameters
         ----------
         origin : ndarray of int, shape (n,)
-            Numbers that `add` returned; < 0 for what was not released.
+            Numbers that `add` returned; < 0 for particles that were not released.
         x, y, spacing : ndarray, shape (n,)
-            Where the particles are, and how far apart [m].
+            Position and spacing of the particles now [m].
         core : ndarray of bool, shape (nodes,)
             Nodes that may receive anything.
         """
@@ -74,13 +74,13 @@ class Origins:
         return part
 
     def returned(self, origin, volume):
-        """Return the nodes to which some particles go back, and how much each gets [m3], both of shape (k,).
+        """Return the nodes to which some particles go back, and the volume that each receives [m3], both (k,).
 
         Parameters
         ----------
         origin : ndarray of int, shape (n,)
         volume : ndarray, shape (n,)
-            What of each particle goes back [m3], in the parts it came in.
+            Volume of each particle that returns [m3]; it is divided among the nodes as it was taken.
         """
         back = np.bincount(origin, volume, self._x.size)
         got = back[self._owner] > 0.0

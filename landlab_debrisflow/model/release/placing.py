@@ -16,17 +16,17 @@ from ...terrain.surface import Surface
 from .sites import Sites
 
 THICKNESS_RANGE = 1.0 / 64.0
-"""Thickness over that of the thickest part of a site, below which the smoothing length grows no more: a particle
-without neighbours has no thickness of its own."""
+"""Thickness over the largest of a site, below which the smoothing length does not grow any more: it would grow without
+bound at a particle without neighbours."""
 
 SAMPLES_PER_PARTICLE = 4
 SWEEPS = 30
 STEP = 0.5
-"""Length of one relaxation step in l^2 times the logarithmic gradient: half of what is stable."""
+"""Length of one relaxation step in l^2 times the logarithmic gradient: half of the largest stable one."""
 
 WITHIN = 0.5 - 1e-6
-"""Part of a node spacing that a particle stands at most from the node it fails with: also in map coordinates, which
-are rounded, the nearest node is a failing one."""
+"""Largest distance of a particle from the node with which it fails, over the node spacing: less than 1/2, so that the
+nearest node is a failing one even after coordinates on the map are rounded."""
 
 
 class Placed(NamedTuple):
@@ -47,7 +47,7 @@ class Placed(NamedTuple):
     particle : ndarray of int, shape (m,)
         Particle of each pair of particle and failing cell, sorted.
     cell : ndarray of int, shape (m,)
-        Failing cell of each pair, a part of which the particle stands for.
+        Failing cell of each pair; the particle stands for a part of the cell.
     part : ndarray, shape (m,)
         Volume of that part [m3].
     """
@@ -86,7 +86,7 @@ class Samples(NamedTuple):
     group: np.ndarray
 
     def take(self, places) -> "Samples":
-        """Return some of them, in some order."""
+        """Return the samples at some places, in the order of these."""
         return Samples(*(values[places] for values in self))
 
     def centres(self, count: int):
@@ -115,12 +115,12 @@ def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
     volume = sites.volume[site] / counts[site]
     samples = cut_equally(fill_cells(sites, counts), counts)
     x, y, _ = samples.centres(count)
-    # the centre of a group that straddles a notch may lie outside: use one of its samples
+    # the centre of a group on both sides of a notch may lie outside of the site: use one of its samples
     outside = sites.at(x, y)[0] != site
     one = np.zeros(count, np.int64)
     one[samples.group] = np.arange(samples.x.size)
     x[outside], y[outside] = samples.x[one[outside]], samples.y[one[outside]]
-    several = np.flatnonzero(counts[site] > 1)  # one alone stands where it should
+    several = np.flatnonzero(counts[site] > 1)  # a single particle of a site stays at the centre
     if several.size:
         held_by = _coarsened(samples, count, site)
         held_by = held_by.take(counts[held_by.group] > 1)
@@ -133,16 +133,16 @@ def place_particles(sites: Sites, counts, surface: Surface) -> Placed:
 
 
 def fill_cells(sites: Sites, counts) -> Samples:
-    """Fill every failing cell with samples, its depth sloping as its neighbours' do; samples are grouped by site.
+    """Fill every failing cell with samples, with a depth that varies linearly in the cell; samples are grouped by site.
 
-    A cell has as many as an even site would, and at least one for each particle that it makes. The slope inside a cell
-    is limited (monotonised central), so no depth is negative and the volume of every cell is kept.
+    A cell has as many samples as in a site of uniform depth, and at least one for each particle that it makes. The
+    slope inside a cell is limited (monotonised central), so no depth is negative and the volume of every cell is kept.
     """
     rows, columns, depth, of = sites.rows, sites.columns, sites.depth, sites.of_cell
     here, area = depth[rows, columns], sites.spacing[0] * sites.spacing[1]
     makes = counts[of] * here * area / sites.volume[of]
     wanted = np.maximum(SAMPLES_PER_PARTICLE * counts[of] / np.bincount(of)[of], makes)
-    per_side = np.maximum(1, np.ceil(np.sqrt(wanted * (1.0 - 1e-9)))).astype(int)  # rounding asks for no more
+    per_side = np.maximum(1, np.ceil(np.sqrt(wanted * (1.0 - 1e-9)))).astype(int)  # rounding must not ask for one more
 
     def slope(down, along):
         back, forth = here - depth[rows - down, columns - along], depth[rows + down, columns + along] - here
@@ -150,7 +150,7 @@ def fill_cells(sites: Sites, counts) -> Samples:
         return np.where(np.sign(back) == np.sign(forth), np.sign(forth) * limited, 0.0)
 
     slope_y, slope_x = slope(1, 0), slope(0, 1)
-    # both slopes together must leave the corners above zero
+    # with both slopes the depth at the corners must not be negative
     fall = 0.5 * (abs(slope_x) + abs(slope_y))
     scale = np.minimum(1.0, here / np.maximum(fall, 1e-300))
     slope_y, slope_x = scale * slope_y, scale * slope_x
@@ -189,11 +189,11 @@ def cut_equally(samples: Samples, parts) -> Samples:
         samples = samples.take(np.lexsort((across, along, group)))
         group, volume = samples.group, samples.volume
         total = np.bincount(group, volume, parts.size)
-        relative = volume / total[group]  # sums of all groups alike: a small site is cut as exactly as a large one
-        upto = (np.cumsum(relative, dtype=np.longdouble) - group).astype(float)  # parts are equal to 1e-13, not 1e-11
+        relative = volume / total[group]  # so that a small site is cut as exactly as a large one
+        upto = (np.cumsum(relative, dtype=np.longdouble) - group).astype(float)  # parts differ by 1e-13, not 1e-11
         left_parts = parts // 2
         cut = (left_parts / parts)[group]
-        left = np.clip((cut - (upto - relative)) / relative, 0.0, 1.0)  # part of each sample that is left of the cut
+        left = np.clip((cut - (upto - relative)) / relative, 0.0, 1.0)  # fraction of each sample to the left of the cut
         left[left < SLIVER], left[left > 1.0 - SLIVER] = 0.0, 1.0
         left[(parts == 1)[group]] = 1.0
         first = np.cumsum(np.where(parts > 1, 2, 1)) - np.where(parts > 1, 2, 1)  # new number of each group
@@ -210,7 +210,7 @@ def cut_equally(samples: Samples, parts) -> Samples:
 
 
 SLIVER = 1e-13
-"""Part of a sample that is not cut off: so much is rounding."""
+"""Least fraction of a sample that is cut off: less is rounding."""
 
 
 def _extent(values, group, groups):
@@ -221,7 +221,7 @@ def _extent(values, group, groups):
 
 
 def _coarsened(samples: Samples, count: int, site) -> Samples:
-    """Return samples grouped by site, some per particle if there are far more: particles need not see each cell."""
+    """Return samples grouped by site, merged to a few per particle if there are far more."""
     if samples.x.size > 2 * SAMPLES_PER_PARTICLE * count:
         samples = cut_equally(samples, np.full(count, SAMPLES_PER_PARTICLE))
         x, y, volume = samples.centres(SAMPLES_PER_PARTICLE * count)
@@ -231,7 +231,7 @@ def _coarsened(samples: Samples, count: int, site) -> Samples:
 
 
 def _merged(samples: Samples, cells: int):
-    """Return particle, cell and volume of every pair of which the one stands for a part of the other."""
+    """Return particle, cell and volume of every pair of which the particle stands for a part of the cell."""
     pair, place = np.unique(samples.group * cells + samples.cell, return_inverse=True)
     return *np.divmod(pair, cells), np.bincount(place, samples.volume)
 
@@ -248,9 +248,9 @@ def _on_the_map(x, y, sites: Sites):
 def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface):
     """Let the particles repel each other while the samples, with negative volume, hold them in place.
 
-    The force is the gradient of the distance between the particles' thickness and the samples', both
-    seen through the smoothing kernel, so edges and uneven depths are at rest when the particles stand for the samples
-    best. Particles, at x, y [m] with a volume [m3] and a site, all (n,), do not leave the failing cells of their site.
+    The force is the gradient of the distance between the particles' thickness and the samples', both smoothed by the
+    kernel. At rest their thickness fits that of the samples best, at edges and with uneven depths, too. Particles, at
+    x, y [m] with a volume [m3] and a site, all (n,), do not leave the failing cells of their site.
     """
     n, x0, y0 = x.size, sites.corner[1] * sites.spacing[0], sites.corner[0] * sites.spacing[1]
     per_particle = np.zeros(sites.volume.size)
@@ -259,13 +259,13 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     def length_and_ground(px, py, of):
         below = surface.sample(px + x0, py + y0)
         cosine = 1.0 / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
-        here = np.maximum(sites.at(px, py)[1], THICKNESS_RANGE * sites.thickest[of])  # as in a flow
+        here = np.maximum(sites.at(px, py)[1], THICKNESS_RANGE * sites.thickest[of])  # bounded as in a flow
         return SMOOTHING_RATIO * np.sqrt(per_particle[of] / (here * cosine)), cosine, below.elevation
 
     sample_length, _, sample_z = length_and_ground(samples.x, samples.y, samples.group)
     volumes = np.concatenate([volume, -samples.volume])
     rest, ones = np.zeros((3, volumes.size)), np.ones(volumes.size)
-    sums = Sums(  # holes are not moved
+    sums = Sums(  # samples act on particles and do not move themselves
         thickness=np.empty(n),
         gradient_term=np.empty(n),
         next_length=np.empty(n),

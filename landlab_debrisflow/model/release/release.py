@@ -16,12 +16,12 @@ from .sites import find_sites, share_particles, volume_below_lips
 log = logging.getLogger("landlab_debrisflow")
 
 WORTH_SAYING = 0.01
-"""Part of a release that lies below the lip of its scar from which on it is said."""
+"""Fraction of a release below the lip of its scar from which on a warning says so."""
 
 LIGHT = 1.0 / 16.0
-"""Volume over the usual one below which a particle is light. A site has a particle however small it is; buried by a
-flow that would get as short as it is light, and ask for such steps. So it has the usual smoothing length for ever, and
-no say in the limits by growth and convergence."""
+"""Volume over the usual one below which a particle is light. Even the smallest site has a particle. Buried by a flow,
+such a particle would get a smoothing length as small as its volume, and would need equally short steps. So a light
+particle keeps the usual smoothing length, and the limits by growth and convergence leave it out."""
 
 
 def release_particles(p, origins, nodes, depth, bed, phases, numerics, velocity=None) -> slice:
@@ -32,7 +32,7 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics, velocity=
     p : Particles
         All particles.
     origins : Origins
-        Is told of which ground every particle is made.
+        Records the nodes from which the volume of every particle is taken.
     nodes : ndarray of int, shape (cells,)
         Where the ground fails, sorted.
     depth : ndarray, shape (cells,)
@@ -40,7 +40,7 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics, velocity=
     bed : Bed
         Ground that is left below.
     phases : Phases
-        Give the parts of grains and water.
+        Give the fractions of grains and water.
     numerics : Numerics
         Give the number or the spacing of particles [m].
     velocity : ndarray, shape (2, cells), optional
@@ -97,7 +97,7 @@ def _particle_volume(whole, area: float, nodes, depth, numerics) -> float:
     """Return the target volume of a particle [m3], at least the volume of the particles already there.
 
     `whole` are the volumes of the particles there [m3]; `area` is that of a node [m2]; `nodes` and `depth` [m], shape
-    (n,), are what fails; `numerics` are `Numerics`.
+    (n,), are those of the failing ground; `numerics` are `Numerics`.
     """
     wanted = depth.sum() * area / numerics.count_for(nodes.size * area)
     return max(wanted, float(np.median(whole))) if whole.size else wanted
@@ -108,7 +108,7 @@ def _whole_volume(p, phases):
 
     `p` are the particles; `phases` tells how many phases there are.
     """
-    part = np.ones(2)  # by phase
+    part = np.ones(2)  # volume fraction by phase
     for phase, of_it in phases.phase_fractions:
         part[phase] = of_it
     return p.volume / part[p.phase]

@@ -70,7 +70,7 @@ def find_sites(nodes, depth, raster: Raster) -> Sites:
 
     Notes
     -----
-    Cells that meet at a corner only are two sites: nothing could flow through such a neck.
+    Cells that meet at a corner only are two sites: nothing could flow through a corner.
     """
     rows, columns = np.divmod(nodes, raster.columns)
     corner = int(rows.min()) - 1, int(columns.min()) - 1
@@ -88,7 +88,7 @@ def find_sites(nodes, depth, raster: Raster) -> Sites:
 
 
 def share_particles(volume, particle_volume: float):
-    """Return how many particles each site gets, shape (sites,): as its volume asks for, and at least one.
+    """Return the number of particles of each site, shape (sites,): in proportion to its volume, and at least one.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def share_particles(volume, particle_volume: float):
 def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Raster) -> float:
     """Return the volume of a release that lies below the lowest ground beside its site [m3].
 
-    So much cannot leave the scar by itself: a depth that is the same everywhere digs a pit with a wall below it.
+    This volume cannot leave the scar by itself: a release of uniform depth digs a pit, with a wall at its lower end.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Ras
     nodes, depth : ndarray, shape (cells,)
         As for `find_sites`.
     elevation : ndarray, shape (nodes,)
-        Of the ground after the failure [m].
+        Elevation of the ground after the failure [m].
     closed : ndarray of bool, shape (nodes,)
         Nodes over which nothing can leave.
     raster : Raster
@@ -125,5 +125,5 @@ def volume_below_lips(sites: Sites, nodes, depth, elevation, closed, raster: Ras
         there, site = (r * raster.columns + c)[beside], sites.of_cell[beside]
         usable = ~closed[there]
         np.minimum.at(lip, site[usable], elevation[there[usable]])
-    lip = np.where(np.isfinite(lip), lip, -np.inf)[sites.of_cell]  # walls all round: that is no pit
+    lip = np.where(np.isfinite(lip), lip, -np.inf)[sites.of_cell]  # a site between closed nodes is no pit
     return float(np.clip(lip - elevation[nodes], 0.0, depth).sum() * raster.area)

@@ -1,4 +1,4 @@
-"""Parameters and methods that the laws of consolidating columns share; no law itself."""
+"""Parameters and methods shared by the laws of consolidating columns."""
 
 import functools
 from typing import ClassVar
@@ -15,12 +15,12 @@ class Consolidating:
 
     levels: int = parameter("-", "levels of a column, base and surface included", 11, (3, 1001), kind=int)
     loading_source: str = parameter(
-        "-", "what a change of thickness does to the pressure", "overburden", choices=tuple(LOADING)
+        "-", "change of the pressure by a change of thickness", "overburden", choices=tuple(LOADING)
     )
     scheme: str = parameter("-", "how the equation is solved", "default", choices=tuple(MEMORY_SIZE))
     bed_contact: str = parameter(
-        "-", "whether the bed prescribes the pressure of a base that erodes, or what flows in", "dirichlet",
-        choices=BED_CONTACT,
+        "-", "whether the bed prescribes the pressure of a base that erodes, or only that of the soil that flows in",
+        "dirichlet", choices=BED_CONTACT,
     )  # fmt: skip
     tolerance: float = parameter(
         "-", "error over the load aimed at when columns are left alone, 0: never; by default 0.3/(levels - 1)^2",
@@ -31,7 +31,8 @@ class Consolidating:
     )
 
     stores_pressure: ClassVar[bool] = True
-    moves_with_grains: ClassVar[bool]  # grains keep their depth below the surface; else their fraction of the depth
+    # True: grains keep their depth below the surface; False: their fraction of the depth
+    moves_with_grains: ClassVar[bool]
 
     def _agree(self):
         check_scheme(self)
@@ -58,7 +59,7 @@ class Consolidating:
         dt : float
             Duration of the step [s].
         basal_pressure : ndarray, shape (n,)
-            Written: excess pore pressure that friction feels [Pa].
+            Written: excess pore pressure at the base, for friction [Pa].
         """
         advance(self, columns, forcing, dt, basal_pressure)
 

@@ -29,7 +29,7 @@ class ConstantRatio:
 
     ratio: float = parameter("-", "excess pore pressure over its liquefaction value", 0.65, (0.0, 1.0))
 
-    stores_pressure: ClassVar[bool] = False  # sources come to nothing
+    stores_pressure: ClassVar[bool] = False  # sources of pressure have no effect
     memory_size: ClassVar[int] = 0
 
     @property
@@ -49,7 +49,7 @@ class ConstantRatio:
         dt : float
             Duration of the step [s].
         basal_pressure : ndarray, shape (n,)
-            Written: excess pore pressure that friction feels [Pa].
+            Written: excess pore pressure at the base, for friction [Pa].
         """
         np.multiply(forcing.liquefaction_pressure, self.ratio, out=basal_pressure)
 

@@ -1,4 +1,4 @@
-"""How fast a column erodes against how fast it consolidates."""
+"""Times of erosion and consolidation of a column, and their ratio, the basal Péclet number."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ def consolidation_time(thickness, coefficient_of_consolidation):
     thickness : array_like
         Slope-normal [m].
     coefficient_of_consolidation : array_like
-        [m2 s-1]; 0 takes for ever.
+        [m2 s-1]; 0 gives inf.
 
     Examples
     --------
@@ -29,7 +29,7 @@ def erosion_time(thickness, entrainment_rate):
     thickness : array_like
         Slope-normal [m].
     entrainment_rate : array_like
-        Slope-normal [m s-1]; 0 takes for ever.
+        Slope-normal [m s-1]; 0 gives inf.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def basal_peclet_number(entrainment_rate, thickness, coefficient_of_consolidatio
     Parameters
     ----------
     entrainment_rate : array_like
-        Slope-normal [m s-1]; without erosion the number is 0 whatever the consolidation.
+        Slope-normal [m s-1]; without erosion the number is 0, even if nothing consolidates.
     thickness : array_like
         Slope-normal [m].
     coefficient_of_consolidation : array_like

@@ -16,7 +16,7 @@ def forcing_at_rest(
     volume, thickness, liquefaction_pressure, *, coefficient_of_consolidation=0.0, bed_pressure=0.0,
     base=BaseContact.BY_EROSION, porosity_source=0.0, water_to_buoyant=WATER_TO_BUOYANT, bounded=True,
 ) -> ColumnForcing:  # fmt: skip
-    """Return the forcing of columns into which nothing comes.
+    """Return the forcing of columns without inflow of soil.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def forcing_at_rest(
     Returns
     -------
     ColumnForcing
-        Of arrays of its own.
+        Forcing with arrays of its own.
     """
     members = {
         "volume": volume,
@@ -69,7 +69,7 @@ def _arrays(members, count: int) -> dict:
 
 
 class Columns:
-    """Columns of one law and the forcing that they were told last.
+    """Columns of one law and the forcing of their last step.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class Columns:
     forcing : ColumnForcing
         Forcing of the last step.
     basal_pressure : ndarray, shape (n,)
-        Excess pore pressure that friction feels [Pa].
+        Excess pore pressure at the base, for friction [Pa].
 
     Examples
     --------
@@ -128,7 +128,7 @@ class Columns:
         Returns
         -------
         ndarray, shape (n,)
-            Excess pore pressure that friction feels [Pa].
+            Excess pore pressure at the base, for friction [Pa].
         """
         old = self.forcing
         changes = _arrays({"entrained": entrained, **changes}, old.volume.size)

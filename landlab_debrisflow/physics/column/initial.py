@@ -1,4 +1,4 @@
-"""The excess pore pressure a column is released with."""
+"""The excess pore pressure of a column at release."""
 
 import numpy as np
 
@@ -38,10 +38,9 @@ def initial_profile(liquefaction_pressure, levels: int, ratio, profile: str, bas
     if profile == "linear":
         return base * eta
     if profile == "basal_layer":
-        # A level stands for the half cells beside it (a half cell at base and surface), and takes the
-        # part of them that lies in the layer: the sum over the levels is then that of the step, for a
-        # layer of any thickness. The base level keeps its part too, so a layer thinner than half a
-        # cell starts below its own pressure rather than with more of it than there is.
+        # A level stands for the half cells beside it (one half cell at base and surface), and gets the fraction of them
+        # that lies in the layer. So the sum over the levels is the content of the layer, whatever its thickness. If the
+        # layer is thinner than half a cell, the base level starts below the pressure of the layer.
         cells = levels - 1
         below = cells * (1.0 - eta) - 0.5
         filled = np.clip(basal_layer_fraction * cells - below, 0.0, 1.0)

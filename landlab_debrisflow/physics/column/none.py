@@ -20,7 +20,7 @@ class NoExcessPressure:
     NoExcessPressure()
     """
 
-    stores_pressure: ClassVar[bool] = False  # sources come to nothing
+    stores_pressure: ClassVar[bool] = False  # sources of pressure have no effect
     memory_size: ClassVar[int] = 0
 
     @property
@@ -40,7 +40,7 @@ class NoExcessPressure:
         dt : float
             Duration of the step [s].
         basal_pressure : ndarray, shape (n,)
-            Written: excess pore pressure that friction feels [Pa].
+            Written: excess pore pressure at the base, for friction [Pa].
         """
         basal_pressure[:] = 0.0
 

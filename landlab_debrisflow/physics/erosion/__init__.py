@@ -1,4 +1,4 @@
-"""Laws of entrainment: how fast the flow asks soil from the bed."""
+"""Laws of entrainment: the rate at which the flow erodes the bed."""
 
 from .growth import Growth
 from .liquefied_bed import LiquefiedBed

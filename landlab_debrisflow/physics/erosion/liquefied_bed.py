@@ -8,17 +8,17 @@ from ..contracts import BasalState
 
 @declared
 class LiquefiedBed:
-    """e_R = 2 tan(phi) sigma'/(rho v cos(theta)), at most a highest rate: the bed bears nothing, having liquefied.
+    """e_R = 2 tan(phi) sigma'/(rho v cos(theta)), at most a highest rate: a bed that liquefies bears no shear stress.
 
     Symbols: e_R erosion rate per map area [m s-1]; phi, `basal_friction_angle` [deg]; sigma' effective normal stress at
     the base [Pa]; rho density of the mixture [kg m-3]; v speed [m s-1]; theta slope of the bed; h_n slope-normal
     thickness [m]; g gravity [m s-2].
 
-    So all the friction of the flow goes into speeding up soil: E = 2 mu g h_n cos(theta) (1 - lambda)/v normal to the
+    All the friction of the flow then accelerates soil: E = 2 mu g h_n cos(theta) (1 - lambda)/v normal to the
     bed, E/cos(theta) per map area. mu = tan(phi) is the flow's coefficient, not the bed's; lambda is pore pressure over
     normal stress, both total, so rho g h_n cos(theta) (1 - lambda) is sigma', the effective normal stress. Below a
-    speed nothing erodes. The highest rate is by default the highest measured, at which the law then mostly is: without
-    it flows of metres would dig metres in seconds.
+    speed nothing erodes. The highest rate is by default the highest one measured, and the law mostly gives this rate:
+    without it, flows metres deep would erode metres within seconds.
 
     References
     ----------
@@ -44,7 +44,7 @@ class LiquefiedBed:
         """
         here, tiny = state.parameters, np.finfo(float).tiny
         friction = 2.0 * np.tan(here.basal_friction_angle) * state.stress.effective_normal
-        friction *= state.depth / np.maximum(state.thickness, tiny)  # over cos(theta)
+        friction *= state.depth / np.maximum(state.thickness, tiny)  # per map area: over cos(theta)
         np.divide(friction, state.density * np.maximum(state.speed, here.least_speed), out=out)
         np.minimum(out, here.highest_rate, out=out)
         out[state.speed < here.least_speed] = 0.0

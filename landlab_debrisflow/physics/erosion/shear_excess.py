@@ -14,9 +14,9 @@ class ShearExcess:
     base [Pa]; tau_c, `critical_shear_stress` [Pa]; dz/dtau, `erosion_depth_per_stress` [m Pa-1]; rho density of the
     mixture [kg m-3]; g gravity [m s-2]; h_n slope-normal thickness [m]; theta slope of the bed.
 
-    tau = rho g h_n sin(theta) drives the flow; it is not the resistance of a friction law, with which it agrees where
-    the flow neither gains nor loses speed. The eroded depth counts from the beginning of the event, at the node nearest
-    to a particle. An event is over when no particle is left and none will flow in. At rest nothing erodes.
+    tau = rho g h_n sin(theta) drives the flow; it is not the resistance of a friction law; both are equal where the
+    flow neither gains nor loses speed. The eroded depth counts from the beginning of the event, at the node nearest to
+    a particle. An event is over when no particle is left and none will flow in. At rest nothing erodes.
 
     References
     ----------
@@ -43,7 +43,7 @@ class ShearExcess:
             Written: bed volume per map area and time, >= 0 [m s-1].
         """
         here, h_n, h = state.parameters, state.thickness, state.depth
-        # sin(theta) of cos(theta) = h_n/h
+        # sin(theta), from cos(theta) = h_n/h
         sine = np.sqrt(np.maximum(0.0, (h - h_n) * (h + h_n))) / np.maximum(h, np.finfo(float).tiny)
         excess = state.density * state.material.gravity * h_n * sine - here.critical_shear_stress
         erodes = (here.erosion_depth_per_stress * excess > state.eroded_depth) & (state.speed > 0.0)

@@ -10,7 +10,8 @@ from ...spatial.summation import SummationInput, plain_thickness, sum_over_neigh
 from ..contracts import WATER, FlowState
 
 MOST_CROSSED = 4.0
-"""Largest cross term that counts: flows show up to 2, and a particle of next to no mass beside others 1e15 [-]."""
+"""Largest cross term that is allowed: flows have up to 2, but a particle of almost no mass beside others has 1e15
+[-]."""
 
 
 @declared
@@ -18,8 +19,8 @@ class TwoPhase:
     """rho_k h_k dv_k/dt = - grad(thrust of phase k) +- h C_d (v_w - v_s) + ...: k is grains or water.
 
     With the thrust of the effective stress, E = rho' g_n h^2/2 - h p, and of the pore pressure,
-    P = rho_w g_n h^2/2 + h p, p being the depth mean of the excess pore pressure, grains feel
-    - grad E - (1 - n) grad P and water - n grad P, the terms in grad n and grad(n h p) included.
+    P = rho_w g_n h^2/2 + h p, p being the depth mean of the excess pore pressure, the force per area is
+    - grad E - (1 - n) grad P on grains and - n grad P on water, the terms in grad n and grad(n h p) included.
     Drag: Darcy C_d = n^2/k_w, or C_d = n (1 - n) (rho_s - rho_w) g/(V_T n^m).
 
     References
@@ -28,7 +29,7 @@ class TwoPhase:
     Jackson (1967).
     """
 
-    drag: str = parameter("-", "what grains and water do to each other", "darcy", choices=("darcy", "anderson_jackson"))
+    drag: str = parameter("-", "drag between grains and water", "darcy", choices=("darcy", "anderson_jackson"))
     hydraulic_conductivity: float = parameter(
         "m s-1", "of Darcy's drag; by default that of the material's coefficient of consolidation and the stiffness",
         None, (1e-15, 1e6),
@@ -70,7 +71,7 @@ class TwoPhase:
         return porosity ** (1.0 - self.drag_exponent) * (1.0 - porosity) * weight / self.terminal_velocity
 
     def coefficient_of_consolidation(self, porosity, material):
-        """Return K n^2/C_d (eq. 19), by which columns consolidate: the drag between the phases is that within a column.
+        """Return c_v = K n^2/C_d (eq. 19), with which columns consolidate, from the drag between the phases.
 
         Parameters
         ----------
@@ -150,13 +151,13 @@ class TwoPhase:
     def _pressure_coefficients(state: FlowState, water, normal_gravity, thickness):
         """Return thrust over own thickness squared and Omega, and thrust over total thickness squared [N m-3].
 
-        Where the total thickness at a particle changes with its own smoothing length, `cross_term` says by how much.
+        `cross_term` tells how the total thickness at a particle changes with its own smoothing length.
         `water` (bool) tells the phase, `normal_gravity` is across the bed [m s-2], `thickness` is that of both phases
         [m], all of shape (n,).
         """
         mixture = state.mixture
         material, share = mixture.material, mixture.share
-        # water has that of the grains around it, and bears no more of it than its own thickness lets it
+        # water has the pressure of the grains around it, at most the largest that its own thickness can bear
         grain_weight = (material.solid_density - material.water_density) * np.where(water, 1.0 - share, share)
         bounds = -0.5 * material.water_density * normal_gravity, 0.5 * grain_weight * normal_gravity
         pressure = np.clip(mixture.mean_pressure / thickness, *bounds)

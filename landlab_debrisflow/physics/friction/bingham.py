@@ -16,8 +16,9 @@ class Bingham:
     tau_0, `yield_stress` [Pa]; mu, `viscosity` [Pa s]; h_n slope-normal thickness [m]; xi plug over thickness [-];
     sigma' effective normal stress at the base [Pa]; phi, `basal_friction_angle` [deg].
 
-    tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi being 0, not at all.
-    Solved for tau_b: a cubic, xi^3 - (3 + a) xi + 2 = 0 with a = 6 mu (v - v_b)/(tau_y h_n). Without yield stress
+    tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only; with the default phi = 0 it has no
+    effect. Solved for tau_b: a cubic, xi^3 - (3 + a) xi + 2 = 0 with a = 6 mu (v - v_b)/(tau_y h_n). Without yield
+    stress
     tau_b = 3 mu (v - v_b)/h_n.
 
     References
@@ -26,10 +27,10 @@ class Bingham:
     """
 
     yield_stress: float = parameter("Pa", "tau_0, whatever the normal stress", 500.0, (0.0, None), varies=True)
-    viscosity: float = parameter("Pa s", "of what yields: stress beyond yield over shear rate", 50.0, (1e-6, None),
-                                 varies=True)  # fmt: skip
+    viscosity: float = parameter("Pa s", "of the sheared layer: stress beyond yield over shear rate", 50.0,
+                                 (1e-6, None), varies=True)  # fmt: skip
     basal_friction_angle: float = parameter(
-        "deg", "what effective normal stress adds to the yield stress", 0.0, (0.0, 89.0), varies=True
+        "deg", "for the part of the yield stress that grows with effective normal stress", 0.0, (0.0, 89.0), varies=True
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
@@ -61,7 +62,7 @@ def stress_beyond_yield(yield_stress, twice_newtonian, out):
 
     The cubic in w, w^2 (3 tau_y + 2 w) = f (tau_y + w)^2, has one root > 0 and no cancellation near it: w is
     (f tau_y/3)^(1/2) for small f and (f + tau_y)/2 for large. The start is within 12 % of it for every f;
-    Halley's steps leave 1.4e-3, 2e-9, and only rounding: no test of convergence, so that the loop is vectorised.
+    Halley's steps leave errors of 1.4e-3, 2e-9, and rounding. Without a test of convergence the loop is vectorised.
     """
     for i in range(out.size):
         t, f = yield_stress[i], twice_newtonian[i]

@@ -9,7 +9,7 @@ from ..contracts import BasalState
 from .shear import THINNEST, strength
 
 SHEAR_AT_BASE = {"linear": 2.0, "parabolic": 3.0}
-"""Shear rate at the base over (v - v_b)/h_n, v being the mean, of velocity profiles with no more to them."""
+"""Shear rate at the base over (v - v_b)/h_n, v being the mean velocity, by velocity profile."""
 
 
 @declared

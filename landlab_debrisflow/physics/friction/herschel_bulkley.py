@@ -11,7 +11,7 @@ STEPS = 2
 """Number of steps of Halley's method: the first leaves an error of 2e-5, the second only rounding."""
 
 NO_STRESS = 1e-37
-"""Stress that has a logarithm in single precision but is negligible [Pa]."""
+"""Negligible stress whose logarithm exists in single precision [Pa]."""
 
 
 @declared
@@ -23,9 +23,9 @@ class HerschelBulkley:
     `flow_index` [-]; q = w/tau_b [-]; sigma' effective normal stress at the base [Pa];
     phi, `basal_friction_angle` [deg]; u(z) velocity [m s-1] at height z [m] above the bed.
 
-    The layer has tau = tau_y + K (du/dz)^n. w = tau_b - tau_y, for which it is solved; q = w/tau_b is the sheared part
-    of the thickness. tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only, so by default, phi
-    being 0, not at all. n = 1 is Bingham; without yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
+    The layer has tau = tau_y + K (du/dz)^n. The equation is solved for w = tau_b - tau_y; q = w/tau_b is the sheared
+    fraction of the thickness. tau_y = tau_0 + sigma' tan(phi). Pore pressure enters through sigma' only; with the
+    default phi = 0 it has no effect. n = 1 is Bingham; without yield stress tau_b = K ((2 n + 1)(v - v_b)/(n h_n))^n.
 
     References
     ----------
@@ -40,7 +40,7 @@ class HerschelBulkley:
         "-", "n: < 1 thins under shear, 1 is Bingham; about 1/3 for muds (Coussot)", 1.0 / 3.0, (0.1, 2.0), varies=True
     )
     basal_friction_angle: float = parameter(
-        "deg", "what effective normal stress adds to the yield stress", 0.0, (0.0, 89.0), varies=True
+        "deg", "for the part of the yield stress that grows with effective normal stress", 0.0, (0.0, 89.0), varies=True
     )
 
     def basal_resistance(self, state: BasalState, yield_stress, drag) -> None:
@@ -73,8 +73,8 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
 
     The logarithm of the left side is concave in log(w), its slope falls from 1 + n to 1. The start joins the roots for
     small and large w, (A tau_y^n/(2 n + 1)^n)^(1/(1 + n)) and A/(n + 1)^n, as the sum of their powers of
-    1/2 + 1/n, fitted: it is within 10 % of w, for which single precision will do. Logarithms and exponentials are
-    numpy's, which takes several at once.
+    1/2 + 1/n, fitted: it is within 10 % of w, and single precision is enough for it. Logarithms and exponentials are
+    those of numpy, which computes several at once.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def stress_beyond_yield(yield_stress, log_stress, index, out) -> None:
         Written: w [Pa].
     """
     n, log_one, log_two, log_w, log_rate = np.empty((5, out.size))
-    # a number is made an array, too: rounding is then the same
+    # a number becomes an array, too, so that rounding is the same
     n[:], log_one[:], log_two[:] = index, np.log(index + 1.0), np.log(2.0 * index + 1.0)
     gap = np.log(np.maximum(yield_stress, NO_STRESS).astype(np.float32))
     _gap(log_stress, n, log_one, log_two, log_w, gap)

@@ -8,7 +8,7 @@ from ..contracts import BasalState
 from .shear import THINNEST
 
 TINY = 1e-300
-"""Makes 0/0, where there is neither effective stress nor speed, 0."""
+"""Added to a divisor, so that 0/0, without effective stress and speed, becomes 0."""
 
 
 @declared
@@ -39,13 +39,14 @@ class MuI:
 
     def _agree(self):
         given = self.static_friction_angle, self.limiting_friction_angle
-        if any(isinstance(angle, str) for angle in given):  # a field, known on a grid only
+        if any(isinstance(angle, str) for angle in given):  # the name of a field, known on a grid only
             return
         low, high = (np.atleast_1d(getattr(angle, "values", angle)) for angle in given)
-        if low.size != high.size and 1 not in (low.size, high.size):  # refused on any grid
+        if low.size != high.size and 1 not in (low.size, high.size):  # a wrong shape is refused on every grid
             return
         low, high = np.broadcast_arrays(low, high)
-        bad = np.flatnonzero((high >= 0.0) & (high < low) & (low <= 89.0))  # out of bounds only closed nodes may be
+        # only values at closed nodes may be out of bounds
+        bad = np.flatnonzero((high >= 0.0) & (high < low) & (low <= 89.0))
         if bad.size:
             raise ParameterError(
                 f"MuI: limiting_friction_angle must be at least static_friction_angle, {low[bad[0]]:g} deg, got "
@@ -68,7 +69,7 @@ class MuI:
         static = np.tan(here.static_friction_angle)
         np.multiply(static, stress, out=yield_stress)
         more = np.maximum(np.tan(here.limiting_friction_angle) - static, 0.0)
-        # I = c v/(h sigma'^(1/2)); sigma' (mu - mu_s)/v multiplied by h sigma'^(1/2), which may be 0
+        # with I = c v/(h sigma'^(1/2)), sigma' (mu - mu_s)/v is multiplied by h sigma'^(1/2), which may be 0
         c = 2.5 * (1.0 - state.material.basal_slip_ratio) * np.sqrt(here.grain_density) * here.grain_diameter
         denominator = np.sqrt(stress)
         denominator *= np.maximum(state.thickness, THINNEST)

@@ -1,6 +1,7 @@
 """Terms shared by friction laws: cohesion and friction, velocity of shear, lower bounds of divisors.
 
-A basal slip ratio s leaves (1 - s) v of the mean velocity to the shear: v_b = s v slides, as a block does.
+With a basal slip ratio s the flow slides at v_b = s v, as a block does; the rest of the mean velocity, (1 - s) v, is by
+shear.
 """
 
 import numpy as np
@@ -8,12 +9,12 @@ import numpy as np
 from ..contracts import BasalState
 
 SLOWEST = 1e-9
-"""Three centimetres a year [m s-1]: at lower speeds the drag is that at this speed. The drag per speed of a fluid with
-a yield stress, or one that thins under shear, goes to infinity at rest; with this bound a body that starts finds its
-speed in a few kicks."""
+"""Least velocity of shear in the drag, three centimetres a year [m s-1]. The drag over speed of a fluid with a yield
+stress, or of one that thins under shear, goes to infinity at rest; with this bound a body that starts reaches its speed
+in a few kicks."""
 
 THINNEST = 1e-6
-"""A grain of clay [m]: least thickness in a rate of shear, so that none divides by 0."""
+"""Least thickness in a rate of shear, a grain of clay [m]: no rate divides by 0."""
 
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:

@@ -1,1 +1,1 @@
-"""How the equation of the column is solved."""
+"""Schemes that solve the equation of the column."""

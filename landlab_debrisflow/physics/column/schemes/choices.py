@@ -1,4 +1,4 @@
-"""The choices of a law, as kernels read them."""
+"""The choices of a law in the form that kernels read."""
 
 from typing import NamedTuple
 

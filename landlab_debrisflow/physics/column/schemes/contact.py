@@ -3,7 +3,7 @@
 from ....core.jit import inner
 from ...contracts import BaseContact
 
-# numba turns no member of an enumeration into a float
+# numba does not convert members of an enumeration to floats
 BY_EROSION = int(BaseContact.BY_EROSION)
 IMPERMEABLE = int(BaseContact.IMPERMEABLE)
 PRESCRIBED = int(BaseContact.PRESCRIBED)
@@ -19,7 +19,7 @@ def contact_of(base, entrained, flux):
     Parameters
     ----------
     base : int
-        `BaseContact` that the step is told.
+        `BaseContact` given for the step.
     entrained : float
         Volume that came in [m3].
     flux : bool

@@ -1,6 +1,6 @@
 """The paper's scheme: Lax-Wendroff for the advection, then explicit diffusion, in sub-steps (eqs. 40 to 44).
 
-Kept to compare with. It is of second order where the profile is smooth, but overshoots at sharp fronts once the
+It is kept for comparison. It is of second order where the profile is smooth, but overshoots at sharp fronts once the
 cell Péclet number is well above one, the more so the smaller the Courant number (docs/theory.md#failures). A base that
 starts to be prescribed has its new pressure at once.
 """
@@ -31,7 +31,7 @@ def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
     dt : float
         Duration [s].
     basal_pressure : ndarray, shape (n,)
-        Written: the excess pore pressure that friction feels [Pa].
+        Written: the excess pore pressure at the base, for friction [Pa].
     scheme : Scheme
         Choices of the law.
     """
@@ -45,7 +45,7 @@ def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
         if advective <= MOST_SUBSTEPS and diffusive <= MOST_SUBSTEPS:
             prescribed, bed = is_prescribed(steps[i, CONTACT]), beds[min(i, beds.size - 1)]
             _take_substeps(profile, i, math.ceil(max(advective, diffusive)), growth, diffusion, prescribed, bed)
-        else:  # or not a number
+        else:  # too many, or not a number
             profile[i, :] = np.nan
     end_step(columns, forcing, basal_pressure)
 
@@ -76,10 +76,10 @@ def _advect(profile, i, grown):
     `profile`, shape (n, levels), is changed in row `i` [Pa]; ``grown`` is a part of the thickness [-].
     """
     cells = profile.shape[1] - 1
-    # e_R dt/h such that 1 + e + e^2/2, by which the scheme multiplies a linear profile, is 1 + grown: a constant ratio
-    # survives. To the order of the scheme it is ln(1 + grown).
+    # e stands for e_R dt/h. The scheme multiplies a linear profile by 1 + e + e^2/2; e is chosen so that this is 1 +
+    # grown, and a constant ratio stays one. To the order of the scheme e is ln(1 + grown).
     e = 2.0 * grown / (1.0 + math.sqrt(1.0 + 2.0 * grown))
-    below = profile[i, 0]  # has no slope if the base is impermeable, and is overwritten if not
+    below = profile[i, 0]  # without slope if the base is impermeable; a prescribed base is overwritten
     for k in range(1, cells):
         here, above = profile[i, k], profile[i, k + 1]
         courant = e * (cells - k)

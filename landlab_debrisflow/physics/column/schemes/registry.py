@@ -25,7 +25,7 @@ def check_scheme(law) -> None:
     if law.scheme == "lax_wendroff" and law.bed_contact == "flux":
         raise ParameterError(
             f"{type(law).__name__}: bed_contact must be 'dirichlet' with scheme 'lax_wendroff', got 'flux': "
-            "the paper's scheme knows a prescribed base only"
+            "the paper's scheme has a prescribed base only"
         )
 
 
@@ -37,8 +37,8 @@ def advance(law, columns, forcing, dt: float, basal_pressure) -> None:
 def synchronise(law, columns, forcing) -> None:
     """Turn columns into pressures at levels, as they are now, at least suction; for output, of a copy.
 
-    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one. Other
-    schemes than the default keep pressures at levels.
+    `law` is a declared column law, `columns` a `ColumnState`, changed in place [Pa]; `forcing` is the last one. Schemes
+    other than the default keep pressures at levels anyway.
     """
     if law.scheme == "default":
         synchronise_columns(columns, forcing, law.choices)

@@ -11,11 +11,11 @@ from .contact import ERODING, PRESCRIBED, contact_of
 IS_KNOWN, LAST_LOAD, WAS_PRESCRIBED = range(3)
 SIZE = 3
 
-# columns of what a step does: `BaseContact`; volume entrained over volume before; diffusion c_v dt / h^2
+# columns of the array of steps: `BaseContact`; volume entrained over volume before; diffusion c_v dt / h^2
 CONTACT, GROWTH, DIFFUSION = range(3)
 
-GROWTH_CAP = 1e9  # growth after which all is new
-DIFFUSION_CAP = 1e9  # c_v dt / h^2 after which nothing is left
+GROWTH_CAP = 1e9  # largest growth that is counted: no old soil is left long before
+DIFFUSION_CAP = 1e9  # largest c_v dt / h^2 that is counted: no pressure is left long before
 
 
 @inner
@@ -49,7 +49,7 @@ def begin_step(columns, forcing, dt, scheme):
         contact = contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux)
         prescribed = is_prescribed(contact)
         old_load = memory[i, LAST_LOAD]
-        if memory[i, IS_KNOWN] == 0.0:  # nothing but erosion has changed it
+        if memory[i, IS_KNOWN] == 0.0:  # a new column: only erosion has changed its load
             old_load = load * before / volume if volume > 0.0 else load
         if prescribed and memory[i, WAS_PRESCRIBED] == 0.0:
             bed = beds[min(i, beds.size - 1)]
@@ -58,7 +58,7 @@ def begin_step(columns, forcing, dt, scheme):
         _load(profile, i, eta, gain, scale, sources[min(i, sources.size - 1)] * dt, prescribed)
         memory[i, IS_KNOWN], memory[i, LAST_LOAD], memory[i, WAS_PRESCRIBED] = 1.0, load, 1.0 if prescribed else 0.0
         steps[i, CONTACT], steps[i, GROWTH] = contact, _over(entrained[i], before, GROWTH_CAP)
-        # thickness before times thickness after, were there erosion only: exact for a constant rate of it
+        # h^2 is thickness after times thickness before, with erosion as the only change: exact for a constant rate
         diffused = coefficients[min(i, coefficients.size - 1)] * dt * volume
         steps[i, DIFFUSION] = _over(diffused, thicknesses[i] * thicknesses[i] * before, DIFFUSION_CAP)
     return steps
@@ -86,7 +86,7 @@ def _loading(volume, before, load, old_load, scheme):
         if scheme.loads_by_erosion:
             return load - old_load, 1.0
         if volume > 0.0 and before > 0.0:
-            # what lies on a grain: the grain keeps its depth, as at the start of the step, or its fraction of it
+            # volume above a grain, which keeps its depth (that at the start of the step) or its fraction of the depth
             carried = before if scheme.moves_with_grains else 0.5 * (before + volume)
             return carried * (load / volume - old_load / before), 1.0
     elif scheme.loading == PROPORTIONAL and old_load > 0.0 and volume > 0.0 and before > 0.0:

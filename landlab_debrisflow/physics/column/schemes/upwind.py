@@ -28,7 +28,7 @@ def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
     dt : float
         Duration [s].
     basal_pressure : ndarray, shape (n,)
-        Written: the excess pore pressure that friction feels [Pa].
+        Written: the excess pore pressure at the base, for friction [Pa].
     scheme : Scheme
         Choices of the law.
     """

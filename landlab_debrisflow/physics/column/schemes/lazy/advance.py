@@ -1,11 +1,11 @@
 """The default scheme: it advances the excess pore pressure of all columns in one call.
 
-A column whose base is impermeable is kept as the modes it decays in (`impermeable_base`), exact at every step. One
-that erodes has its base prescribed, so that its profile is not needed: it is kept as pressures at levels and
-advanced when it has grown by some per cent, when its base changes, or for output (`prescribed_base`).
+A column whose base is impermeable is kept as the modes it decays in (`impermeable_base`), exact at every step. A column
+that erodes has a prescribed pressure at its base, so that friction does not need its profile: it is kept as pressures
+at levels and advanced when it has grown by some per cent, when its base changes, or for output (`prescribed_base`).
 
-Each stage is a kernel of its own that goes through a list of columns and is called from here. One kernel
-that called them all would be compiled with a copy of each, and most of them twice.
+Each stage is a kernel of its own that goes through a list of columns and is called from here. A single kernel that
+called all stages would be compiled with a copy of each stage, of most stages with two.
 """
 
 import numpy as np
@@ -19,7 +19,8 @@ from .prescribed_base import commit, diffuse, grow
 from .state import LazyColumns, Present, records
 
 ROUNDING = 1e-9
-"""Pressure out of bounds over the load that a column in modes may have just after an update [-]."""
+"""Largest excess of pressure over its bounds, over the load, that a column in modes may have just after an update
+[-]."""
 NONE_DUE = (0, 0, 0)
 
 
@@ -35,7 +36,7 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
     dt : float
         Duration [s].
     basal_pressure : ndarray, shape (n,)
-        Written: the excess pore pressure that friction feels [Pa].
+        Written: the excess pore pressure at the base, for friction [Pa].
     scheme : Scheme
         Choices of the law.
     """
@@ -72,7 +73,7 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
     if count := counts[IN_MODES]:
         selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
         advance_modes(columns, selected, modes)
-        # the base as it is now, and the columns that are out of bounds
+        # write the present basal pressure, and list the columns that are out of bounds
         _, state, _ = columns
         counts = accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
         if count := counts[IN_MODES]:
@@ -82,7 +83,7 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
 
 
 def _switch(columns, selected, forcing, basal_pressure, scheme):
-    """Put some columns on another base.
+    """Put some columns on a base with another contact.
 
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of columns, int; `forcing` is the
     `ColumnForcing` of the step; `basal_pressure`, shape (n,), is written [Pa]; `scheme` holds the choices of the law.
@@ -121,9 +122,9 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of columns, int; `forcing` is the
     `ColumnForcing` of the step; `basal_pressure`, shape (n,), is written [Pa]; `scheme` holds the choices of the law.
 
-    Unless their contact is ``ending``, diffusion that is to come after the remap is deferred to the next update. If it
-    ends, the jump at a base that has just changed, which levels do not see yet, and the content of the layer over it,
-    over that jump and the thickness, are remembered.
+    Unless their contact is ``ending``, diffusion that is to come after the remap is deferred to the next update. If the
+    contact ends, the columns remember the boundary layer that levels do not resolve yet: the jump of pressure at the
+    base, and the content of the layer over jump and thickness.
     """
     _, state, _ = columns
     contact, modes = state["contact"][selected], modes_of(scheme.levels)

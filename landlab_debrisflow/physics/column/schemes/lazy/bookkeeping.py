@@ -1,6 +1,6 @@
 """Account of diffusion, load and source of every column, step by step, and the lists of columns that are due.
 
-Most columns are left alone in most steps. This is the loop that all of them pass through, so it is kept short.
+Most columns are not advanced in most steps. All columns pass through this loop, so it is kept short.
 """
 
 import math
@@ -11,16 +11,19 @@ from ..contact import IMPERMEABLE, INFLOW, contact_of
 from .boundary_layer import is_resolved
 from .impermeable_base import bounds_with_gains
 
-DIFFUSION_CAP = 1e12  # c_v t / h^2; far beyond what leaves nothing
-LOSS = 4.0 / (3.0 * math.sqrt(math.pi))  # of a load put on evenly, over the square root of c_v t / h^2
+DIFFUSION_CAP = 1e12  # largest c_v t / h^2 that is counted: no pressure is left long before
+# fraction of an evenly increasing load that has left the base, over the square root of c_v t / h^2
+LOSS = 4.0 / (3.0 * math.sqrt(math.pi))
 STRIDE = 1.5  # growth of a column in one update over the square root of the tolerance (benchmarks/column.py)
-MODES_FRACTION = 0.25  # of the tolerance: error of a column in modes between two updates
-BED_FRACTION = 0.25  # of that growth: pressure of the bed or by a source since the update, over the load
-GRADING = 0.5  # growth in one update over that since the contact began: the layer over the base is young at first
-EXCESS = 0.1  # of the load by which levels above an impermeable base may be more than liquefied until the next update
+MODES_FRACTION = 0.25  # error of a column in modes between two updates, over the tolerance
+# change of the pressure of the bed, or by a source, over the load that makes an update due, over STRIDE
+BED_FRACTION = 0.25
+# growth in one update over that since the contact began: steps are short while the layer over the base is young
+GRADING = 0.5
+EXCESS = 0.1  # excess over liquefaction, over the load, allowed above an impermeable base until the next update
 
 CHANGED, IN_MODES, AT_LEVELS = range(3)
-"""Lists of columns that `accumulate` writes: contact is another one; due in modes; due at levels."""
+"""Lists of columns that `accumulate` writes: with a new contact; due in modes; due at levels."""
 
 
 @inner
@@ -30,7 +33,8 @@ def diffusion_of(coefficient_times_dt, thickness, volume, before):
     `coefficient_times_dt` is c_v t [m2], `thickness` [m] and `volume` [m3] are after the step, `before` is the volume
     before it [m3].
 
-    Squared is the thickness before times that after, were there erosion only: exact for a constant rate.
+    In place of h^2 stands the thickness after the step times that before it, with erosion as the only change: exact for
+    a constant rate.
     """
     square, diffused = thickness * thickness * max(before, 0.0), coefficient_times_dt * volume
     if diffused < DIFFUSION_CAP * square:
@@ -51,16 +55,16 @@ def accumulate_in_modes(column, diffusion, load, old_load, source, loading):
     load, old_load : float
         Liquefaction pressure after and before the step [Pa].
     source : float
-        Gain of every grain by a change of porosity [Pa].
+        Pressure gained at every level by a change of porosity [Pa].
     loading : int
         A value of `choices.LOADING`.
 
     Returns
     -------
     pressure, error : float
-        At the base, and the bound of its error [Pa].
+        Pressure at the base, and the bound of its error [Pa].
     high_slope : float
-        Upper bound of the column over eta [Pa].
+        Upper bound of the pressure over eta [Pa].
     lost : float
         Fraction of an even load since the update that has gone from the base [-].
     """
@@ -95,8 +99,8 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
     forcing, dt, basal_pressure, scheme
         As in `advance.advance_columns`.
     due : ndarray of int, shape (3, m) or wider
-        Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column whose contact
-        is another one than before is listed as that, and nothing else is done with it.
+        Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column with a new
+        contact is only listed.
     excess_allowed : float
         Pressure above liquefaction over the load, of a column in modes [-].
 
@@ -105,7 +109,7 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
     changed, in_modes, at_levels : int
         Lengths of the rows.
     """
-    # plain arrays: those of a tuple are counted at every access
+    # taken out of their tuples once: numba counts references at every access
     volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
     entrained, beds, sources, bases = forcing.entrained, forcing.bed_pressure, forcing.porosity_source, forcing.base
     coefficients, lower, bounded = forcing.coefficient_of_consolidation, forcing.water_to_buoyant, forcing.bounded
@@ -126,11 +130,13 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         column.load = load
         if contact == IMPERMEABLE:
             pressure, error, high_slope, lost = accumulate_in_modes(column, diffusion, load, old_load, source, loading)
-            allowed = MODES_FRACTION * tolerance * max(load, -pressure)  # of a film the suction that it lacks, too
+            # a film lacks suction: its magnitude counts, too
+            allowed = MODES_FRACTION * tolerance * max(load, -pressure)
             is_due = error > allowed
             if bounded:
-                # it may be more than liquefied somewhere. The worth of that reaches the base like a load does; the base
-                # itself is clipped at once. Friction feels no more than suction, however much more the column lacks
+                # pressure above liquefaction higher in the column, to be clipped, would reach the base as a load does;
+                # the base itself is clipped at once. Friction gets at most the suction allowed, even if the column
+                # lacks more
                 excess = max(high_slope - load, 0.0)
                 is_due |= error + lost * excess > allowed or excess > excess_allowed * load
                 pressure = min(max(pressure, -lower * load), load)
@@ -144,7 +150,7 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         column.diffusion = min(column.diffusion + diffusion, DIFFUSION_CAP)
         column.source_gain += source
         is_due = _is_due_at_levels(column, volume, load, pressure, stride)
-        if is_due and column.contact_is_new != 0.0:  # levels must see the layer that forms over the base
+        if is_due and column.contact_is_new != 0.0:  # not before levels resolve the layer that forms over the base
             growth = 1.0 - column.volume_at_update / volume if scheme.moves_with_grains else 0.0
             is_due = is_resolved(scheme.levels - 1, growth, column.diffusion)
         if is_due or contact >= INFLOW:
@@ -209,7 +215,8 @@ def set_contact(columns, selected, forcing, scheme, closing):
         column = state[i]
         bed, load, old_load, volume = beds[min(i, beds.size - 1)], loads[i], column.load, volumes[i]
         volume -= entrained[i]
-        if scheme.loading != UNLOADED and load > 0.0:  # a bed of constant ratio had it before the step too
+        # for a constant ratio: the pressure of the bed before the step was less, as the load was
+        if scheme.loading != UNLOADED and load > 0.0:
             bed *= old_load / load
         column.contact, column.contact_is_new = contact, 1.0
         column.volume_at_update, column.load_at_update, column.diffusion = volume, old_load, 0.0

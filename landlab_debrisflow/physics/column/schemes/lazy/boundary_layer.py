@@ -10,7 +10,7 @@ import math
 from .....core.jit import inner
 
 ROOT_PI = math.sqrt(math.pi)
-RESOLVED = 1.5  # cells from which levels can follow the layer
+RESOLVED = 1.5  # least thickness of a layer that levels resolve [cells]
 
 
 @inner
@@ -30,7 +30,7 @@ def boundary_layer(distance, growth, diffusion):
         return 1.0 if distance < growth else 0.0
     root = 2.0 * math.sqrt(diffusion)
     before, after = (distance - growth) / root, (distance + growth) / root
-    if after < 5.0:  # exp(e x / D) erfc: the exponent is the difference of the squares
+    if after < 5.0:  # exp(e x / D) erfc(after): the exponent is the difference of the squares of `after` and `before`
         beyond = math.exp(min(after * after - before * before, 700.0)) * math.erfc(after)
     else:  # five terms of the asymptotic series of exp(x^2) erfc(x), 1e-6 here
         square = 0.5 / (after * after)
@@ -58,7 +58,7 @@ def layer_content(growth, diffusion):
 
 @inner
 def is_resolved(cells, growth, diffusion):
-    """Return whether levels, `cells` intervals, can follow the layer; `growth`, `diffusion` as in `boundary_layer`."""
+    """Return whether levels, `cells` intervals, resolve the layer; `growth`, `diffusion` as in `boundary_layer`."""
     return cells * (growth + 2.0 * math.sqrt(diffusion)) > RESOLVED
 
 
@@ -68,7 +68,7 @@ def basal_filling(cells, growth, diffusion):
 
     `cells` is the number of intervals between levels; `growth` and `diffusion` are as in `boundary_layer` [-].
 
-    The filling is the integral of the layer less the part already seen by the levels above.
+    The fraction is the integral of the layer less the part that the levels above already hold.
     """
     if diffusion <= 0.0:
         return min(2.0 * cells * growth, 1.0)
@@ -80,10 +80,10 @@ def basal_filling(cells, growth, diffusion):
 
 @inner
 def mode_of_layer(number, diffusion):
-    """Return the amplitude of the mode of a wave number in the layer over a base that stood still [-].
+    """Return the amplitude of the mode with a wave number in the layer over a base without erosion [-].
 
     Over an impermeable base: ``2 integral erfc(y / 2 root(diffusion)) cos(number y) dy``, Dawson's integral over the
-    wave number, here by a rational fit that is right to 8e-4 and in both limits.
+    wave number, here by a rational fit with an error below 8e-4 that is exact in both limits.
     """
     x = number * math.sqrt(diffusion)
     s = x * x

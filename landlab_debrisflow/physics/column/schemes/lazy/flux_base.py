@@ -1,6 +1,6 @@
 """Columns that grow at a base without prescribed pressure: entrained soil brings only its own pressure.
 
-Nothing diffuses in from the bed, so that the content of the column is kept to the last digit.
+Nothing diffuses in from the bed, so that the content of the column is conserved to the last digit.
 """
 
 import numpy as np
@@ -45,7 +45,7 @@ def grow_by_flux(columns, selected, present, scheme, modes):
     scheme : Scheme
         Choices of the law.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     volumes, loads = present
@@ -64,7 +64,8 @@ def grow_by_flux(columns, selected, present, scheme, modes):
             scale = load_strain(load, old_load, volume, start)
             entry = entry * scale
         diffuse_profile(profile, i, NEUMANN, first, 0.0, 0.0, 0.0, 0.0, source, modes, work[0])
-        at_base = weight * old_load / stretch - scale * profile[i, 0]  # as deep as the base is now
+        # effective stress of the grains that were at the base, under the present load
+        at_base = weight * old_load / stretch - scale * profile[i, 0]
         content = scale * _effective(profile, i, weight * old_load)
         content = stretch * content + (1.0 - stretch) * 0.5 * (entry + new_entry)
         remap_profile(profile, i, stretch, old_load, load, (weight, scale, entry, new_entry), work)
@@ -90,13 +91,13 @@ def _effective(profile, i, load):
 
 @inner
 def _restore(profile, i, load, content, low, high):
-    """Add the missing content to one column, because nothing diffuses in from the bed and rounding must not add up.
+    """Restore the content of one column that remap and rounding changed: nothing diffuses in from the bed.
 
     `profile`, shape (n, levels), is changed in row `i`; `load` is its load, `content` the mean of load * eta - p that
     it is to have [Pa].
 
-    The base level takes it between ``low`` and ``high`` [Pa], and the rest goes to the levels above, none of which goes
-    beyond the one below it, over eta.
+    The base level takes the difference as far as its bounds ``low`` and ``high`` [Pa] allow. The rest goes to the
+    levels above, none of which may exceed the level below, both over eta.
     """
     cells = profile.shape[1] - 1
     profile[i, 0] = load

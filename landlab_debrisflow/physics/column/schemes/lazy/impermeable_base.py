@@ -1,8 +1,8 @@
-"""Columns over an impermeable base: kept as the modes they decay in, exact after any time.
+"""Columns over an impermeable base, kept as amplitudes of decaying modes, exact after any time.
 
-Friction needs the basal pressure at every step, but between two updates of the modes a parabola serves, whose
-error the modes bound. Loads since the update lift the base by the pressure it bears; the loss of them to the
-column above goes with the square root of time.
+Friction needs the basal pressure at every step. Between two updates of the modes a parabola in time gives it, with an
+error that the modes bound. A load that comes after the update raises the basal pressure by its own amount; the part
+that diffuses away from the base grows with the square root of time.
 """
 
 import math
@@ -18,7 +18,7 @@ from .state import BANDS
 
 @inner
 def base_slope(profile, i, cells):
-    """Return dp/d(eta) at the base as seen from inside, no steeper than twice the lowest cell [Pa].
+    """Return dp/d(eta) at the base, extrapolated from above, at most twice that of the lowest cell [Pa].
 
     `profile`, shape (n, levels), is read in row `i` [Pa]; `cells` is the number of intervals between levels.
     """
@@ -31,9 +31,10 @@ def base_slope(profile, i, cells):
 def to_modes(columns, selected, modes):
     """Turn columns at levels into modes over an impermeable base; `advance_modes` comes next.
 
-    Over the base there may be a layer that levels hardly see, of some jump and content (`prescribed_base`). It is taken
-    as the diffusion from a base held at that jump, and goes into the modes by itself: those of the levels get the part
-    of its content that levels have, the shorter ones the part that they lack at the base.
+    Over the base there may be a boundary layer too thin for the levels, with a known jump and content
+    (`prescribed_base`). It is represented as diffusion from a base held at that jump, and is turned into modes
+    separately: the modes that levels resolve get the part of its content that levels hold, the shorter modes the part
+    that is missing at the base.
 
     Parameters
     ----------
@@ -42,7 +43,7 @@ def to_modes(columns, selected, modes):
     selected : ndarray of int
         Indices of the columns.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     cells = profile.shape[1] - 1
@@ -62,13 +63,13 @@ def to_modes(columns, selected, modes):
                 missing -= pressure
                 profile[i, k] -= jump * pressure
                 removed += jump * pressure
-            filling = min(max(2.0 * missing, 0.0), 1.0)  # as in `boundary_layer.basal_filling`
+            filling = min(max(2.0 * missing, 0.0), 1.0)  # the same as `boundary_layer.basal_filling`
             profile[i, 0] -= jump * filling
             removed += 0.5 * jump * filling
             for j in range(cells):
                 of_layer[j] = jump * mode_of_layer(math.sqrt(modes.squares[j]), diffusion)
                 kept += of_layer[j] * 0.5 * cells * modes.uniform[NEUMANN, 0, j]
-        scale = removed / kept if kept != 0.0 else 0.0  # 1 but for the levels' own error
+        scale = removed / kept if kept != 0.0 else 0.0  # differs from 1 by the error of the levels
         slope = base_slope(profile, i, cells)
         unseen = bed - profile[i, 0]
         for k in range(cells):
@@ -80,7 +81,7 @@ def to_modes(columns, selected, modes):
             if scale != 0.0:
                 amplitude, unseen = amplitude + scale * of_layer[j], unseen - scale * of_layer[j]
             profile[i, j] = amplitude
-        for band in range(BANDS):  # by the mode in its middle; the last has the rest
+        for band in range(BANDS):  # each band by its middle mode; the last one takes the rest
             amplitude = 0.0
             if scale != 0.0:
                 amplitude = cells * 2**band * jump * mode_of_layer(math.sqrt(modes.band_rate) * 2**band, diffusion)
@@ -117,7 +118,7 @@ def to_levels(columns, selected, modes):
             eta = modes.eta[k]
             profile[i, k] = min(max(levels[k], low, low_slope * eta), high, high_slope * eta)
             lost += (levels[k] - profile[i, k]) * (0.5 if k == 0 else 1.0)
-        # the base level takes back what the bounds took off, as far as they let it: the content does not jump
+        # the base level takes the pressure that the bounds cut off, as far as its own bounds allow, to keep the content
         profile[i, 0] = min(max(profile[i, 0] + 2.0 * lost, low, low_slope), high, high_slope)
         profile[i, cells] = 0.0
         column.contact, column.layer_jump = BY_EROSION, 0.0
@@ -139,12 +140,12 @@ def advance_modes(columns, selected, modes):
         factor = square * square
         factor = factor * factor
         ratio = factor
-        for j in range(cells):  # exp(-number^2 diffusion), with one exponential for all
+        for j in range(cells):  # factors exp(-number^2 diffusion), by products instead of one exponential for each mode
             factors[j] = decay
             decay *= ratio
             ratio *= factor
         if load_gain != 0.0 or source_gain != 0.0:
-            # gain of a mode: exactly, but linear in time where that formula cancels
+            # gain of a mode: exact, or linear in time where the exact formula loses digits
             brief = diffusion < BRIEF
             rate, now = (0.0, 0.5) if brief else (1.0 / diffusion, 0.0)
             for j in range(cells):
@@ -175,9 +176,9 @@ def advance_modes(columns, selected, modes):
 
 @inner
 def _expand_base(profile, column, i, modes):
-    """Write the pressure at the base of one column, its parabola in c_v t / h^2 and the remainder of that [Pa].
+    """Write the pressure at the base of one column, its parabola in c_v t / h^2 and the bound of the remainder [Pa].
 
-    `profile`, shape (n, levels), holds amplitudes [Pa] in row `i`; `column`, the memory of that column, is written;
+    `profile`, shape (n, levels), holds amplitudes [Pa] in row `i`; `column`, the memory of the column, is written;
     `modes` are the constants of the modes.
     """
     pressure, rate, bend, remainder = 0.0, 0.0, 0.0, 0.0
@@ -211,7 +212,7 @@ def clip_modes(columns, selected, forcing, modes):
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int; `forcing` holds load [Pa]
     and thickness [m].
 
-    Modes too short for the levels stay as they are. Arguments as in `to_modes`, and the `ColumnForcing`.
+    Modes too short for the levels are not changed.
     """
     profile, state, clipped = columns
     loads, thicknesses = forcing.liquefaction_pressure, forcing.thickness
@@ -235,7 +236,7 @@ def clip_modes(columns, selected, forcing, modes):
 
 @inner
 def _synthesise(profile, column, i, modes, levels):
-    """Write the pressures of one column at the levels [Pa]; of a thin layer they see no more than its content.
+    """Write the pressures of one column at the levels [Pa]; a thin layer enters the base level by its content only.
 
     `profile`, shape (n, levels), holds amplitudes [Pa] in row `i`, `column` is the memory of that column; `levels`,
     shape (levels - 1,), is written from the base upwards.

@@ -1,10 +1,11 @@
 """The sine modes in which the pressure of a column diffuses: each decays by itself, exactly.
 
 Over an impermeable base the modes are ``sin(w eta)`` with ``w = (j + 1/2) pi``, over a prescribed one
-``w = (j + 1) pi``; ``eta = y/h``. Levels see the modes that fit between them and mistake all shorter
-modes for longer ones. A smooth profile has no short modes. But loading, a base pressure that changes
-and a base that has just closed or opened each bring in the profile ``eta``, whose modes fall off slowly.
-That part gets its own coefficients, and the shorter modes in it a tail of its own.
+``w = (j + 1) pi``; ``eta = y/h``. Levels resolve only modes longer than two spacings; shorter modes would appear as
+longer ones. A smooth profile has no short modes. But loading, a change of the basal pressure and a change of the
+contact at the base each add the profile ``eta``, whose amplitudes fall off slowly with the wave number. So the
+amplitudes of ``eta`` are taken from their formula, and the modes of ``eta`` that are too short for the levels are added
+as a tabulated tail.
 """
 
 import math
@@ -16,9 +17,10 @@ import numpy as np
 from .....core.jit import inner
 from .state import BANDS
 
-NEUMANN, DIRICHLET = 0, 1  # rows of the constants of modes: no flux through the base; pressure at the base given
-TAIL_END, TAIL_POINTS = 1.6, 256  # the table of the tail runs over sqrt(c_v t / h^2) * cells: exp(-pi^2 1.6^2) = 1e-11
-BRIEF = 1e-6  # c_v t / h^2 below which the gain of a mode is taken as linear in time (its formula cancels)
+NEUMANN, DIRICHLET = 0, 1  # conditions at the base, first axis of the constants: no flux; a given pressure
+# end of the table of the tail, in sqrt(c_v t / h^2) * cells, where exp(-pi^2 1.6^2) = 1e-11 is left
+TAIL_END, TAIL_POINTS = 1.6, 256
+BRIEF = 1e-6  # c_v t / h^2 below which the gain of a mode is linear in time, because the exact formula loses digits
 
 
 class Modes(NamedTuple):
@@ -35,9 +37,9 @@ class Modes(NamedTuple):
     uniform : ndarray, shape (2, 2, modes)
         Amplitudes of 1 at all levels; the quotient of these and the squared wave number.
     pattern : ndarray, shape (2, levels - 1)
-        eta less its modes.
+        eta less the sum of its resolved modes.
     tail : ndarray, shape (2, points)
-        Decay of that part.
+        Decay of this difference.
     eta : ndarray, shape (levels - 1,)
         1 at the base, 0 at the surface, which is left out.
     squares : ndarray, shape (modes,)
@@ -45,7 +47,7 @@ class Modes(NamedTuple):
     bands : ndarray, shape (BANDS,)
         eta at an impermeable base in shorter modes, by bands of an octave.
     band_rate : float
-        Rate of decay of the first of these; of the next four times as fast, and so on.
+        Rate of decay of the first band; each further band decays four times as fast.
     """
 
     shapes: np.ndarray
@@ -81,15 +83,15 @@ def modes_of(levels: int) -> Modes:
     numbers = np.array([(index + 0.5) * np.pi, (index + 1.0) * np.pi])
     shapes = np.sin(numbers[:, :, None] * eta)
     shapes[0] *= sign[:, None]
-    shapes[1, :, 0] = 0.0  # sin(j pi), exactly
-    shapes[1, -1, :] = 0.0  # the mode that the levels cannot see
+    shapes[1, :, 0] = 0.0  # sin(j pi) is 0, without rounding
+    shapes[1, -1, :] = 0.0  # the mode whose zeros are the levels
     project = shapes * (2.0 / cells)
     project[:, :, 0] *= 0.5  # the base level stands for half a cell
     ramp = np.array([2.0 / numbers[0] ** 2, 2.0 * sign / numbers[1]])
     ramp[1, -1] = 0.0
     uniform = project.sum(axis=2)
     pattern = eta - np.einsum("bj,bjk->bk", ramp, shapes)
-    pattern[1, 0] = 0.0  # a prescribed base is what it is
+    pattern[1, 0] = 0.0  # the pressure at a prescribed base is given
     squares = numbers**2
     return Modes(
         shapes, np.ascontiguousarray(project.transpose(0, 2, 1)), np.stack([ramp, ramp / squares], 1),
@@ -100,7 +102,7 @@ def modes_of(levels: int) -> Modes:
 
 
 def _bands(cells: int, whole: float) -> np.ndarray:
-    """Return eta at the base in octaves of modes, from the number of cells on; the last has all the rest [-]."""
+    """Return eta at the base by octaves of modes, beginning at the number of cells; the last band has the rest [-]."""
     octaves = [
         np.sum(2.0 / ((np.arange(cells << band, cells << band + 1) + 0.5) * np.pi) ** 2) for band in range(BANDS - 1)
     ]
@@ -115,12 +117,13 @@ def _tail(cells: int, condition: int) -> np.ndarray:
     """
     table = []
     for diffusion in (np.linspace(0.0, TAIL_END, TAIL_POINTS) / cells) ** 2:
-        last = 4000 * cells if diffusion == 0.0 else int(np.sqrt(40.0 / diffusion) / np.pi)  # exp(-40) is nothing
+        # modes below exp(-40) are left out
+        last = 4000 * cells if diffusion == 0.0 else int(np.sqrt(40.0 / diffusion) / np.pi)
         index = np.arange(cells, max(last, cells + 1))
-        if condition == NEUMANN:  # seen at the base
+        if condition == NEUMANN:  # at the base
             number = (index + 0.5) * np.pi
             amplitude = 2.0 / number**2
-        else:  # seen one level above it
+        else:  # one level above the base
             number = (index + 1.0) * np.pi
             amplitude = 2.0 * (-1.0) ** index / number * np.sin(number * (1.0 - 1.0 / cells))
         table.append(np.sum(amplitude * np.exp(-(number**2) * diffusion)))
@@ -129,7 +132,7 @@ def _tail(cells: int, condition: int) -> np.ndarray:
 
 @inner
 def tail_after(diffusion, cells, table):
-    """Return the tail after ``diffusion`` = c_v t / h^2 over that before [-].
+    """Return the tail after ``diffusion`` = c_v t / h^2 over the tail at the start [-].
 
     `cells` is the number of intervals between levels; `table`, shape (TAIL_POINTS,), is a row of `Modes.tail`.
     """
@@ -147,8 +150,8 @@ def bounds_of(profile, i, low, high, eta):
     `profile` has shape (n, levels) [Pa], of which row `i` is read; `low` and `high` bound the pressure of the base
     [Pa]; `eta`, shape (levels - 1,), is 1 at the base and 0 at the surface, which is left out.
 
-    Diffusion and stretching leave a column between these: a constant and a line through the surface that
-    once enclose it do so for ever.
+    Diffusion and stretching keep a column within these bounds: a constant, or a line through the surface, that encloses
+    the profile once encloses it for ever.
     """
     low, high = min(low, 0.0), max(high, 0.0)
     low_slope, high_slope = low, high
@@ -175,13 +178,13 @@ def diffuse_profile(profile, i, condition, diffusion, base, new_base, kink, load
     diffusion : float
         c_v t / h^2 [-].
     base, new_base : float
-        Pressure at a given base, from first to last; 0 over an impermeable one [Pa].
+        Pressure at a given base at the start and at the end; 0 over an impermeable base [Pa].
     kink : float
-        Pressure of the column at a given base above ``base``, at first; over an impermeable one dp/d(eta) there [Pa].
+        Pressure of the column above ``base`` at a given base, at the start; dp/d(eta) at an impermeable base [Pa].
     load_gain, source_gain : float
-        Every grain gains ``load_gain * eta + source_gain`` evenly in time [Pa].
+        The pressure at every grain gains ``load_gain * eta + source_gain``, evenly in time [Pa].
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     work : ndarray, shape (levels - 1,) or longer
         Scratch.
     """
@@ -201,10 +204,10 @@ def diffuse_profile(profile, i, condition, diffusion, base, new_base, kink, load
         profile[i, k] = new_base * eta[k]
     loss, gain = min(source_gain, 0.0), max(source_gain, 0.0)
     low, high = min(low, new_base) + min(load_gain, 0.0) + loss, max(high, new_base) + max(load_gain, 0.0) + gain
-    # a line through the surface that encloses the column may move as the load does, and must enclose the base
+    # lines through the surface that enclose the column move with the load, and must enclose the base
     low_slope = min(low_slope + load_gain + cells * loss, new_base)
     high_slope = max(high_slope + load_gain + cells * gain, new_base)
-    # exp(-number^2 diffusion) without an exponential for every mode
+    # factors exp(-number^2 diffusion), by products instead of one exponential for each mode
     lowest = math.exp(-0.25 * math.pi * math.pi * diffusion)
     factor = lowest**8
     decay, ratio = (lowest**4, lowest**12) if condition == DIRICHLET else (lowest, factor)
@@ -221,7 +224,7 @@ def diffuse_profile(profile, i, condition, diffusion, base, new_base, kink, load
             profile[i, k] += amplitude * shapes[j, k]
         decay *= ratio
         ratio *= factor
-    # a ramp has had, in the mean, 4/9 of the time (a tail goes with the square root of it)
+    # pressure that came evenly in time has diffused, in the mean, for 4/9 of it: a tail grows with its square root
     table = modes.tail[condition]
     tail = kink * tail_after(diffusion, cells, table) + push * tail_after(diffusion / 2.25, cells, table)
     for k in range(cells):

@@ -1,11 +1,11 @@
 """Columns over a prescribed base: kept as pressures at levels, updated once for several steps.
 
-A column diffuses, is stretched (`remap`), and diffuses again. How much of the diffusion comes last follows
-from how much of the stretching is left by the end, half where little diffuses; it is joined to the first
-of the next time. Over a base that has just changed, a layer forms that levels do not resolve (`boundary_layer`).
+In an update a column diffuses, is stretched (`remap`), and diffuses again. The part of the diffusion after the remap
+depends on the stretching, and is half if little diffuses; it is put off and joined to the first diffusion of the next
+update. Over a base that has just changed, a layer forms that levels do not resolve (`boundary_layer`).
 
-The base level stands for half a cell. A base that starts to erode fills it first; a profile does not
-jump on a switch, and a base that chatters pumps nothing in.
+The base level stands for half a cell. If a base starts to erode, the boundary layer fills this half cell gradually. So
+a profile does not jump when the contact changes, and a contact that changes back and forth pumps no pressure in.
 """
 
 import math
@@ -19,16 +19,15 @@ from .boundary_layer import basal_filling, boundary_layer, is_resolved, layer_co
 from .modes import DIRICHLET, NEUMANN, bounds_of, diffuse_profile
 from .remap import remap_profile
 
-LEAST_STRETCH = 1e-9  # volume before over volume after: nothing is left of the old column
-LAYER_END = 0.05  # c_v t / h^2 up to which the layer over a base that has just changed does not feel the surface
+LEAST_STRETCH = 1e-9  # volume before over volume after below which no old soil is left
+LAYER_END = 0.05  # largest c_v t / h^2 at which the layer over a base that has just changed has not reached the surface
 
 
 @inner
 def load_strain(load, old_load, volume, start):
     """Return the ratio of new to old load without erosion [-]; 1 without load, where the bounds empty the column.
 
-    `load` and `old_load` are liquefaction pressures now and at the last update [Pa], `volume` and `start` volumes then
-    [m3].
+    `load` and `old_load` are liquefaction pressures, `volume` and `start` volumes, now and at the last update [Pa, m3].
     """
     return load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
 
@@ -72,7 +71,8 @@ def diffuse(columns, selected, present, ending, scheme, modes):
             inside = base_level * scale * scale + load_gain
             jump, first_jump = new_base - inside, (base - base_level) * scale * scale
             if jump != 0.0:
-                # a jump that came evenly since then is as two of half of it (Gauss), and sent two thirds as much in
+                # a jump that came evenly in time acts as two jumps of half the size (Gauss); 2/3 as much has diffused
+                # in
                 evenly = min(max(1.0 - first_jump / jump, 0.0), 1.0)
                 _fill_base_level(profile, column, i, (inside, jump, evenly), 0.0, diffusion)
 
@@ -81,8 +81,8 @@ def diffuse(columns, selected, present, ending, scheme, modes):
 def grow(columns, selected, present, ending, scheme, modes):
     """Diffuse columns that grow by soil that comes in at a prescribed base.
 
-    Carried along with the grains is ``weight * load * eta - p``, the effective stress or less the
-    pressure; ``entry`` is that of the soil that comes in.
+    The grains carry ``weight * load * eta - p``, which is the effective stress or minus the pressure; ``entry`` is its
+    value in the soil that comes in.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def grow(columns, selected, present, ending, scheme, modes):
     scheme : Scheme
         Choices of the law.
     modes : Modes
-        Of columns of so many levels.
+        Modes of columns with this number of levels.
     """
     profile, state, _ = columns
     volumes, loads = present
@@ -114,12 +114,13 @@ def grow(columns, selected, present, ending, scheme, modes):
         elif scheme.loading == PROPORTIONAL:
             scale = load_strain(load, old_load, volume, start)
             entry = entry * scale
-        # over a base that has just changed: the column as if it had not, and the layer that forms over it
+        # over a base that has just changed: advance the column as if it had not changed, then add the boundary layer
         diffusion = column.diffusion
         fresh = column.contact_is_new > 0.0 and diffusion < LAYER_END
         low, high, low_slope, high_slope = bounds_of(profile, i, base, base, modes.eta)
         given, jump, new_jump = base, 0.0, 0.0
-        if fresh:  # soil with the ratio of the base would have come in, so that a constant ratio stays one
+        # the column without the layer takes in soil with its own ratio at the base, so that a constant ratio stays one
+        if fresh:
             given, carried = base_level, scale * (weight * old_load - base_level)
             growth = 1.0 if scheme.loading == UNLOADED else 1.0 / stretch
             jump, new_jump = carried - entry, carried * growth - new_entry
@@ -136,7 +137,7 @@ def grow(columns, selected, present, ending, scheme, modes):
         profile[i, 0] = new_base
         if not fresh:
             continue
-        # the bounds of the column move as its grains and their load do, and must enclose the base
+        # bounds of the column move with its grains and their load, and must enclose the base
         loaded, growth, diffusion = weight * (load - old_load / stretch), 1.0 - stretch, diffusion * stretch
         larger, pull = max(scale, 1.0), scale / stretch
         bounds = (
@@ -150,10 +151,10 @@ def grow(columns, selected, present, ending, scheme, modes):
 
 @inner
 def split_diffusion(column, stretch, condition):
-    """Return the diffusion before and after the remap [-], and the gain by a source of pressure with each [Pa]."""
+    """Return the diffusion before and after the remap [-], and the parts of the gain by a source in both [Pa]."""
     diffusion = column.diffusion
     after = diffusion_after(diffusion, condition)
-    # the thickness was another one before the remap than after it
+    # c_v t / h^2 before the remap counts with the thickness before
     first, last = column.deferred_diffusion + (diffusion - after) / stretch, after * stretch
     last_source = column.source_gain * last / (diffusion * stretch) if diffusion > 0.0 else 0.0
     return first, last, column.source_gain - last_source, last_source
@@ -188,13 +189,13 @@ def commit(columns, selected, forcing, basal_pressure):
 
 @inner
 def _fill_base_level(profile, column, i, change, growth, diffusion):
-    """Fill the half cell of the base level as far as the layer over a base that has just changed reaches.
+    """Fill the half cell of the base level with the boundary layer over a base that has just changed.
 
     `profile`, shape (n, levels), is changed in row `i` [Pa], as is `column`, its memory; `growth` and `diffusion` are
     as in `boundary_layer` [-].
 
-    ``change`` is the pressure inside, the jump of the base above it [Pa], and the fraction of the jump that came evenly
-    since then, the rest at once.
+    ``change`` is the pressure inside [Pa], the jump of the base over it [Pa], and the fraction of the jump that came
+    evenly in time; the rest came at once.
     """
     inside, jump, evenly = change
     cells, filling = profile.shape[1] - 1, 0.0
@@ -208,9 +209,9 @@ def _fill_base_level(profile, column, i, change, growth, diffusion):
 
 @inner
 def diffusion_after(diffusion, condition):
-    """Return the part of the diffusion of an update that is to come after its remap [-].
+    """Return the part of the diffusion of an update that comes after its remap [-].
 
-    With this part the slowest mode decays as much as if diffusion and remap went on together.
+    With this part the slowest mode decays as much as if diffusion and growth went on together.
     """
     rate = math.pi * math.pi * (1.0 if condition == DIRICHLET else 0.25)
     x = rate * diffusion
@@ -221,7 +222,7 @@ def diffusion_after(diffusion, condition):
 
 @inner
 def add_loading_by_erosion(profile, i, stretch, load):
-    """Add the load that the whole dh/dt puts on the grains while new soil comes in below them [Pa].
+    """Add the source by loading with the whole dh/dt, erosion included, to the letter of the paper [Pa].
 
     `profile`, shape (n, levels), is changed in row `i`; `stretch` is the volume before over that after [-], `load` the
     liquefaction pressure [Pa].
@@ -234,7 +235,7 @@ def add_loading_by_erosion(profile, i, stretch, load):
 
 @inner
 def _add_layer(profile, i, jumps, growth, diffusion, bounds, eta):
-    """Add the layer over a base that has just changed by the first of ``jumps``, and in the end by the other [Pa].
+    """Add the layer over a base that has just changed; ``jumps`` are the jump at the start and at the end [Pa].
 
     `profile`, shape (n, levels), is changed in row `i` [Pa]; `growth` and `diffusion` are as in `boundary_layer`, `eta`
     is 1 at the base and 0 at the surface [-].

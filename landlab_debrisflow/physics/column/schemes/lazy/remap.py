@@ -1,10 +1,10 @@
 """Remap of a column that erodes: grains keep their depth while new soil comes in at the base.
 
-With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before
-over the volume after: exactly, over any interval (docs/theory.md#column; eq. 35 of Pastor et al., 2022,
-integrated). Effective stress is interpolated where grains bear their overburden, so that a
-liquefied grain stays so. No new extreme appears. Interpolation does not keep the content of the column
-to the last digit; restoring the lost content would make an error of first order in the level spacing.
+With ``eta = y/h`` a grain moves from ``eta`` to ``stretch * eta``, ``stretch`` being the volume before over the volume
+after. This is exact over any interval (docs/theory.md#column; eq. 35 of Pastor et al., 2022, integrated). Effective
+stress is interpolated where grains bear their overburden, so that liquefied soil stays liquefied. No new extreme
+appears. Interpolation does not conserve the content of the column to the last digit; restoring it would make an error
+of first order in the level spacing.
 """
 
 from .....core.jit import inner
@@ -14,10 +14,11 @@ from .....core.jit import inner
 def interpolate(values, ratios, cells, position):
     """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
 
-    `values`, shape (levels,), counted from the surface downwards, are effective stresses [Pa], `ratios` are these over
-    their place; `cells` is their number less 1; `position` is the depth below the surface in cells [-].
+    `values`, shape (levels,), are effective stresses from the surface downwards [Pa], `ratios` the same over their
+    depth in cells; `cells` is the number of levels less 1; `position` is the depth below the surface in cells [-].
 
-    Its ratio to the position is clipped as well, to those of the two (beside the surface, of the two next to it).
+    The ratio of the result to the position is clipped, too, to the ratios of the two (beside the surface, to those of
+    the next two).
     """
     low = min(int(position), cells - 1)
     if cells < 3:
@@ -36,7 +37,7 @@ def interpolate(values, ratios, cells, position):
 
 @inner
 def remap_profile(profile, i, stretch, load, new_load, carried, work):
-    """Stretch one column, and fill it from below.
+    """Stretch one column, and fill its lower end with the soil that came in.
 
     Parameters
     ----------
@@ -47,8 +48,8 @@ def remap_profile(profile, i, stretch, load, new_load, carried, work):
     load, new_load : float
         Overburden at the base before and after [Pa].
     carried : tuple of float
-        ``(weight, scale, entry, new_entry)``: ``scale * (weight * load * eta - p)`` is carried along with the grains;
-        ``entry`` and ``new_entry`` are that of the soil that comes in first and last, at the base [Pa].
+        ``(weight, scale, entry, new_entry)``: the grains carry ``scale * (weight * load * eta - p)``; ``entry`` and
+        ``new_entry`` are its values in the soil that comes in first and last, at the base [Pa].
     work : ndarray, shape (2, levels)
         Scratch.
     """
@@ -56,7 +57,7 @@ def remap_profile(profile, i, stretch, load, new_load, carried, work):
     weight, scale, entry, new_entry = carried
     old, ratios = work[0], work[1]
     width, pull = 1.0 / cells, 1.0 / stretch
-    for k in range(cells + 1):  # counted from the surface
+    for k in range(cells + 1):  # m counts levels from the surface
         m = cells - k
         old[m] = scale * (weight * load * (m * width) - profile[i, k])
         ratios[m] = old[m] / max(m, 1)
@@ -64,6 +65,6 @@ def remap_profile(profile, i, stretch, load, new_load, carried, work):
         eta = m * width
         if eta <= stretch:
             value = interpolate(old, ratios, cells, m * pull)
-        else:  # soil that came in when the base was where this level is now
+        else:  # soil that came in when the base was at the present depth of this level
             value = entry + (eta - stretch) / (1.0 - stretch) * (new_entry - entry)
         profile[i, cells - m] = weight * new_load * eta - value

@@ -46,7 +46,7 @@ import numpy as np
 
 from .....core.structs import struct
 
-BANDS = 4  # of modes too short for the levels, seen at an impermeable base
+BANDS = 4  # bands of modes too short for the levels: their sum at an impermeable base
 
 ALWAYS = ("contact", "load", "diffusion", "source_gain", "base_pressure")
 IN_MODES = (
@@ -60,7 +60,7 @@ AT_LEVELS = (
 IN_BANDS = ("unresolved_bands", "layer_bands")
 
 MEMBERS = [(name, float) for name in ALWAYS + IN_MODES + AT_LEVELS] + [(name, float, (BANDS,)) for name in IN_BANDS]
-LAYOUT = np.dtype((np.record, MEMBERS))  # records, so that members are attributes in plain Python, too
+LAYOUT = np.dtype((np.record, MEMBERS))  # np.record gives attributes in plain Python, too
 SIZE = LAYOUT.itemsize // np.dtype(float).itemsize
 """Number of floats of a column in `ColumnState.memory`."""
 
@@ -86,7 +86,7 @@ class LazyColumns(NamedTuple):
 
 @struct
 class Present(NamedTuple):
-    """What n columns bear now."""
+    """Volume and load of n columns now."""
 
     volume: np.ndarray  # (n,) [m3]
     load: np.ndarray  # (n,) liquefaction pressure [Pa]
