@@ -150,7 +150,7 @@ def draw_shown(
         norm.vmin, norm.vmax = checked_limits(limits, isinstance(norm, LogNorm))
     colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, PLAIN))
     image = draw_values(axes, shown.values, relief, place, norm, colours, contours=contours)
-    draw_colour_bar(axes, image, norm, [shown.values.values], shown.quantity.unit, place)
+    draw_colour_bar(axes, image, norm, [within(shown.values, place).values], shown.quantity.unit, place)
     if scale == TIME:
         draw_isochrones(axes, shown.values, place)
     if region is not None:
