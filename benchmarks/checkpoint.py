@@ -1,4 +1,4 @@
-"""What a checkpoint of a large event takes: time and size, and the part of a run at the default interval.
+"""Cost of a checkpoint of a large event: time and size, and its fraction of a run at the default interval.
 
 python -m benchmarks.checkpoint
 """

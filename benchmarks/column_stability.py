@@ -1,11 +1,11 @@
 """Where the schemes of the pore-pressure column are stable: python -m benchmarks.column_stability
 
 A map over the cell Péclet number e_R dx/c_v at the base and the Fourier number of a step, c_v dt/dx^2, both with the
-first thickness, of 11 levels. A cold column erodes over a bed of 1 Pa until its thickness has doubled, but for 4000
-steps at most and 8 at least; then it stands over an impermeable base for as many steps, and then erodes as long over
-a bed of 0 Pa. The exact pressure stays between 0 and 1 Pa. Measured after every step: by how much the largest pressure
-is above 1 Pa, by how much the least is below 0, and whether anything is not a number: Lax-Wendroff gives up a column
-that would need more than 1e5 sub-steps in one step.
+first thickness, of 11 levels. A cold column erodes over a bed of 1 Pa until its thickness has doubled, for 4000 steps
+at most and 8 at least; then it stands over an impermeable base for as many steps, and then erodes as long over a bed of
+0 Pa. The exact pressure stays between 0 and 1 Pa. Measured after every step: by how much the largest pressure is above
+1 Pa, by how much the least is below 0, and whether anything is not a number: Lax-Wendroff gives up a column that would
+need more than 1e5 sub-steps in one step.
 
 Prints the worst of each scheme and keeps benchmarks/results/column_stability.nc, from which
 docs/figures/column_stability.png is drawn.

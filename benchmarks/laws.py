@@ -1,7 +1,7 @@
 """What a step costs with every law, over Coulomb friction and growth: ``python -m benchmarks.laws``.
 
 All run the same stand-in valley from the same moment on, in turns: the ratio of CPU time per step
-in one turn is not disturbed by what else the machine does, but for its noise; medians over turns are printed. Two
+in one turn is disturbed by other work of the machine only as noise; medians over turns are printed. Two
 phases have as many particles of each phase as one phase has in all.
 
 Flows differ by the end: where a law keeps particles closer together, their sums have more pairs, and where it erodes

@@ -80,7 +80,7 @@ def walls(n, **keywords):
 
 
 def loaded_bed(n, drained=False, **keywords):
-    """A bed whose pore pressure rises with the weight of what passes, and drains."""
+    """A bed whose pore pressure rises with the weight of the flow, and drains."""
     grid = valley()
     material = {
         "bed_porosity": 0.45, "basal_slip_ratio": 1 / 3, "bed_loading_coefficient": 0.6, "bed_drainage_time": 120.0

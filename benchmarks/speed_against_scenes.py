@@ -1,4 +1,5 @@
-"""What speed_against.py times, a program of its own that either version runs: ``python -P speed_against_scenes.py``.
+"""Scenes that speed_against.py times, as a program of its own that either version runs: ``python -P
+speed_against_scenes.py``.
 
 Reads names of scenes from its input, one a line, and answers each with the CPU time that one run of it takes [s].
 Uses the public interface only, because everything else has other names in another version. So a stage is not timed by

@@ -32,7 +32,7 @@ BY_LATTICE = 50_000  # particles from which they are placed without the relaxati
 
 
 class Steps:
-    """What was done inside `counting`."""
+    """Counts of steps and particle-steps inside `counting`."""
 
     def __init__(self):
         self.steps, self.awake, self.all, self.cpu, self.wall = 0, 0, 0, 0.0, 0.0  # numbers summed over the steps
@@ -209,7 +209,7 @@ STAGES = {
     "look for rest": (simulation.Simulation, "_let_rest"), "peak maps": (peak_maps.PeakMaps, "record"),
     "keep rows": (write.FieldWriter, "keep_rows"), "settle and finish": (write.FieldWriter, "close"),
 }  # fmt: skip
-"""What the profile tells apart; time in a stage that another calls counts for the inner one alone, unless "of it"."""
+"""Stages of the profile; time in a stage that another stage calls counts for the inner stage alone, unless "of it"."""
 
 
 def profile(make, repeats):

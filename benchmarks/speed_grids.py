@@ -1,4 +1,4 @@
-"""What an event costs on a small and on a large raster: nodes touched are counted, CPU times taken in turns."""
+"""Cost of an event on a small and on a large raster: nodes touched, and CPU times taken in turns."""
 
 import os
 import statistics

@@ -1,4 +1,4 @@
-"""What the machine can do: bandwidth of memory and peak of floating-point operations, one thread and more."""
+"""Limits of the machine: bandwidth of memory and peak of floating-point operations, one thread and more."""
 
 import time
 from concurrent.futures import ThreadPoolExecutor

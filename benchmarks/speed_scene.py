@@ -1,4 +1,4 @@
-"""What a user waits for: one scene, an ensemble of scenes, the start of the program."""
+"""Times that a user waits: one scene, an ensemble of scenes, the start of the program."""
 
 import multiprocessing
 import os

@@ -71,7 +71,7 @@ def measure(cold_runs: int) -> Table:
 
 
 def kernels() -> Table:
-    """Return what each kernel of the event costs to compile."""
+    """Return the time that each kernel of the event takes to compile."""
     import numba.core.event as event
 
     class Clock(event.Listener):

@@ -33,6 +33,7 @@ extensions = [
     # of docs/_site
     "outside",
     "anchors",
+    "children",
     "expected",
     "cells",
     "docstrings",

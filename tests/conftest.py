@@ -17,6 +17,11 @@ from .suspicions import BuiltError, suspicions
 from .twins import build, outcome, state
 
 
+def pytest_collection_modifyitems(items):
+    """Build the site last: its pages run side by side, and read the kernels that tests have compiled by then."""
+    items.sort(key=lambda item: "site" in getattr(item, "fixturenames", ()))
+
+
 @pytest.fixture
 def slope():
     """A wet slope of 27 degrees with one metre of soil and 225 m3 about to fail: erodes, leaves nothing."""

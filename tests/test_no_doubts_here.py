@@ -69,7 +69,7 @@ NOTEBOOKS = [path for path in sorted((ROOT / "notebooks").glob("*.ipynb")) if "D
 @pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebooks(path):
-    """Every cell, but for those that ask for what a flow has found."""
+    """Every cell, except cells that read the results of a flow."""
     names, flows = {}, 0
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         code = "".join(line for line in cell["source"] if not line.startswith("%"))

@@ -69,13 +69,13 @@ def dry_block(friction_coefficient, erosion="none", **numerics):
 
 
 def place(flow):
-    """Let what is to fail appear, in a step too short to move it."""
+    """Release the failing ground, in a step too short to move it."""
     flow.run_one_step(1e-9)
     return flow
 
 
 def set_free(flow):
-    """Let what was arrested decide anew whether it moves."""
+    """Set arrested particles free."""
     flow._simulation.set_free()
 
 

@@ -74,7 +74,7 @@ def counting_nodes():
 
 
 def touched_by(flow) -> Touched:
-    """Run a flow to rest; return what it touched."""
+    """Run a flow to rest; return the nodes that it touched."""
     with counting_nodes() as touched:
         flow.run_until_rest()
     return touched

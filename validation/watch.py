@@ -1,4 +1,4 @@
-"""What a scene did: heads, energy and steps, seen through the public interface only.
+"""Record of a scene: heads, energy and steps, by the public interface only.
 
 Bounds. A body has the energy V (v^2/2 + g z + g cos(theta) h/2), summed over its particles; friction, shocks and walls
 only take from it. A single particle may be pushed by others: along a characteristic |v| + 2 c is handed on, so the

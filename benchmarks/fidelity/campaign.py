@@ -1,4 +1,4 @@
-"""Runs of the campaigns, in the order in which they are made: scene by scene, so that what is done can be scored."""
+"""Runs of the campaigns in the order in which they are made: scene by scene, so that finished scenes can be scored."""
 
 from .runs import Run
 from .scenes import NINE

@@ -1,4 +1,4 @@
-"""Measure a run: its quantities at the end, and what it cost."""
+"""Measure a run: its quantities at the end, and its cost."""
 
 import importlib.util
 import logging

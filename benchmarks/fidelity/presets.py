@@ -1,4 +1,4 @@
-"""What the presets of numerics cost and change: the same scenes with other steps and an earlier rest."""
+"""Cost of the presets of numerics, and changes by them: the same scenes with other steps and an earlier rest."""
 
 import numpy as np
 from rich.console import Console

@@ -1,4 +1,4 @@
-"""Run scenes and keep what was measured as lines of JSON: what stands in the file already is not run again."""
+"""Run scenes and keep their measures as lines of JSON: runs that the file holds are not repeated."""
 
 import json
 import multiprocessing

@@ -1,4 +1,5 @@
-"""Score plans on scenes: how often within tolerance, at what cost, how often the stated error covers the true one."""
+"""Score plans on scenes: frequency of errors within the tolerance, cost, and frequency of stated errors that cover true
+ones."""
 
 import math
 from collections.abc import Callable

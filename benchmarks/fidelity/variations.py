@@ -1,4 +1,4 @@
-"""Variations of a run, in words joined by "+": what is done otherwise than the scene says.
+"""Variations of a run, in words joined by "+": the differences to the scene.
 
 fast          the cheap steps: Courant number 1, one node per step
 fastest       the same, and rest at 1e-3 of the peak energy

@@ -18,7 +18,7 @@ PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 
 
 def write(rng: np.random.Generator, path: Path, content: dict[str, Any], form: str) -> str:
-    """Write a GeoPackage or Shapefile of some form; return what was changed."""
+    """Write a GeoPackage or Shapefile of some form; return the change as text."""
     kind = path.suffix
     files = dict(
         _good(
@@ -143,7 +143,7 @@ def _change_tables(rng: np.random.Generator, path: Path) -> str:
 
 
 def _geometry(rng: np.random.Generator, blob: bytes) -> tuple[Any, str]:
-    """Return a geometry of a GeoPackage with one change, and what was done; the head has 40 bytes, or 8 for a point."""
+    """Return a geometry of a GeoPackage with one change, and the change as text; a head has 40 bytes, of a point 8."""
     head = 8 + {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}[(blob[3] >> 1) & 7]
     where, width = one(rng, (
         ("magic", (0, 2)), ("version", (2, 3)), ("flags", (3, 4)), ("srs_id", (4, 8)), ("envelope", (8, 16)),

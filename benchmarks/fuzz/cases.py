@@ -26,7 +26,7 @@ class Case(NamedTuple):
     seed: int
 
     def write(self, folder: Path) -> str:
-        """Write the files into an empty directory; return what was changed."""
+        """Write the files into an empty directory; return the change as text."""
         rng = np.random.default_rng([self.seed, self.number, 1])
         return WRITERS[self.kind](rng, folder, self.form)
 

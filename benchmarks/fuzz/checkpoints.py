@@ -88,7 +88,7 @@ def _without_saver(path: Path) -> bytes:
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a checkpoint of some form; return what was changed."""
+    """Write a checkpoint of some form; return the change as text."""
     number = int(rng.integers(len(good())))
     data, path = good()[number], folder / "checkpoint.nc"
     which = f"checkpoint {number}: "
@@ -143,7 +143,7 @@ def _changed_trailer(rng: np.random.Generator, data: bytes) -> tuple[bytes, str]
 
 
 def change_dataset(rng: np.random.Generator, dataset: xr.Dataset) -> tuple[xr.Dataset, str]:
-    """Return the content of a checkpoint with one change, and what was done."""
+    """Return the content of a checkpoint with one change, and the change as text."""
     if rng.random() < 0.3:
         return _change_attribute(rng, dataset)
     name = one(rng, sorted(map(str, dataset.variables)))

@@ -43,7 +43,7 @@ NAMES = ("surge.csv", "surge.txt", "surge.tsv")
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a scene with a hydrograph of some form; return what was changed."""
+    """Write a scene with a hydrograph of some form; return the change as text."""
     ground.write_files(folder)
     name = one(rng, NAMES)
     points = {"points": [[ground.WEST + 25.0, ground.SOUTH + 35.0]], "hydrograph": name, "speed": 4.0, "width": 15.0}

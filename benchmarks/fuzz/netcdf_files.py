@@ -12,7 +12,7 @@ from .odd import HOSTILE, NUMBERS, one
 
 
 def write(rng: np.random.Generator, path: Path, values: np.ndarray, change: bool) -> str:
-    """Write a NetCDF file of varied layout, with one change if asked for; return what was changed."""
+    """Write a NetCDF file of varied layout, with one change if asked for; return the change as text."""
     rows, columns = values.shape
     layout: dict[str, Any] = {
         "x": ground.WEST + (np.arange(columns) + 0.5) * ground.SPACING,

@@ -58,7 +58,7 @@ def odd_value(rng: np.random.Generator, depth: int = 0) -> Any:
 
 
 def damaged(rng: np.random.Generator, data: bytes, most: int = 8) -> tuple[bytes, str]:
-    """Return bytes with a few changes, and what was done."""
+    """Return bytes with a few changes, and the change as text."""
     done = []
     for _ in range(rng.integers(1, most + 1)):
         size = len(data)

@@ -16,7 +16,7 @@ SUFFIXES = {"tiff": ".tif", "ascii": ".asc", "netcdf": ".nc"}
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a scene with a raster of some form; return what was changed."""
+    """Write a scene with a raster of some form; return the change as text."""
     ground.write_files(folder)
     kind = one(rng, ("tiff", "tiff", "ascii", "netcdf"))
     role = one(rng, ("elevation", "elevation", "elevation", "soil", "release"))
@@ -45,7 +45,7 @@ def write(rng: np.random.Generator, folder: Path, form: str) -> str:
 
 
 def write_tiff(rng: np.random.Generator, path: Path, values: np.ndarray, change: bool) -> str:
-    """Write a GeoTIFF of varied layout, with one change of its content if asked for; return what was changed."""
+    """Write a GeoTIFF of varied layout, with one change of its content if asked for; return the change as text."""
     rows, columns = values.shape
     place = Affine(ground.SPACING, 0.0, ground.WEST, 0.0, -ground.SPACING, ground.SOUTH + rows * ground.SPACING)
     profile: dict[str, Any] = {
@@ -214,7 +214,7 @@ CELLS = (
 
 
 def write_ascii(rng: np.random.Generator, path: Path, values: np.ndarray, change: bool) -> str:
-    """Write an ESRI ASCII grid of varied layout, with one change if asked for; return what was changed."""
+    """Write an ESRI ASCII grid of varied layout, with one change if asked for; return the change as text."""
     rows, columns = values.shape
     centre = rng.random() < 0.3
     where, shift = ("center", 0.5 * ground.SPACING) if centre else ("corner", 0.0)

@@ -1,4 +1,4 @@
-"""What is done with the files of a case, as a user would: read, build, run some steps."""
+"""Use of the files of a case, as by a user: read, build, run some steps."""
 
 import contextlib
 import dataclasses

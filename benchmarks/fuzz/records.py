@@ -36,7 +36,7 @@ NAMES = (
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a scene and its results with a record of some form; return what was changed."""
+    """Write a scene and its results with a record of some form; return the change as text."""
     _write_scene(folder)
     results = folder / "results"
     for name, data in good().items():

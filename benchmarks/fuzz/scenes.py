@@ -28,7 +28,7 @@ def write_oddities(folder: Path) -> None:
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a scene of some form; return what was changed."""
+    """Write a scene of some form; return the change as text."""
     ground.write_files(folder)
     write_oddities(folder)
     path, mapping = folder / "scene.yaml", ground.mapping(rng)
@@ -58,7 +58,7 @@ def places(value: Any, path: tuple = ()) -> list[tuple]:
 
 
 def change_value(rng: np.random.Generator, mapping: dict[str, Any]) -> str:
-    """Change one key or value of nested mappings and lists in place; return what was done."""
+    """Change one key or value of nested mappings and lists in place; return the change as text."""
     path = one(rng, places(mapping))
     owner: Any = mapping
     for key in path[:-1]:
@@ -96,7 +96,7 @@ def change_value(rng: np.random.Generator, mapping: dict[str, Any]) -> str:
 
 
 def change_line(rng: np.random.Generator, text: str) -> tuple[bytes, str]:
-    """Return the bytes of a text with one line changed, and what was done."""
+    """Return the bytes of a text with one line changed, and the change as text."""
     lines = text.split("\n")
     k = int(rng.integers(len(lines)))
     line = lines[k]

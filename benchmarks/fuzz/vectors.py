@@ -32,7 +32,7 @@ TYPES = (
 
 
 def write(rng: np.random.Generator, folder: Path, form: str) -> str:
-    """Write a scene with a vector file of some form; return what was changed."""
+    """Write a scene with a vector file of some form; return the change as text."""
     ground.write_files(folder)
     role = one(rng, ("scars", "scars", "scars", *ROLES))
     kind = one(rng, ("geojson", "geojson", "gpkg", "shp", "csv"))
@@ -97,7 +97,7 @@ def _nested(value: Any) -> str:
 
 
 def change_shapes(rng: np.random.Generator, content: dict[str, Any]) -> str:
-    """Change one thing of a GeoJSON in place; return what was done."""
+    """Change one thing of a GeoJSON in place; return the change as text."""
     feature = one(rng, content["features"])
     shape, way = feature["geometry"], int(rng.integers(12))
     if way == 0:
@@ -168,7 +168,7 @@ def change_shapes(rng: np.random.Generator, content: dict[str, Any]) -> str:
 
 
 def _moved(rng: np.random.Generator, coordinates: Any) -> tuple[Any, str]:
-    """Return coordinates elsewhere or of other dimensions, and what was done."""
+    """Return coordinates elsewhere or of other dimensions, and the change as text."""
     name = one(rng, ("far", "a little", "degrees", "swapped", "z", "zm", "flat", "huge", "deeper"))
     if name == "deeper":
         return [coordinates], name

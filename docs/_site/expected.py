@@ -25,8 +25,6 @@ def leave_out(app, docname, source):
     if not absent:
         return  # this file has done its work, and can go
     if docname == "index":
-        if not (Path(app.srcdir) / "decisions").exists():
-            source[0] = source[0].replace("decisions/*\n", "")
         source[0] = re.sub(rf"^(- \[[^\]]*\]\()?({absent})(\.md\))?\n", "", source[0], flags=re.MULTILINE)
     source[0] = re.sub(rf"\[([^\[\]]*)\]\((?:docs/)?(?:{absent})\.md(?:#[\w-]+)?\)", r"\1", source[0])
 

@@ -71,7 +71,7 @@ def run_demo(particles: int, output_dir, console: Console) -> dict[str, dict[str
     console.print(EXPLANATION, highlight=False)
     both = _side_by_side(maps)
     write_dataset(data_path, both)
-    save_figure(_figure(both, before.topographic__elevation), figure_path)
+    save_figure(_figure(both, before.topographic__elevation, found), figure_path)
     console.print(f"Wrote {data_path} and {figure_path}", highlight=False, soft_wrap=True)
     return found
 
@@ -117,11 +117,12 @@ def measure(flow, before) -> dict[str, float]:
 
 
 EXPLANATION = f"""\
-Front: where {FRONT_FRACTION:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is from \
-the crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small viscosity \
-and the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. Péclet \
-numbers: peak at each eroded node, of these the largest and the median. CPU time includes loading (the first time: \
-compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
+All parameters are those of Pastor et al. (2022) for Tsing Shan, or defaults; they are no recommendation for another \
+site. Front: where {FRONT_FRACTION:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is \
+from the crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small \
+viscosity and the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. \
+Péclet numbers: peak at each eroded node, of these the largest and the median. CPU time includes loading (the first \
+time: compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
 friction is 0.30 without excess pore pressure and 0.10 at the bed's ratio of 0.65."""
 
 
@@ -155,15 +156,59 @@ def _side_by_side(maps):
     return both
 
 
-def _figure(both, relief):
-    def panels(field, words):
-        return {f"{words}, {title}": both[field].sel(column=name) for name, title in COLUMNS.items()}
+TITLES = {
+    "ale": "ALE: soil enters the column of pore pressure from below",
+    "classical": "Classical: soil that enters is felt at the base only",
+}
+"""Headings of the two columns of the figure."""
 
+NUMBERS = {
+    "run-out {:.0f} m beyond the dashed line": "run-out of the front beyond the 100 m contour [m]",
+    "eroded {:,.0f} m³": "eroded [m3]",
+    "final volume {:,.0f} m³": "final volume [m3]",
+    "travel angle {:.0f}°": "travel angle [deg]",
+}
+"""Numbers in the figure, and their names in the table."""
+
+SOURCE_OF_VALUES = "parameters of Pastor et al. (2022) for Tsing Shan, which are no recommendation for another site"
+
+
+def _figure(both, relief, found):
+    def panels(field, titles=("", " ")):
+        return {title: both[field].sel(column=name) for title, name in zip(titles, COLUMNS, strict=True)}
+
+    deep = both.debris_flow__max_depth >= DEPOSIT
+    ratio = both.assign(ratio=both.debris_flow__max_basal_pressure_ratio.where(deep))
     layers = [
-        Layer(panels("debris_flow__max_depth", "Peak flow depth"), "depth [m]", "viridis", threshold=DEPOSIT),
-        Layer(panels("debris_flow__eroded_depth", "Erosion"), "eroded depth [m]", "YlOrRd", threshold=DEPOSIT),
-        Layer(panels("debris_flow__deposit_depth", "Deposit"), "deposit depth [m]", "YlGnBu", threshold=DEPOSIT),
-    ]
-    figure = draw_maps(layers, relief, contours=(NON_ERODIBLE_BELOW,))
-    figure.suptitle("A valley with the numbers of Tsing Shan: two models of pore pressure")
+        Layer(panels("debris_flow__max_depth", TITLES.values()), "peak depth [m]", "YlGnBu", threshold=DEPOSIT),
+        Layer(
+            {title: ratio.ratio.sel(column=name) for title, name in zip(("", " "), COLUMNS, strict=True)},
+            "peak basal pressure ratio [–]", "BuGn", (0.0, 0.8),
+        ),
+        Layer(panels("debris_flow__deposit_depth"), "deposit [m]", "PuBu", threshold=DEPOSIT),
+    ]  # fmt: skip
+    figure = draw_maps(
+        layers, relief, contours=(NON_ERODIBLE_BELOW,), margin=25.0,
+        note=f"dashed: {NON_ERODIBLE_BELOW:g} m contour, below which nothing erodes; {SOURCE_OF_VALUES}",
+    )  # fmt: skip
+    arrow = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.0}
+    for axes in figure.axes[:2]:
+        axes.annotate(
+            "downhill", (0.17, 0.88), (0.015, 0.88), xycoords="axes fraction", textcoords="axes fraction",
+            fontsize="small", va="center", arrowprops=arrow,
+        )  # fmt: skip
+    for axes, measured in zip(
+        figure.axes[4:6], found.values(), strict=True
+    ):  # of the deposit, where the valley is empty
+        axes.text(
+            0.015, 0.93, _numbers(measured), transform=axes.transAxes, fontsize="small", va="top", linespacing=1.4
+        )
+    released = f"{found[next(iter(found))]['released [m3]']:,.0f}".replace(",", "\u2009")
+    title = f"One landslide of {released} m³ in one valley, with two models of pore pressure"
+    figure.suptitle(title, fontsize="large")
     return figure
+
+
+def _numbers(measured) -> str:
+    """Return the numbers of a run, a line each."""
+    return "\n".join(text.format(measured[name]).replace(",", "\u2009") for text, name in NUMBERS.items())

@@ -16,7 +16,7 @@ def add_command(commands) -> None:
     plot.add_argument("directory", type=Path, help="directory of the results of a scene, or a file of it (maps.nc)")
     plot.add_argument(
         "--maps", nargs="+", metavar="NAME",
-        help="maps to be drawn, such as max_depth, or all (default: those of an overview and of the scene)",
+        help="maps to be drawn, such as max_depth, or all (default: an overview, its maps, and those of the scene)",
     )  # fmt: skip
     plot.add_argument("--format", choices=FORMATS, default="png", help="format of pictures (default: %(default)s)")
     plot.add_argument(

@@ -1,6 +1,7 @@
 """Blocks of which sections of a report are made: sentences, tables, pictures, text as it is."""
 
 import dataclasses
+import re
 from collections.abc import Sequence
 
 from ..core.words import printable
@@ -31,8 +32,8 @@ class Table:
 
     def __post_init__(self) -> None:
         _make_printable(self, "caption", "note")
-        object.__setattr__(self, "head", [printable(cell) for cell in self.head])
-        object.__setattr__(self, "rows", [[printable(cell) for cell in row] for row in self.rows])
+        object.__setattr__(self, "head", [line(cell) for cell in self.head])
+        object.__setattr__(self, "rows", [[line(cell) for cell in row] for row in self.rows])
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -76,7 +77,7 @@ class Sentences:
     kind = "sentences"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "texts", [printable(text) for text in self.texts])
+        object.__setattr__(self, "texts", [line(text) for text in self.texts])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,9 +96,20 @@ class Verbatim:
         object.__setattr__(self, "text", printable(self.text, lines=True))
 
 
+def line(text: object) -> str:
+    r"""Return a text in one line without control characters; spaces at which no line breaks stay such.
+
+    Examples
+    --------
+    >>> line("5\N{NO-BREAK SPACE}m\n deep") == "5\N{NO-BREAK SPACE}m deep"
+    True
+    """
+    return printable(re.sub(r"[ \t\r\n]+", " ", str(text)).strip(), lines=True)
+
+
 def _make_printable(block: object, *names: str) -> None:
     for name in names:
-        object.__setattr__(block, name, printable(getattr(block, name)))
+        object.__setattr__(block, name, line(getattr(block, name)))
 
 
 Block = Table | Picture | Sentences | Verbatim

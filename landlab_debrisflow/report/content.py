@@ -7,10 +7,9 @@ from datetime import UTC, datetime
 import xarray as xr
 
 from ..core.version import __version__
-from ..core.words import printable
 from ..run.record import RunRecord
 from ..run.results import Results
-from .blocks import Block, Section, Sentences, Table, Verbatim
+from .blocks import Block, Section, Sentences, Table, Verbatim, line
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
 from .errors import error_blocks
@@ -56,7 +55,7 @@ class Content:
 
     def __post_init__(self) -> None:
         for name in ("title", "kind", "state", "alert", "made"):
-            object.__setattr__(self, name, printable(getattr(self, name)))
+            object.__setattr__(self, name, line(getattr(self, name)))
 
 
 def gather_content(results: Results) -> Content:

@@ -54,7 +54,7 @@ def _terrain_rows(record: RunRecord, maps: xr.Dataset) -> list[tuple[str, str]]:
         ("grid", f"{y.size} rows × {x.size} columns of nodes, {spacing} apart; {area(x.size * y.size * dx * dy)}"),
         (
             "extent",
-            f"x {x[0] - dx / 2:.10g} to {x[-1] + dx / 2:.10g} m, y {y[0] - dy / 2:.10g} to {y[-1] + dy / 2:.10g} m",
+            f"x {x[0] - dx / 2:.1f} to {x[-1] + dx / 2:.1f} m, y {y[0] - dy / 2:.1f} to {y[-1] + dy / 2:.1f} m",
         ),
         ("elevation", f"{np.nanmin(z):.2f} to {np.nanmax(z):.2f} m"),
     ]

@@ -58,7 +58,7 @@ def plain(value: object, unit: str = "") -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float | int):
-        return f"{value:.10g}"
+        return f"{value:.10g}" if abs(value) >= 1e5 else f"{value:.6g}"  # map coordinates have seven digits
     if isinstance(value, dict):
         return "; ".join(f"{name}: {plain(one)}" for name, one in value.items()) or "none"
     if isinstance(value, list | tuple):

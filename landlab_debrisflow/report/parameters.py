@@ -15,10 +15,14 @@ from ..scene.keys import OutputKeys, ReleaseKeys, TerrainKeys
 from ..scene.law_entries import Entry, law_entries, other_entries
 from ..scene.terrain_keys import Edit, Zone
 from .blocks import Block, Sentences, Table
-from .numbers import plain
+from .numbers import SPACE, plain
 
 HEAD = ("parameter", "value", "from", "meaning")
 UNKNOWN = "not known"
+DEFAULTS = (
+    "Where it says default, nobody chose the value for this place: the defaults are the values of one event, Tsing "
+    "Shan in Hong Kong (Pastor et al., 2022), and no recommendation."
+)
 HIDDEN = {"directory", "checkpoint_interval", "series_interval", "variables", "format"}
 """Keys of the output that change no number of a report."""
 
@@ -40,7 +44,7 @@ def law_blocks(record: RunRecord, maps: xr.Dataset | None) -> list[Block]:
     ran = _setup_of(maps) or scene
     entries = {entry.title: entry for kind in LAWS for entry in law_entries(kind)}
     entries |= {entry.title: entry for entry in other_entries()}
-    found: list[Block] = []
+    found: list[Block] = [Sentences([DEFAULTS])]
     for kind in LAWS:
         values = _mapping(ran.get(kind))
         name = str(values.pop("law", UNKNOWN))
@@ -90,7 +94,7 @@ def _block(
     note = ""
     if entry is not None:
         source = f" Source: {entry.source}" if entry.source else ""
-        note = f"{': '.join(filter(None, (entry.formula, entry.summary)))}{source}"
+        note = f"{': '.join(filter(None, (entry.formula, entry.summary)))}{source}".replace("``", "")
     rows = []
     for name, value in ran.items():
         field = declared.get(name)
@@ -119,7 +123,7 @@ def _value_words(value: Any, meta: Mapping[str, Any]) -> str:
     """Return a value with its unit, if the value is a number or a list of numbers."""
     unit = str(meta.get("unit", "-"))
     words = isinstance(value, str | bool | dict) or (isinstance(value, list) and not isinstance(value[0], float | int))
-    return plain(value) if words or unit == "-" else f"{plain(value)} {unit_text(unit)}".replace(" °", "°")
+    return plain(value) if words or unit == "-" else f"{plain(value)}{SPACE}{unit_text(unit)}".replace(f"{SPACE}°", "°")
 
 
 def _mapping(value: Any) -> dict[str, Any]:

@@ -87,9 +87,9 @@ def _volumes(record: RunRecord) -> list[str]:
 def _way(outcome: Outcome) -> list[str]:
     if not math.isfinite(outcome.run_out):
         return []
-    start = "the release" if math.isfinite(outcome.travel_angle) else "where it flowed in"
+    start = "the centre of the release" if math.isfinite(outcome.travel_angle) else "the place where it flowed in"
     words = (
-        f"Its front, behind which 99 % of the volume lies, came {rounded(outcome.run_out, 'm')} from the centre of "
+        f"Its front, behind which 99 % of the volume lies, came {rounded(outcome.run_out, 'm')} from "
         f"{start}, measured on the map"
     )
     if math.isfinite(outcome.travel_angle):

@@ -59,7 +59,7 @@ def draw_pictures(
         Directory of the results of a scene, or one file of results, such as ``maps.nc``. Of a run that was not
         finished its last checkpoint is drawn.
     maps : sequence of str, optional
-        Names of maps, or ``all``; by default those of an overview and those that the scene names.
+        Names of maps, or ``all``; by default an overview, the maps of it, and those that the scene names.
     form : {"png", "pdf", "svg"}
         Format of pictures.
     animation : {"gif", "mp4", "none"}
@@ -87,7 +87,7 @@ def draw_pictures(
     recorded = read_recorded(path)
     if "series" in recorded.datasets:
         check_format(f".{animation}")
-    drawings = _drawings(recorded, _chosen(recorded, maps))
+    drawings = _drawings(recorded, _chosen(recorded, maps), with_overview=maps is None or ALL in maps)
     with _folder(path, to) as (folder, note):
         for name, draw in drawings.items():
             file = folder / f"{name}.{form}"
@@ -119,12 +119,12 @@ def _chosen(recorded: Recorded, names: Sequence[str] | None) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def _drawings(recorded: Recorded, names: Sequence[str]) -> dict[str, Callable[[], Any]]:
+def _drawings(recorded: Recorded, names: Sequence[str], with_overview: bool) -> dict[str, Callable[[], Any]]:
     """Return functions that return a figure, by the names of the files."""
     maps, found = recorded.maps, recorded.datasets
     drawings: dict[str, Callable[[], Any]] = {}
     if maps is not None:
-        if len([name for name in OVERVIEW if name in map_names(maps)]) > 1:
+        if with_overview and len([name for name in OVERVIEW if name in map_names(maps)]) > 1:
             drawings["overview"] = partial(draw_overview, maps, shapes=recorded.shapes)
         for name in names:
             places = _places(found) if name == "max_depth" else None

@@ -6,11 +6,15 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from ..component import DebrisFlow
 from ..core.errors import InputError
+from ..grid.checkpoint import FIELD
+from ..grid.fields import OUTPUT_PREFIX
+from ..record.checkpoint_file import read_checkpoint
 from ..record.combine import combine_maps
+from ..spatial.raster import CLOSED
 from .files import MAPS, SERIES, SERIES_SUFFIX
 from .maps import EXPOSURE
 from .results import Results
@@ -79,23 +83,49 @@ def _of_unfinished(results: Results, asked: tuple[str, ...]) -> Recorded:
     maps, failure = None, ""
     for checkpoint in results.checkpoints:
         try:
-            flow = DebrisFlow.load(checkpoint)
+            maps = _maps_of_checkpoint(read_checkpoint(checkpoint))
         except InputError as error:
             failure = str(error)
             continue
-        maps = flow.maps
-        log.warning("the run in %s is %s: drawn is its last checkpoint, at %.6g s", path, state, flow.elapsed_time)
+        log.warning("the run in %s is %s: its last checkpoint is drawn, at %.6g s", path, state, maps.elapsed_time)
         break
     datasets = {}
     if any((path / SERIES).glob("maps_*.nc")):
         with tempfile.TemporaryDirectory() as folder:
             datasets[SERIES] = _opened(combine_maps(path / SERIES, Path(folder) / f"{SERIES}.nc"))
     if maps is None and not datasets:
+        if results.finished:
+            raise InputError(f"plot: {path} lacks its {MAPS}; run the scene anew with --overwrite")
         raise InputError(
             f"plot: {path} holds nothing to draw yet: the run is {state}"
             f"{f', and {failure}' if failure else ' and has no checkpoint'}; landlab-debrisflow resume {path} goes on"
         )
     return Recorded(path, maps, datasets, asked)
+
+
+def _maps_of_checkpoint(checkpoint: xr.Dataset) -> xr.Dataset:
+    """Return the fields in a checkpoint as maps, NaN at closed nodes.
+
+    Raises
+    ------
+    InputError
+        If the checkpoint lacks something.
+    """
+    try:
+        open_nodes = checkpoint.node_status != CLOSED
+        fields = {
+            str(name).removeprefix(FIELD): data.where(open_nodes)
+            for name, data in checkpoint.items() if str(name).startswith(FIELD) and set(data.dims) == {"y", "x"}
+        }  # fmt: skip
+        accounts = {"eroded_depth": checkpoint.node_eroded, "deposit_depth": checkpoint.node_settled}
+        for name, depth in accounts.items():  # fields have them from the end of a call on
+            values = np.reshape(depth.values, open_nodes.shape)
+            fields[OUTPUT_PREFIX + name] = open_nodes.copy(data=values).where(open_nodes)
+        volumes = {"budget_released": checkpoint.budget_released, "budget_moving": checkpoint.particle_volume.sum()}
+        moment = {name: float(value) for name, value in (volumes | {"elapsed_time": checkpoint["time"]}).items()}
+    except (KeyError, AttributeError, ValueError, TypeError) as error:
+        raise InputError(f"the checkpoint is not one of a flow: {error}") from error
+    return xr.Dataset(fields, attrs=moment)
 
 
 def _of_file(path: Path) -> Recorded:

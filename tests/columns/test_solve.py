@@ -196,7 +196,7 @@ def test_functions_that_do_not_vary():
 
 
 def test_erosion_that_stops():
-    """What friction feels after it, of a tight column: erosion left no slope at the base but by the load."""
+    """Basal pressure after erosion, of a tight column: erosion left no slope at the base except by the load."""
     given = {
         "coefficient_of_consolidation": 4e-4, "loading": LOADING, "basal_pressure_ratio": 0.65, "initial": "linear",
         "times": [40.0, 43.2, 75.2, 203.2, 443.2], "bounded": True,

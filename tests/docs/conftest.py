@@ -30,13 +30,17 @@ def cells(site):
     def read(page):
         notebook = nbformat.read(site.parent / "jupyter_execute" / f"{page}.ipynb", as_version=4)
         code = [cell for cell in notebook.cells if cell.cell_type == "code"]
-        return [(cell.source, "".join(map(_text, cell.outputs)), cell.outputs) for cell in code]
+        return [(cell.source, _text(cell.outputs), cell.outputs) for cell in code]
 
     return read
 
 
-def _text(output):
-    """Return what an output prints."""
-    if output.output_type == "error":
-        return f"{output.ename}: {output.evalue}\n"
-    return output.text if output.output_type == "stream" else ""
+def _text(outputs):
+    """Return what a cell prints; myst-nb has collected each stream in its first part, and left the others."""
+    streams, errors = {}, []
+    for output in outputs:
+        if output.output_type == "stream":
+            streams.setdefault(output.name, output.text.replace("\r", ""))
+        elif output.output_type == "error":
+            errors.append(f"{output.ename}: {output.evalue}\n")
+    return "".join([*streams.values(), *errors])

@@ -1,10 +1,9 @@
 """What the pages about releases, loops, observers and columns print is what they say; their numbers have a source."""
 
+import concurrent.futures
 import re
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -127,8 +126,8 @@ def test_many_runs_at_once_as_printed(monkeypatch, capsys, tmp_path):
     }  # fmt: skip
     monkeypatch.chdir(tmp_path)
     Path("scene.yaml").write_text(yaml.safe_dump(scene), encoding="utf-8")
-    pools = SimpleNamespace(ProcessPoolExecutor=lambda count, mp_context: ThreadPoolExecutor(count))
-    monkeypatch.setitem(sys.modules, "concurrent.futures", pools)
+    threads = ThreadPoolExecutor
+    monkeypatch.setattr(concurrent.futures, "ProcessPoolExecutor", lambda count, mp_context: threads(count))
     exec(compile(block, "landlab_loops.md", "exec"), {"__name__": "__main__"})
     angles, speeds = np.array(numbers(capsys.readouterr().out)).reshape(3, 2).T
     assert angles.tolist() == [25.0, 28.0, 31.0] and np.all(np.diff(speeds) < 0.0)

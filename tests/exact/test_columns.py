@@ -75,7 +75,7 @@ def test_consolidation_has_the_printed_digits():
 
 
 def test_consolidation_at_small_times():
-    """Half space: slope at the closed base, and a layer that does not feel the surface."""
+    """Half space: slope at the closed base, and a layer that the surface does not influence."""
     time = 1e-4
     assert_allclose(columns.consolidation(0.0, time), 1.0 - 2.0 * np.sqrt(time / np.pi), rtol=1e-12)
     assert_allclose(columns.consolidation(0.0, time, "basal_layer", 0.02), erf(0.02 / (2.0 * np.sqrt(time))), rtol=1e-9)

@@ -98,7 +98,7 @@ def test_a_style_says_to_qgis_where_classes_end(tmp_path):
 
 @pytest.mark.parametrize("name", STYLES)
 def test_classes_differ_in_lightness(name):
-    """Whoever cannot tell hues apart, or prints in grey, sees the order: 5 % of the range between neighbours."""
+    """The order is seen without hues, and in grey print: 5 % of the range between neighbours."""
     style = STYLES[name]
     lightness = class_colours(style) @ np.array([0.2126, 0.7152, 0.0722]) / 255.0
     steps = np.diff(lightness)

@@ -174,7 +174,7 @@ def test_nothing_to_release_is_said_once(slope, caplog):
 
 
 class Poison:
-    """Coulomb friction, but for fast particles one of the two numbers is none."""
+    """Coulomb friction, which gives NaN as one of its two numbers for fast particles."""
 
     def __init__(self, poisoned):
         self.poisoned, self.sound = poisoned, Coulomb()

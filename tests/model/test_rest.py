@@ -116,7 +116,7 @@ def test_bodies_are_those_that_feel_each_other():
         distance = np.sqrt(sum((a[:, None] - a) ** 2 for a in (x, y, z)))
         linked = distance < np.maximum(support[:, None], support)
         label = np.arange(n)
-        while True:  # the slow way: everybody takes the least number of those it feels
+        while True:  # the slow way: every particle takes the least number among its neighbours
             least = np.where(linked, label, n).min(axis=1)
             if np.array_equal(least, label):
                 break

@@ -1,4 +1,4 @@
-"""Mirror images behind closed nodes: where they are, and that the flow does not feel where the wall begins."""
+"""Mirror images behind closed nodes: where they are, and that the flow does not depend on where the wall begins."""
 
 import numpy as np
 import pytest
@@ -70,7 +70,8 @@ def test_what_leaves_a_wall_has_not_touched_it(across, touches):
 
 
 def test_what_moves_within_its_own_spacing_has_touched():
-    """Not what only feels its image, 2.8 spacings from a wall at most, nor what lies still."""
+    """Neither particles that only have their image in reach, 2.8 spacings from a wall at most, nor particles at
+    rest."""
     x = WEST + np.array([0.5, 1.2, 0.5])
     velocity = np.zeros((3, 3))
     velocity[1, :2] = 1.0

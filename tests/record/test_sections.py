@@ -30,7 +30,7 @@ class Beyond:
         return (p.x > self.x) & (p.y < self.north)
 
     def follow(self, p, began, time):
-        """Whoever was beyond before the step and is still there gained by erosion; new ones came in."""
+        """Particles beyond the line before and after the step gained by erosion; new particles came in."""
         beyond = self.is_beyond(p)
         if p.departed is not None and began < time:
             gone = p.departed

@@ -69,7 +69,7 @@ def contents(directory):
 
 
 def assert_same(directory, other):
-    """Assert that two directories of results hold equal files, to the bit but for dates."""
+    """Assert that two directories of results hold equal files, to the bit, except dates."""
     one, two = contents(directory), contents(other)
     assert list(one) == list(two)
     for name, value in one.items():

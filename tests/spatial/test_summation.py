@@ -174,7 +174,7 @@ def test_what_sleeps_is_left_alone_and_what_wakes_is_computed_alike():
     for one, other in zip(full, sums(c, 2.0 * c["length"], changed=changed, out=marker), strict=True):
         np.testing.assert_array_equal(one[..., awake], other[..., awake])
         assert np.all(other[..., ~awake] == -1.0)
-    # whoever feels a changed particle, or is felt by one, is awake
+    # every particle with a changed particle in reach, or in the reach of one, is awake
     r, _ = distances(c)
     support = 2.0 * np.maximum(c["length"][:, None], c["length"])
     assert np.all(awake[np.any((r < support) & changed, axis=1)])
@@ -183,7 +183,7 @@ def test_what_sleeps_is_left_alone_and_what_wakes_is_computed_alike():
 def test_uniform_convergence_is_no_shock():
     """Points that all move towards one: viscosity adds nothing once the convergence is known.
 
-    Its pressure would be uniform, too, but for the celerity that grows to the east.
+    Its pressure would be uniform, too, if the celerity did not grow to the east.
     """
     x, y, z = lattice("hexagonal", 0.0)
     n, rate = x.size, 0.3

@@ -41,7 +41,7 @@ def parabola(p, x, y):
 @pytest.mark.parametrize("friction_angle", [0.0, 20.0])
 def test_a_ridge_spreads_at_the_exact_rate_whatever_its_friction(friction_angle):
     """1-D: while all of it moves downslope, friction is the same for all and the half width obeys
-    l'' = 3/2 g' V/l^2: 24.586978 m after 5 s. The ridge has free ends, which the middle does not feel:
+    l'' = 3/2 g' V/l^2: 24.586978 m after 5 s. The ridge has free ends, which do not influence the middle:
     they unload it at 2 (g' h0)^(1/2) = 6 m/s from 40 m away."""
     grid = inclined((161, 151), 1.0, math.tan(ANGLE))
     x, y = grid.x_of_node - 30.0, grid.y_of_node - 80.0

@@ -104,7 +104,7 @@ class Fleet:
 
     @property
     def friction(self):
-        """Basal pressure that friction feels [Pa]."""
+        """Basal pressure for friction [Pa]."""
         return self.columns.basal_pressure
 
     def step(self):

@@ -58,7 +58,7 @@ def walls(gap=False):
 
 
 def steep_corner():
-    """A valley side of 72 degrees (3 : 1 both ways), closed all round: what runs along it meets a wall."""
+    """A valley side of 72 degrees (3 : 1 both ways), closed all round, so that a flow along it meets a wall."""
     grid = RasterModelGrid((21, 21), xy_spacing=2.0)
     x, y = grid.x_of_node, grid.y_of_node
     grid.add_field("topographic__elevation", 200.0 + 3.0 * (x - y), at="node")

@@ -42,7 +42,7 @@ class Columns(driver.Columns):
 
     @property
     def base(self):
-        """Excess pore pressure that friction feels [Pa]."""
+        """Excess pore pressure at the base, for friction [Pa]."""
         return self.basal_pressure
 
     @property
