@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
+from matplotlib.contour import ContourSet
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import InputError
@@ -200,3 +202,26 @@ def test_a_fan_and_a_wall_both_show_their_form():
 
 def test_coordinates_are_whole_numbers():
     assert coordinate_text(5_200_140.0) == "5\u2009200\u2009140" and coordinate_text(-50.0) == "\u221250"
+
+
+def test_a_very_long_valley_and_a_tall_one_stay_legible():
+    x, y = 500_000.0 + 10.0 * np.arange(1500), 5_200_000.0 + 10.0 * np.arange(30)
+    depth = np.where(abs(np.arange(30) - 15)[:, None] + 0 * x < 3, 2.0, 0.0) * (x < x[1300])
+    fields = {"topographic__elevation": 0.02 * (x[-1] - x) + 0.0 * y[:, None], "debris_flow__max_depth": depth}
+    fields |= {"debris_flow__max_speed": depth, "debris_flow__max_basal_pressure_ratio": 0.1 * depth}
+    long = xr.Dataset({name: (("y", "x"), values) for name, values in fields.items()}, {"y": y, "x": x})
+    tall = long.rename(x="y", y="x").transpose("y", "x")
+    for maps in (long, tall):
+        for figure in (draw_map(maps), draw_overview(maps)):
+            axes = panels(figure)[0]
+            sides = sorted([np.diff(axes.get_xlim())[0], np.diff(axes.get_ylim())[0]])
+            assert sides[1] / sides[0] < 6.01
+            assert overlaps(figure) == [] and outside(figure) == []
+
+
+def test_noise_of_a_plain_has_no_contours():
+    noise = np.random.default_rng(0).normal(0.0, 0.05, (20, 40))
+    maps, _ = event()
+    plain = maps.assign(topographic__elevation=(("y", "x"), noise))
+    assert not [one for one in panels(draw_map(plain))[0].collections if isinstance(one, ContourSet)]
+    assert [one for one in panels(draw_map(maps))[0].collections if isinstance(one, ContourSet)]

@@ -56,8 +56,8 @@ def test_no_two_lines_are_alike():
 def test_hydrographs_are_drawn_into_given_axes_or_refused():
     figure = Figure()
     assert draw_hydrographs(sections(), axes=figure.add_subplot()) is figure and len(figure.axes) == 1
-    with pytest.raises(InputError, match=r"no variable 'dischage' over time and section \(did you mean 'discharge'"):
-        draw_hydrographs(sections(), variables=["dischage"])
+    with pytest.raises(InputError, match=r"no variable 'sped' over time and section \(did you mean 'speed'"):
+        draw_hydrographs(sections(), variables=["sped"])
     with pytest.raises(InputError, match="one for each of 3 variables, got 2"):
         draw_hydrographs(sections(), axes=list(Figure().subplots(2, 1)))
 
