@@ -45,7 +45,7 @@ class Picture:
     uri : str
         Data URI of the picture.
     text : str
-        Words for people who cannot see it.
+        Words in place of the picture, for screen readers.
     caption : str
     moving : bool
         Whether it moves: then it is shown on request only.
@@ -97,7 +97,7 @@ class Verbatim:
 
 
 def line(text: object) -> str:
-    r"""Return a text in one line without control characters; spaces at which no line breaks stay such.
+    r"""Return a text in one line without control characters; no-break spaces stay.
 
     Examples
     --------

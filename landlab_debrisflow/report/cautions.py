@@ -3,18 +3,18 @@
 NOT_MODELLED = (
     "Not modelled are boulders and wood that strike by themselves, the sorting of grains by size (coarse fronts and "
     "levees), the collapse of banks, rain and tributaries during the event, drains, culverts and bridges of a town, "
-    "which fill or clog, flow inside buildings, and the breaking or scouring of buildings, dams and walls: they stand."
+    "which fill or clog, and flow inside buildings. No building, dam or wall breaks or is scoured."
 )
 
 DISTRUST = (
-    "Run-out and deposit. They follow from the friction angle and the pore pressure at the start, which nobody "
-    "measures before an event: run the scene with the least and the most favourable values that are possible.",
-    "The pore pressure of a body that thins. How it follows the load (column: loading_source: overburden, the default, "
-    "or proportional) is an open question, and moves the run-out more than most parameters: run both.",
-    "The eroded volume. It follows from a growth rate that was fitted to other events and from the depth of erodible "
+    "Run-out and deposit depend on the friction angle and on the pore pressure at the start. Neither is measured "
+    "before an event: run the scene with the least and the most favourable values that are possible.",
+    "How the pore pressure follows the load when a body thins (column: loading_source: overburden, the default, or "
+    "proportional) is an open question, and moves the run-out more than most parameters: run both.",
+    "The eroded volume follows from a growth rate that was fitted to other events, and from the depth of erodible "
     "soil, which is a guess almost everywhere.",
-    "Pressures on buildings and the flow around them. A structure is a step in the raster, at least three nodes thick; "
-    "impact pressures change with the number of particles and have not been shown to converge.",
-    "The terrain. A channel narrower than some three nodes, a bridge in the elevation model, or a survey older than "
-    "the last event sends the flow another way; arrival times are those of the first centimetre.",
+    "Pressures on buildings, and the flow around buildings, depend on the raster and on the number of particles. A "
+    "structure is a step in the raster, at least three nodes thick; impact pressures have not been shown to converge.",
+    "Terrain that is not as the raster has it sends the flow another way: a channel narrower than some three nodes, a "
+    "bridge, a survey older than the last event. Arrival is the time of the first centimetre.",
 )

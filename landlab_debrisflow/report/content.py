@@ -97,10 +97,10 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     record = results.record
     if maps is not None:
         yield Section("errors", "How sure this is", [*error_blocks(results), Sentences([BEYOND])])
-    yield Section("cautions", "What was not modelled, and what to distrust", [
+    yield Section("cautions", "Processes left out, and numbers to distrust", [
         Sentences([NOT_MODELLED]), Sentences(DISTRUST, listed=True),
     ])  # fmt: skip
-    yield Section("remarks", "What was odd", list(_remarks(record)))
+    yield Section("remarks", "Notes, doubts and warnings", list(_remarks(record)))
     if maps is not None:
         yield Section("maps", "Maps", [*map_pictures(results, maps), *moving_pictures(results, maps)])
         if sections := list(section_pictures(results, maps)):

@@ -10,8 +10,8 @@ UNPLANNED = (
     "(numerics: particle_count: auto states them)."
 )
 MEANT = (
-    "Each error is meant to hold in 95 % of scenes. That of particles falls with their number, that of the raster with "
-    "a finer terrain."
+    "Each error is meant to hold in 95 % of scenes. The error of particles falls with their number, the error of the "
+    "raster with a finer terrain."
 )
 
 

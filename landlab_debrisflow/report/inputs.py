@@ -76,7 +76,7 @@ EDITS = ("dam", "wall", "excavation", "buildings")
 def _soil_words(terrain: dict) -> str:
     depth, zones = terrain.get("soil_depth"), terrain.get("zones")
     words = f"{rounded(depth, 'm')} deep" if isinstance(depth, float | int) else f"from {depth}" if depth else "none"
-    words = "that of the built-in example" if depth is None and terrain.get("example") else words
+    words = "as in the built-in example" if depth is None and terrain.get("example") else words
     return f"{words}; other depths in zones" if zones else words
 
 

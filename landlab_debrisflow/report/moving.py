@@ -54,7 +54,7 @@ def moving_pictures(results: Results, maps: xr.Dataset) -> Iterator[Picture]:
         ) from error
     except ImportError as error:
         raise InputError(
-            f'cannot read {path}: {error}; install what reads it: pip install "landlab_debrisflow[geo]"'
+            f'cannot read {path}: {error}; install the library: pip install "landlab_debrisflow[geo]"'
         ) from error
     words = f"Animation of the {name} of the flow from {first:.0f} to {last:.0f} s."
     yield Picture(uri=data_uri(content, "image/gif"), text=words, caption=words, moving=True)

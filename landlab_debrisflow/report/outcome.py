@@ -59,7 +59,7 @@ def outcome_of(results: Results, maps: xr.Dataset) -> Outcome:
     """
     before = results.before
     lies = maps.debris_flow__deposit_depth.fillna(0.0) + maps.debris_flow__depth.fillna(0.0)
-    whole = maps.assign(debris_flow__deposit_depth=lies)  # what still moves has come as far
+    whole = maps.assign(debris_flow__deposit_depth=lies)  # moving mass has come as far
     released = before is not None and bool((before[RELEASE] > 0.0).any())
     distance = None if released else _distance_from_inflow(maps)
     found = measures(whole, before, distance=distance, flow_threshold=AFFECTED)

@@ -20,7 +20,7 @@ from .numbers import SPACE, plain
 HEAD = ("parameter", "value", "from", "meaning")
 UNKNOWN = "not known"
 DEFAULTS = (
-    "Where it says default, nobody chose the value for this place: the defaults are the values of one event, Tsing "
+    "A default was chosen for no particular place: the defaults are the values of one event, Tsing "
     "Shan in Hong Kong (Pastor et al., 2022), and no recommendation."
 )
 HIDDEN = {"directory", "checkpoint_interval", "series_interval", "variables", "format"}
@@ -88,7 +88,7 @@ def _block(
 ) -> Iterator[Block]:
     """Yield the formula and source of a law, and the table of its parameters.
 
-    `ran` are the values of the run, `asked` those of the scene; `path` are the keys above them.
+    `ran` are the values of the run, `asked` the values of the scene; `path` are the keys above.
     """
     declared = {field.name: field for field in fields(entry.cls)} if entry else {}
     note = ""

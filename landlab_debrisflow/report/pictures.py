@@ -37,9 +37,9 @@ MAPS = {
     "max_impact_pressure": "Largest density × speed²: a measure of how hard the flow presses, no load of a structure.",
     "max_run_up": "Largest height of the surface of the flow above the lowest ground that it came over.",
     "eroded_depth": "Depth of soil that was eroded, without the release.",
-    "deposit_depth": "Depth of what lies on the ground.",
+    "deposit_depth": "Depth of the deposit.",
 }
-"""Maps of a report, and what each shows; those from the seventh on are drawn if the scene asks for them."""
+"""Maps of a report, with captions; from the seventh on a map is drawn if the scene names it."""
 
 ALWAYS = 6
 
@@ -102,7 +102,7 @@ def volume_pictures(results: Results) -> Iterator[Picture]:
     if "budget" in series_of(results):
         budget = results.dataset("budget")
         if budget.sizes.get("time", 0) > 1:
-            words = "Volumes against time: what came above each other, what came to rest and left as lines."
+            words = "Volumes against time: released, inflow and eroded above each other, deposit and outflow as lines."
             yield picture(draw_volumes(budget), words, words)
 
 

@@ -10,7 +10,7 @@ from .numbers import area, duration, rounded, volume
 from .outcome import AFFECTED, Outcome
 
 BEYOND = (
-    "Errors of the parameters and of the terrain come on top, and are larger as a rule: see the five things to "
+    "Errors of the parameters and of the terrain come on top, and are larger as a rule: see the five numbers to "
     "distrust. A computation is no observation."
 )
 
@@ -57,8 +57,7 @@ def state_of(results: Results) -> tuple[str, str]:
     reason = f" The reason: {record.reason}." if record.reason and record.state == FAILED else ""
     command = "resume goes on with it" if results.checkpoints else "run --overwrite begins it anew"
     return "Not finished", (
-        f"This run {how}{time}.{reason} There are no results yet: below is what it was given. landlab-debrisflow "
-        f"{command}."
+        f"The run {how}{time}.{reason} There are no results yet: below is the input. landlab-debrisflow {command}."
     )
 
 

@@ -13,8 +13,8 @@ from .page import render_page
 def write_report(results: str | os.PathLike[str] | Results, output: str | os.PathLike[str] | None = None) -> Path:
     """Write the report of a run as one HTML page: summary, input, parameters, maps, volumes, versions, citation.
 
-    Pictures and styles are in the page itself; it loads nothing from a network or a disk, and runs no script. A run
-    that has not come to its end is reported as such.
+    Pictures and styles are in the page itself; it loads nothing from a network or a disk, and runs no script. The
+    report of an unfinished run says so at its head.
 
     Parameters
     ----------

@@ -58,10 +58,10 @@ class RunRecord:
     plan : dict or None
         Plan as plain values, if the number of particles was left to one.
     given : list of str or None
-        Keys of the scene that were given, with the keys above them in front, such as ``friction.cohesion``; others
-        have their defaults. None in this and the following: a version that did not keep it wrote the record.
+        Keys of the scene that were given, with the keys above in front, such as ``friction.cohesion``; other keys have
+        their defaults. None, here and below: the version that wrote the record did not keep the value.
     notes, doubts, warnings : list of str or None
-        Remarks on files, what is odd in the scene (both as `check` prints them), and warnings while it ran.
+        Remarks on files, doubts about the scene (both as `check` prints them), and warnings while it ran.
     environment : dict or None
         Kind of machine and versions of libraries, of the process that ran last.
     statement : dict or None

@@ -1,4 +1,4 @@
-"""Check of the record of a run: a file as others are, which may hold anything."""
+"""Check of the record of a run: a file, which may hold anything."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path

@@ -38,11 +38,11 @@ def change(directory, **changes):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({}, "This run is still running, or was ended from outside. There are no results yet"),
-        ({"state": "interrupted", "elapsed_time": 4.5}, "This run was interrupted at 4.5 s. There are no results yet"),
+        ({}, "The run is still running, or was ended from outside. There are no results yet"),
+        ({"state": "interrupted", "elapsed_time": 4.5}, "The run was interrupted at 4.5 s. There are no results yet"),
         (
             {"state": "failed", "reason": "OSError: <full>"},
-            "This run failed. The reason: OSError: <full>. There are no",
+            "The run failed. The reason: OSError: <full>. There are no",
         ),
     ],
 )
