@@ -6,8 +6,11 @@ The tables of benchmarks/*.txt and of docs/accuracy.md are written from the same
 """
 
 import argparse
+import contextlib
 import importlib
 import io
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -60,6 +63,7 @@ CHARTS = {
     "flow_stability": Chart("flow_stability", ("flow_stability",), "python -m benchmarks.flow_stability"),
     "lazy_scheme": Chart("lazy_figure", ("lazy_scheme",), "python -m benchmarks.lazy_figure"),
     "paper_columns": Chart("paper_columns", ("paper_columns",), "python -m benchmarks.paper_columns", dpi=80),
+    "s1000_valley": Chart("s1000", ("s1000",), "python -m benchmarks.s1000", "chart_of_valley", 80),
     "s1000": Chart("s1000", ("s1000", "s1000_scores"), "python -m benchmarks.s1000"),
     "speed": Chart("speed", ("speed",), "python -m benchmarks.speed"),
     "tsing_shan_columns": Chart("tsing_shan_event", ("tsing_shan_columns",), "python -m benchmarks.tsing_shan_event",
@@ -71,10 +75,7 @@ CHARTS = {
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
 }  # fmt: skip
-"""Figures of docs/figures by name; beside them stands `DEMO`."""
-
-DEMO = "demo"
-"""Figure that ``landlab-debrisflow demo`` draws of the run that it makes, in seconds: it has no result file."""
+"""Figures of docs/figures by name; beside them stand those of `RUNS`."""
 
 REPORTS = {
     name: name for name in ("column", "flow", "flow_stability", "speed", "tsing_shan", "two_phase", "when_ale_matters")
@@ -92,10 +93,9 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
     say : callable
         Given one line for each file.
     """
-    for name in names or (*CHARTS, *(name for name in REPORTS if name not in CHARTS), DEMO):
-        if name == DEMO:
-            draw_demo(FIGURES / f"{DEMO}.png")
-            say(f"Wrote {_short(FIGURES / f'{DEMO}.png')}")
+    for name in names or dict.fromkeys((*CHARTS, *REPORTS, *RUNS)):
+        if name in RUNS:
+            say(f"Wrote {_short(_drawn_by_run(name))}")
         if name in CHARTS:
             chart = CHARTS[name]
             say(f"Wrote {_short(save_figure(chart.draw(), FIGURES / f'{name}.png', chart.dpi))}")
@@ -109,14 +109,31 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
         say(f"Wrote {_short(path)}")
 
 
-def draw_demo(path: Path) -> None:
-    """Run the demo and keep its figure."""
+def demo(folder: Path) -> Path:
+    """Run the demo in a folder; return its figure."""
     from landlab_debrisflow.cli.demo import run_demo
 
+    run_demo(1500, folder, Console(quiet=True))
+    return folder / "demo.png"
+
+
+def first_map(folder: Path) -> Path:
+    """Run the code of the README in a copy of examples/scenes; return its figure."""
+    (block,) = re.findall(r"```python\n(.*?)```", (result_files.ROOT / "README.md").read_text("utf-8"), re.DOTALL)
+    scenes = shutil.copytree(result_files.ROOT / "examples" / "scenes", folder / "scenes")
+    with contextlib.chdir(scenes):
+        exec(compile(block, "README.md", "exec"), {})
+    return scenes / "max_depth.png"
+
+
+RUNS = {"demo": demo, "first_map": first_map}
+"""Figures without a result file: a run of seconds draws them."""
+
+
+def _drawn_by_run(name: str) -> Path:
     with tempfile.TemporaryDirectory() as folder:
-        run_demo(1500, Path(folder), Console(quiet=True))
-        drawn = Path(folder, f"{DEMO}.png").read_bytes()
-    write_atomically(path, lambda place: place.write_bytes(drawn))
+        drawn = RUNS[name](Path(folder)).read_bytes()
+    return write_atomically(FIGURES / f"{name}.png", lambda path: path.write_bytes(drawn))
 
 
 def measure(names: list[str]) -> None:
@@ -145,7 +162,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--measure", action="store_true", help="run the commands that make the result files of NAME")
     options = parser.parse_args(arguments)
     names = [name.removesuffix(".png").removesuffix(".txt") for name in options.names]
-    known = list(dict.fromkeys([*CHARTS, *REPORTS, *([] if options.measure else [DEMO])]))
+    known = list(dict.fromkeys([*CHARTS, *REPORTS, *([] if options.measure else RUNS)]))
     for name in names:
         if name not in known:
             parser.error(f"there is no figure {name!r}{did_you_mean(name, known)}; there are {', '.join(known)}")

@@ -1,7 +1,7 @@
 """The landslide S-1000, modelled beside observed: ``python -m benchmarks.s1000 [DATA_DIR]``.
 
 Runs examples/s1000.py on the rasters of DATA_DIR or $DEBRISFLOW_DATA, and keeps benchmarks/results/s1000.nc and
-s1000_scores.json, from which docs/figures/s1000.png and a table of docs/accuracy.md are made.
+s1000_scores.json, from which s1000.png and s1000_valley.png of docs/figures and a table of docs/accuracy.md are made.
 """
 
 import argparse
@@ -12,6 +12,7 @@ import xarray as xr
 
 from benchmarks import charts, result_files
 from benchmarks.example_scripts import load
+from landlab_debrisflow.plots import Layer, draw_maps
 
 COMMAND = "python -m benchmarks.s1000"
 CHANGES = "elevation_change"
@@ -34,6 +35,14 @@ def chart():
     found = result_files.read_dataset("s1000")
     change = {str(run): found[CHANGES].sel(run=run) for run in found.run.values}
     return load("s1000").draw(change, found[f"observed_{CHANGES}"], found.source, found.relief)
+
+
+def chart_of_valley():
+    """Return the first picture of the README: the observed change of elevation beside that of the better set."""
+    found = result_files.read_dataset("s1000")
+    panels = {"observed by lidar": found[f"observed_{CHANGES}"], "modelled": found[CHANGES].sel(run="Voellmy")}
+    layer = Layer(panels, "change of elevation [m]", "RdBu", (-3.0, 3.0), threshold=0.2)
+    return draw_maps([layer], found.relief, outline=found.source, note="outlined: source of the landslide")
 
 
 def main() -> None:

@@ -64,7 +64,7 @@ def draw_column(
         when = np.broadcast_to(np.clip(when, time[0], time[-1])[:, None], edges.shape)
         image = axes.pcolormesh(when, edges, pressure, norm=norm, cmap=colours, shading="flat", rasterized=True)
         bar = axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=25)
-        bar.ax.set_title("[kPa]", loc="left", fontsize=TICK, pad=4.0)
+        bar.ax.set_title("[kPa]", loc="left", fontsize=TICK, pad=8.0)
         bar.ax.tick_params(labelsize=TICK, width=0.6, length=2.5)
         bar.outline.set_linewidth(0.6)
         bar.ax.set_ylim(min(0.0, float(np.nanmin(pressure))), max(float(np.nanmax(pressure)), 1e-9))
