@@ -13,7 +13,7 @@ from ..component import DebrisFlow
 from ..fidelity.plan import Plan
 from ..geo.lattice import Lattice
 from ..geo.rasters import checksum_of
-from ..scene.content import named_files, read_content, to_mapping
+from ..scene.content import given_keys, named_files, read_content, to_mapping
 from ..scene.digest import digest
 from ..scene.location import located
 from ..scene.outputs import OutputPlaces, output_places
@@ -63,7 +63,7 @@ class Scene:
         self, mapping: Mapping[str, Any], folder: str | Path = ".", name: str = "scene", *, file: YamlFile | None = None
     ) -> None:
         self.folder, self.name, self._file = Path(folder), name, file
-        self._content = read_content(mapping, file)
+        self._content, self._given = read_content(mapping, file), tuple(given_keys(mapping))
         self.adopted_plan: Plan | None = None
 
     @classmethod
@@ -106,7 +106,7 @@ class Scene:
         return f"<Scene {self.name!r} with {len(self._content.release)} releases in {str(self.folder)!r}>"
 
     def __getstate__(self):
-        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content", "adopted_plan")}
+        return {key: vars(self)[key] for key in ("folder", "name", "_file", "_content", "_given", "adopted_plan")}
 
     # ---- keys ----
 
@@ -143,7 +143,7 @@ class Scene:
     @property
     def given_keys(self) -> tuple[str, ...]:
         """Keys whose values were given, such as ``friction.cohesion``; other keys have their defaults."""
-        return self._content.given
+        return self._given
 
     def to_mapping(self) -> dict[str, Any]:
         """Return keys and defaults as plain values; `from_mapping` builds an equal scene from them."""

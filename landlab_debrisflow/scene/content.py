@@ -34,15 +34,12 @@ class SceneContent(NamedTuple):
         Duration, files and places of output.
     setup : Setup
         Laws, material, numerics and inflow as they are written, without the inflow at points.
-    given : tuple of str
-        Keys of the mapping whose values were given, see `given_keys`.
     """
 
     terrain: TerrainKeys
     release: tuple[ReleaseKeys, ...]
     output: OutputKeys
     setup: Setup
-    given: tuple[str, ...] = ()
 
 
 def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> SceneContent:
@@ -84,7 +81,7 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
     setup = Setup(**given)
     with located(file, "terrain"):
         varying_parameters(setup, terrain.zones)
-    return SceneContent(terrain, release, output, setup, tuple(given_keys(mapping)))
+    return SceneContent(terrain, release, output, setup)
 
 
 def to_mapping(content: SceneContent) -> dict[str, Any]:
