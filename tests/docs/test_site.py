@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 MODULES = ("", ".laws", ".record", ".plots", ".scene", ".triggers", ".exact", ".exact.columns", ".exact.flows")
 sys.path.append(str(ROOT / "docs" / "_site"))
 
-import links
+import links  # noqa: E402  of docs/_site
 
 pytestmark = pytest.mark.slow
 
