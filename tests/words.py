@@ -27,6 +27,10 @@ PICTURED = re.compile(r"\b(?:but for|leans? on|owed|whoever|anyhow|feels?|felt)\
 """Turns of speech that nobody should have to decipher."""
 
 
+WRITTEN_BY_COMMANDS = {"laws.md", "contributing.md", "changes.md"}
+"""Pages of docs/ that are made of declarations, or copied there for the site."""
+
+
 def docstrings(package: Path) -> Iterator[tuple[str, str]]:
     """Yield place and text of every docstring of a package, and of every text below a constant."""
     for path in sorted(package.rglob("*.py")):
@@ -86,7 +90,7 @@ def pages(root: Path) -> Iterator[tuple[str, str]]:
     """Yield place and text of the pages of a checkout, without tables written from declarations."""
     notebooks = sorted((root / "notebooks").glob("*.ipynb"))
     for path in (root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md")), *notebooks):
-        if path.name != "laws.md" and "_build" not in path.parts:
+        if path.name not in WRITTEN_BY_COMMANDS and not {"_build", "api"} & set(path.parts):
             yield from page(path)
 
 

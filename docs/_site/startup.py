@@ -5,6 +5,7 @@ read. Errors are shown by their last line, and a command (`!landlab-debrisflow .
 """
 
 import os
+import sys
 import warnings
 from pathlib import Path
 
@@ -28,6 +29,8 @@ shell.system = run_command
 shell.set_custom_exc((CommandFailedError,), lambda *_, **__: None)
 shell.run_line_magic("matplotlib", "inline")  # a figure is shown as a picture
 shell.InteractiveTB.set_mode("Minimal")
+for stream in (sys.stdout, sys.stderr):
+    stream.flush_interval = 600.0  # [s], at the end of a cell instead: myst-nb breaks the line where two pieces meet
 warnings.formatwarning = lambda message, category, *_, **__: f"{category.__name__}: {message}\n"
 
 for name in ("benchmarks", "docs", "examples"):

@@ -158,7 +158,7 @@ def _side_by_side(maps):
 
 TITLES = {
     "ale": "ALE: soil enters the column of pore pressure from below",
-    "classical": "Classical: soil that enters is felt at the base only",
+    "classical": "Classical: soil that enters changes the base only",
 }
 """Headings of the two columns of the figure."""
 

@@ -140,8 +140,9 @@ def test_a_column_that_comes_late_and_thins_is_drawn_from_its_arrival():
     image = draw_column(columns).axes[0]
     assert image.get_title(loc="left") == "Excess pore pressure, particle 3"
     assert_allclose(image.lines[0].get_xdata(), TIME[1:])
-    norm = image.collections[0].norm
-    assert norm.vmin == -norm.vmax == -1.0  # suction is blue, about 0
+    drawn = image.collections[0]
+    assert (drawn.norm.vmin, drawn.norm.vmax) == (-0.5, 1.0)
+    assert_allclose(drawn.cmap(drawn.norm(0.0))[:3], 1.0, atol=0.05)  # suction is blue, nothing is white
 
 
 def test_tracks_lie_over_the_relief():
