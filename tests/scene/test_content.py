@@ -104,7 +104,7 @@ def test_a_scene_comes_back_from_plain_values():
     assert found.release[0].from_ == "above" and found.release[0].velocity == (1.0, -2.0)
     assert found.output.gauges == (("bridge", (1.0, 2.0)),)
     plain = json.loads(json.dumps(to_mapping(found)))
-    assert read_content(plain)._replace(given=found.given) == found  # defaults are written, too
+    assert read_content(plain) == found
     assert plain["release"][0]["polygons"] == [TRIANGLE] and plain["output"]["gauges"] == {"bridge": [1.0, 2.0]}
 
 
