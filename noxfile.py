@@ -92,7 +92,7 @@ def build(session):
     """Build wheel and source distribution, install the one and run the fast subset in the other; both are in dist/."""
     session.install("build", "twine>=6.1")
     work = Path(session.create_tmp()).resolve()
-    shutil.rmtree(work / "dist", ignore_errors=True)
+    shutil.rmtree(work, ignore_errors=True)
     session.run("python", "-m", "build", "--outdir", str(work / "dist"), ".")
     (archive,), (wheel,) = (work / "dist").glob("*.tar.gz"), (work / "dist").glob("*.whl")
     session.run("twine", "check", "--strict", str(archive), str(wheel))

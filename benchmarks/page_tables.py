@@ -66,7 +66,7 @@ def rivals() -> str:
         row = [title]
         for method in flows.MARKS:
             these = [r for r in found if (r.case, r.method) == (case, method)]
-            row.append(f"{100.0 * these[-1].h.l1:.2g} ({seconds(these[-1].cpu)} s)" if these else "–")
+            row.append(f"{100.0 * these[-1].h.l1:.2g} ({seconds(these[-1].cpu)}\N{NO-BREAK SPACE}s)" if these else "–")
         rows.append(row)
     return table(["case", *(words for *_, words in flows.MARKS.values())], rows)
 
@@ -200,32 +200,34 @@ def speed() -> str:
 # ---- S-1000 and provenance ----
 
 SCORES = {
-    "csi": "critical success index, whole map", "csi outside": "the same outside the source",
-    "correlation": "correlation of the change outside the source",
-    "lowered outside": "lowered outside the source [m³]", "run-out error": "error of the run-out [m]",
-    "in scar": "left in the scar [m³]", "duration": "duration of the event [s]",
+    "csi": "CSI", "csi outside": "CSI outside the source", "correlation": "correlation outside the source",
+    "lowered outside": "lowered outside the source [m³]", "run-out error": "error of run-out [m]",
+    "in scar": "left in the scar [m³]",
+}  # fmt: skip
+RUNS = {
+    "observed": "observed", "Coulomb": "Coulomb", "Coulomb, prop. loading": "Coulomb, proportional loading",
+    "Voellmy": "Voellmy", "Voellmy, prop. loading": "Voellmy, proportional loading",
+    '"Mass- Wasting- Runout"': "MassWastingRunout, calibrated; quoted",
+    "spread evenly": "source spread evenly along the path",
 }  # fmt: skip
 
 
 def s1000() -> str:
-    """Return the scores of S-1000 by run."""
+    """Return the scores of S-1000, one run in a row."""
     script = load("s1000_scores")
     found = {row["column"]: row for row in result_files.read("s1000_scores")["columns"]}
-    names = {
-        "observed": "observed", "Coulomb": "Coulomb", "Coulomb, prop. loading": "Coulomb, proportional loading",
-        "Voellmy": "Voellmy", "Voellmy, prop. loading": "Voellmy, proportional loading",
-        '"Mass- Wasting- Runout"': "MassWastingRunout, calibrated (quoted)",
-        "spread evenly": "source spread evenly along the path",
-    }  # fmt: skip
     rows = []
-    for key, words in SCORES.items():
-        form = "{:.2f}" if key.startswith("csi") else script.MEASURES[key][1]
-        values = [found[name].get(key, math.nan) for name in names]
-        if key.startswith(("csi", "correlation", "run-out")):
-            values[0] = math.nan  # observed against observed
-        cells = ["" if isinstance(v, float) and math.isnan(v) else form.format(v) for v in values]
-        rows.append((words, *cells, script.NOISE.get(key, "")))
-    return table(["", *names.values(), "noise"], rows)
+    for name, words in RUNS.items():
+        cells = []
+        for key in SCORES:
+            form = "{:.2f}" if key.startswith("csi") else script.MEASURES[key][1]
+            value = found[name].get(key, math.nan)
+            if name == "observed" and key.startswith(("csi", "correlation", "run-out")):
+                value = math.nan  # observed against observed
+            cells.append("" if isinstance(value, float) and math.isnan(value) else form.format(value))
+        rows.append((words, *cells))
+    rows.append(("noise", *(script.NOISE.get(key, "") for key in SCORES)))
+    return table(["run", *SCORES.values()], rows)
 
 
 SOURCES = (

@@ -1,16 +1,13 @@
-"""The one style of the charts of benchmarks: colours that the colour-blind tell apart, sizes, grids."""
+"""Charts of benchmarks in the style of `landlab_debrisflow.plots`: its colours, and grids and legends of charts."""
 
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW = (
-    "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#B5A300",
-)  # fmt: skip
-"""After Okabe & Ito (2008), the yellow darker."""
-GREY = "0.45"
+from landlab_debrisflow.plots.style import LINES, TITLE
 
+BLUE, RED, GREEN, PURPLE, SKY, ORANGE, _ = LINES
 DPI = 110
 
 
@@ -25,7 +22,7 @@ def finish(axes: Axes, **words: Any) -> None:
     axes.set(**words)
     axes.grid(color="0.9", linewidth=0.7)
     axes.set_axisbelow(True)
-    axes.title.set_fontsize(10)
+    axes.title.set_fontsize(TITLE)
 
 
 def legend_below(figure: Figure, axes: Axes, **words: Any) -> None:

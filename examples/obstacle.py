@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.table import Table
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError, measures
-from landlab_debrisflow.plots import save_figure
+from landlab_debrisflow.plots import draw_map, save_figure
 from landlab_debrisflow.record import check_writable
 
 SPACING, LENGTH, WIDTH = 4.0, 480.0, 160.0  # of the grid [m]
@@ -129,24 +129,17 @@ def table(found, particles: int) -> Table:
 
 
 def draw(maps, inside) -> Figure:
-    """Return the figure: impact pressure and run-up of both runs around the obstacles.
-
-    Buildings are hatched; contours, every 2 m, are those of the terrain with the deposit.
-    """
-    figure = Figure(figsize=(11.0, 8.0), layout="constrained")
-    shown = ((IMPACT, 1e-3, "peak impact pressure [kPa]", "inferno"), (RUN_UP, 1.0, "peak run-up [m]", "viridis"))
-    for row, (field, factor, label, colours) in zip(
-        figure.subplots(2, 2, sharex=True, sharey=True), shown, strict=True
-    ):
+    """Return the figure: impact pressure and run-up of both runs around the obstacles, which are outlined."""
+    figure = Figure(figsize=(11.0, 9.0), layout="constrained")
+    run = next(iter(maps.values()))
+    obstacles = run[IMPACT].copy(data=inside)
+    extent = (*SHOWN, 0.0, float(run.y[-1]))
+    shown = (IMPACT, 1e-3, "Peak impact pressure"), (RUN_UP, 1.0, "Peak run-up")
+    for row, (field, factor, words) in zip(figure.subplots(2, 2), shown, strict=True):
         most = max(float(factor * run[field].sel(x=slice(*SHOWN)).max()) for run in maps.values())
         for axes, (name, run) in zip(row, maps.items(), strict=True):
-            x, y, values = run.x, run.y, factor * run[field]
-            image = axes.pcolormesh(x, y, values.where(values > 0.0), cmap=colours, vmin=0.0, vmax=most)
-            axes.contour(x, y, run.topographic__elevation, np.arange(0.0, 200.0, 2.0), colors="0.5", linewidths=0.6)
-            axes.contourf(x, y, inside, (0.5, 1.5), colors="none", hatches=["////"])
-            axes.set(title=name, xlim=SHOWN, xlabel="x [m]", ylabel="y [m]", aspect="equal")
-            axes.label_outer()
-        figure.colorbar(image, ax=list(row), label=label)
+            title = f"{words}, {name}"
+            draw_map(run, field, axes=axes, title=title, extent=extent, limits=(0.0, most), outline=obstacles)
     return figure
 
 

@@ -52,7 +52,7 @@ def draw_flow(records, c_v):
             now = record.snapshots[key]
             draw_ground(panel, record)
             p = now["particles"]
-            dots = panel.scatter(p.x, p.y, 1.5, p.depth, cmap="viridis_r", vmin=0.0, vmax=deepest, linewidths=0.0)
+            dots = panel.scatter(p.x, p.y, 1.5, p.depth, cmap="YlGnBu", vmin=0.0, vmax=deepest, linewidths=0.0)
             when = f"{now['time']:g} s"
             if isinstance(key, tuple):
                 when = f"{key[1]:g} s after the front left erodible ground ({when})"
@@ -91,7 +91,7 @@ def draw_maps_of(records):
             "deposit": ({m: r.maps.debris_flow__deposit_depth for m, r in pair.items()}, "deposit [m]"),
         }
         for words, (values, label) in shown.items():
-            layers.append(Layer(titled(values, words, c_v), label, "viridis_r"))
+            layers.append(Layer(titled(values, words, c_v), label))
         isolines |= titled(shown["deposit"][0], "deposit", c_v)
         pressure = {m: 1e-3 * r.maps.debris_flow__basal_excess_pore_pressure for m, r in pair.items()}
         largest = max(float(abs(values).max()) for values in pressure.values())
@@ -101,7 +101,7 @@ def draw_maps_of(records):
         if all(("since", 0.0) in r.snapshots for r in pair.values()):
             number = {m: relief.copy(data=r.snapshots["since", 0.0]["peclet"]) for m, r in pair.items()}
             words = f"Péclet number at {pair['ALE'].passing:g} s"
-            layers.append(Layer(titled(number, words, c_v), "$Pe_b$ [-]", "viridis_r"))
+            layers.append(Layer(titled(number, words, c_v), "$Pe_b$ [-]", "PuRd"))
     under = some.maps.debris_flow__max_depth.values > 0.0
     for record in records.values():
         under = under | (record.maps.debris_flow__max_depth.values > 0.0)

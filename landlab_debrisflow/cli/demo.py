@@ -121,8 +121,8 @@ All parameters are those of Pastor et al. (2022) for Tsing Shan, or defaults; th
 site. Front: where {FRONT_FRACTION:.0%} of the deposit lies behind. Distances are plan distances; the travel angle is \
 from the crown of the trigger to the front (26 deg in the real event; this terrain is a stand-in, and the small \
 viscosity and the basal slip of the paper are left out). The median deposit counts nodes with at least {DEPOSIT:g} m. \
-Péclet numbers: peak at each eroded node, of these the largest and the median. CPU time includes loading (the first \
-time: compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
+Péclet numbers: largest and median of the peaks at the eroded nodes. CPU time includes loading (the first time: \
+compiling) the kernels, which falls on the first model. tan(phi) = 0.6 acts on the buoyant weight: the apparent \
 friction is 0.30 without excess pore pressure and 0.10 at the bed's ratio of 0.65."""
 
 

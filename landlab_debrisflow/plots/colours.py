@@ -13,6 +13,9 @@ FAINT, STRONG = 0.3, 0.92
 RISE = 0.3
 """Fraction of the scale over which opacity rises."""
 
+QUICK_RISE = 0.12
+"""Fraction of either half of a scale about 0 over which opacity rises: there is no deep flow to be outshone."""
+
 PALE = 0.22
 """Fraction of a colour map at its pale end that is left out: a thin film would be brighter than the ground."""
 
@@ -37,8 +40,8 @@ def over_relief(name: str, *, diverging: bool = False, fading: bool = True) -> C
     place = np.linspace(0.0, 1.0, COLOURS)
     if diverging:
         strength = np.abs(2.0 * place - 1.0)
-        colours = colormaps[name](0.5 + 0.5 * np.sign(place - 0.5) * strength**0.75)
-        colours[:, 3] = STRONG * np.clip(strength / RISE, 0.0, 1.0) if fading else STRONG
+        colours = colormaps[name](0.5 + 0.5 * np.sign(place - 0.5) * strength**0.6)
+        colours[:, 3] = STRONG * np.clip(strength / QUICK_RISE, 0.0, 1.0) if fading else STRONG
     else:
         first, last = (0.0, 1.0 - PALE) if name.endswith("_r") else (PALE, 1.0)
         colours = colormaps[name](first + (last - first) * place)

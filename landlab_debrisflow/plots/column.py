@@ -6,11 +6,11 @@ import numpy as np
 import xarray as xr
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, Normalize
+from matplotlib.colors import Colormap, ListedColormap, Normalize
 from matplotlib.figure import Figure
 
 from ..core.errors import InputError
-from .colours import linear_norm
+from .colours import extend_of, linear_norm
 from .style import LABEL, TICK, TITLE, dress, figure_of, new_figure, plain_text
 
 PROFILES = 5
@@ -63,11 +63,11 @@ def draw_column(
         edges = np.interp(when, time, one.thickness.values)[:, None] * levels
         when = np.broadcast_to(np.clip(when, time[0], time[-1])[:, None], edges.shape)
         image = axes.pcolormesh(when, edges, pressure, norm=norm, cmap=colours, shading="flat", rasterized=True)
-        bar = axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=25)
-        bar.ax.set_title("[kPa]", loc="left", fontsize=TICK, pad=4.0)
+        extend = extend_of(norm, [pressure])
+        bar = axes.figure.colorbar(image, ax=axes, pad=0.02, aspect=25, extend=extend, extendfrac=0.04)
+        bar.ax.set_title("[kPa]", loc="left", fontsize=TICK, pad=8.0 if extend == "neither" else 14.0)
         bar.ax.tick_params(labelsize=TICK, width=0.6, length=2.5)
         bar.outline.set_linewidth(0.6)
-        bar.ax.set_ylim(min(0.0, float(np.nanmin(pressure))), max(float(np.nanmax(pressure)), 1e-9))
     axes.plot(time, one.thickness.values, color="black", linewidth=1.0, label="surface")
     axes.set_xlabel("time [s]", fontsize=LABEL)
     axes.set_ylabel("height above the base [m]", fontsize=LABEL)
@@ -113,7 +113,10 @@ def _scale(pressure: np.ndarray) -> tuple[Normalize, Colormap]:
     """Return the scale of the pressure [kPa] and its colours: about 0 if there is suction."""
     shown = pressure[np.isfinite(pressure)]
     if shown.size and shown.min() < -0.01 * abs(shown).max():
-        return linear_norm([pressure], diverging=True), colormaps["RdBu_r"]
+        high = linear_norm([pressure], diverging=True).vmax or 1.0
+        low = max(float(shown.min()), -high)
+        middle = 0.5 + 0.5 * np.linspace(low, high, 256) / high  # the part of the colours that is in use, 0 is white
+        return Normalize(low, high), ListedColormap(colormaps["RdBu_r"](middle))
     return linear_norm([pressure]), colormaps["BuGn"]
 
 

@@ -102,7 +102,7 @@ def draw_maps(
     width, height = panel_size(place, (min(LARGEST_PANEL[0], WIDTH / count), LARGEST_PANEL[1]))
     below = note or _legend(contours, outline)
     titles = sum(0.22 * max(title.strip().count("\n") + bool(title.strip()) for title in row) for row in rows)
-    figure = new_figure(count * (max(width, 2.0) + 0.25) + 1.8, len(rows) * (height + 0.25) + titles + 0.9)
+    figure = new_figure(count * (max(width, 2.0) + 0.25) + 1.8, len(rows) * (height + 0.25) + titles + 0.7)
     grid = figure.subplots(len(rows), count, sharex=True, sharey=True, squeeze=False)
     for number, (layer, row) in enumerate(zip(layers, rows, strict=True)):
         norm, diverging = _norm(layer, row)

@@ -1,6 +1,5 @@
 """Extents of maps: the part of the ground that is shown, and the size of the panel for it."""
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -8,6 +7,9 @@ import xarray as xr
 
 SLENDEREST = 3.5
 """Longest side of a map over its shortest one: more ground is shown beside a flow down a straight valley."""
+
+NARROWEST = 6.0
+"""The same of a map of a grid that is more slender itself: the page stays white beside it."""
 
 MARGIN = 0.06
 """Ground shown around the flow, over the longer side of its extent [-]."""
@@ -65,7 +67,7 @@ def extent_around(shown: np.ndarray, relief: xr.DataArray, margin: float | None 
     """
     whole = cell_edges(relief)
     if not shown.any():
-        return whole
+        return _widened(whole)
     columns, rows = np.flatnonzero(shown.any(axis=0)), np.flatnonzero(shown.any(axis=1))
     x, y = relief.x.values, relief.y.values
     half_x, half_y = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
@@ -79,10 +81,11 @@ def extent_around(shown: np.ndarray, relief: xr.DataArray, margin: float | None 
     if margin is None:
         around_x = max(beside, 0.5 * (longest / SLENDEREST - part.width))
         around_y = max(beside, 0.5 * (longest / SLENDEREST - part.height))
-    return Extent(
+    shown_part = Extent(
         max(part.west - around_x, whole.west), min(part.east + around_x, whole.east),
         max(part.south - around_y, whole.south), min(part.north + around_y, whole.north),
     )  # fmt: skip
+    return shown_part if margin is not None else _widened(shown_part)
 
 
 def within(relief: xr.DataArray, extent: Extent) -> xr.DataArray:
@@ -141,7 +144,8 @@ def emptiest_corner(shown: np.ndarray) -> str:
     return min(corners, key=lambda corner: int(corners[corner].sum()))
 
 
-def joined_extent(extents: Sequence[Extent]) -> Extent:
-    """Return the smallest extent that holds some."""
-    west, east, south, north = zip(*extents, strict=True)
-    return Extent(min(west), max(east), min(south), max(north))
+def _widened(extent: Extent) -> Extent:
+    """Return an extent that is no more slender than a picture may be."""
+    longest = max(extent.width, extent.height) / NARROWEST
+    beside_x, beside_y = (0.5 * max(0.0, longest - side) for side in (extent.width, extent.height))
+    return Extent(extent.west - beside_x, extent.east + beside_x, extent.south - beside_y, extent.north + beside_y)

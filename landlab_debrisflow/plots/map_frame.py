@@ -8,15 +8,21 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from .extent import Extent, cell_edges, emptiest_corner, within
+from .extent import Extent, cell_edges, emptiest_corner, panel_size, within
 from .relief import contour_interval, hillshade
-from .style import LABEL, NOTE, dress, halo
+from .style import LABEL, NOTE, TITLE, dress, halo
 
 KILOMETRES_FROM = 5000.0
 """Extent above which coordinates are told in km instead of m [m]."""
 
+LETTER, ROOM_FOR_UNIT = 0.085, 0.1
+"""Width of a letter of a title, and of what must be free behind it [inch]."""
+
 NO_TICKS = 0.08
 """Part of an axis at either end that has no ticks [-]."""
+
+FINEST_CONTOURS = 5e-4
+"""Least interval of contour lines over the extent of a map [-]: below it the ground is a plain with noise."""
 
 CONTOUR = "#6b5a45"
 """Colour of contour lines."""
@@ -38,8 +44,8 @@ def draw_ground(axes: Axes, relief: xr.DataArray, extent: Extent, *, contours: b
     edges = cell_edges(part)
     axes.imshow(hillshade(part), cmap="gray", vmin=0.0, vmax=1.0, extent=edges, origin="lower", zorder=0)
     low, high = _elevations_of(part)
-    if contours and high > low:
-        step = contour_interval(low, high)
+    step = contour_interval(low, high)
+    if contours and step > FINEST_CONTOURS * max(extent.width, extent.height):
         levels = np.arange(np.ceil(low / step), np.floor(high / step) + 1.0) * step
         if levels.size:
             lines = axes.contour(
@@ -84,6 +90,22 @@ class InnerTicks(MaxNLocator):
         ticks, margin = np.asarray(super().tick_values(vmin, vmax)), NO_TICKS * abs(vmax - vmin)
         inner = ticks[(ticks >= min(vmin, vmax) + margin) & (ticks <= max(vmin, vmax) - margin)]
         return inner if inner.size else ticks
+
+
+def draw_title(axes: Axes, text: str, extent: Extent) -> None:
+    """Draw the title of a panel, above the unit of the colour bar if there is no room for both in a line.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    text : str
+    extent : Extent
+        Of the panel.
+    """
+    box, figure = axes.get_position(), axes.figure
+    inches = figure.bbox.width / figure.dpi * box.width, figure.bbox.height / figure.dpi * box.height
+    is_narrow = panel_size(extent, inches)[0] < LETTER * len(text) + ROOM_FOR_UNIT
+    axes.set_title(text, loc="left", fontsize=TITLE, pad=20.0 if is_narrow else 6.0)
 
 
 def unit_of_coordinates(extent: Extent) -> tuple[str, float]:

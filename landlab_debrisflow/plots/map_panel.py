@@ -117,7 +117,7 @@ def bar_beside(axes: Axes, drawn: ScalarMappable, norm: Normalize, extend: str, 
         bar.update_ticks()
     bar.outline.set_linewidth(0.6)
     beside.tick_params(labelsize=TICK, width=0.6, length=2.5)
-    above = 8.0 if extend in ("max", "both") else 4.0
+    above = 10.0 if extend in ("max", "both") else 7.0
     beside.set_title(f"[{unit_text(unit)}]", fontsize=TICK, loc="left", pad=above)
 
 

@@ -16,11 +16,11 @@ from ..record.written_maps import LEAST_DEPTH
 from .colours import over_relief
 from .extent import Extent, extent_around, panel_size, within
 from .ground import ELEVATION, elevation_of, on_increasing_axes, release_outline
-from .map_frame import draw_coordinates, draw_scale_bar, reference_name
+from .map_frame import draw_coordinates, draw_scale_bar, draw_title, reference_name
 from .map_panel import draw_colour_bar, draw_isochrones, draw_values
 from .overlays import draw_outline, draw_places, draw_shapes
 from .quantities import DIVERGING, PLAIN, TIME, ShownMap, reached_nodes, shown_map
-from .style import TITLE, figure_of, new_figure, plain_text
+from .style import figure_of, new_figure, plain_text
 
 LARGEST_PANEL = (7.0, 6.5)
 """Width and height that a single map may have [inch]."""
@@ -116,7 +116,7 @@ def draw_map(
         draw_places(axes, places)
     draw_coordinates(axes, place, plain_text(reference_name(maps)))
     draw_scale_bar(axes, place, np.isfinite(within(shown.values, place).values))
-    axes.set_title(plain_text(shown.quantity.words if title is None else title), loc="left", fontsize=TITLE)
+    draw_title(axes, plain_text(shown.quantity.words if title is None else title), place)
     return figure_of(axes)
 
 
@@ -150,7 +150,7 @@ def draw_shown(
         norm.vmin, norm.vmax = checked_limits(limits, isinstance(norm, LogNorm))
     colours = over_relief(shown.quantity.colours, diverging=scale == DIVERGING, fading=scale not in (TIME, PLAIN))
     image = draw_values(axes, shown.values, relief, place, norm, colours, contours=contours)
-    draw_colour_bar(axes, image, norm, [shown.values.values], shown.quantity.unit, place)
+    draw_colour_bar(axes, image, norm, [within(shown.values, place).values], shown.quantity.unit, place)
     if scale == TIME:
         draw_isochrones(axes, shown.values, place)
     if region is not None:

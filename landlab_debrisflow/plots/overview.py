@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from ..record.written_maps import LEAST_DEPTH
 from .extent import Extent, panel_size, within
 from .ground import release_outline
-from .map_frame import draw_coordinates, draw_scale_bar, reference_name, unit_of_coordinates
+from .map_frame import draw_coordinates, draw_scale_bar, draw_title, reference_name, unit_of_coordinates
 from .maps import chosen_extent, draw_shown, relief_of
 from .quantities import OVERVIEW, map_names, reached_nodes, shown_map
 from .style import LABEL, TITLE, new_figure, number_text, plain_text
@@ -74,7 +74,7 @@ def draw_overview(
     for number, (axes, one) in enumerate(zip(panels.flat, shown, strict=False)):
         draw_shown(axes, one, relief, place, region, contours=contours, shapes=shapes)
         draw_coordinates(axes, place, labels=False)
-        axes.set_title(plain_text(one.quantity.words), loc="left", fontsize=TITLE)
+        draw_title(axes, plain_text(one.quantity.words), place)
         axes.tick_params(labelleft=number % columns == 0, labelbottom=number + columns >= len(shown))
     for axes in panels.flat[len(shown) :]:
         axes.set_visible(False)

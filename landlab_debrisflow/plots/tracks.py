@@ -14,11 +14,11 @@ from ..core.errors import InputError
 from .colours import PALE, extend_of, linear_norm
 from .extent import panel_size, within
 from .ground import release_outline
-from .map_frame import draw_coordinates, draw_ground, draw_scale_bar, reference_name
+from .map_frame import draw_coordinates, draw_ground, draw_scale_bar, draw_title, reference_name
 from .map_panel import bar_beside
 from .maps import LARGEST_PANEL, chosen_extent, relief_of
 from .overlays import draw_outline
-from .style import TITLE, figure_of, new_figure, plain_text
+from .style import figure_of, new_figure, plain_text
 
 
 def draw_tracks(
@@ -76,7 +76,7 @@ def draw_tracks(
         draw_outline(axes, region)
     draw_coordinates(axes, place, plain_text(reference_name(maps)))
     draw_scale_bar(axes, place, within(relief.copy(data=passed), place).values)
-    axes.set_title(plain_text("Speed along tracks" if title is None else title), loc="left", fontsize=TITLE)
+    draw_title(axes, plain_text("Speed along tracks" if title is None else title), place)
     return figure_of(axes)
 
 

@@ -115,7 +115,7 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     yield Section("input", "Input", input_blocks(record, maps))
     yield Section("scene", "The scene as it was given", scene_blocks(record))
     yield Section("parameters", "Laws and parameters", law_blocks(record, maps))
-    yield Section("provenance", "How this was made", list(_provenance(results)))
+    yield Section("provenance", "How this was made", list(_provenance(results, maps)))
     yield Section("citation", "Citation", [Sentences([SENTENCE]), Verbatim(bibtex(record.version, _year(record)))])
 
 
@@ -134,11 +134,12 @@ def _remarks(record: RunRecord) -> Iterator[Block]:
             yield Sentences([f"{heading}: none."])
 
 
-def _provenance(results: Results) -> Iterator[Block]:
+def _provenance(results: Results, maps: xr.Dataset | None) -> Iterator[Block]:
     record = results.record
     rows = [
         ("package", f"landlab_debrisflow {record.version}"), ("started", record.started),
-        ("digest of the scene and its files", record.digest), ("time steps", str(record.steps)),
+        *([("digest of the scene", str(maps.attrs["scene_digest"]))] if maps and "scene_digest" in maps.attrs else []),
+        ("digest of keys and files", record.digest), ("time steps", str(record.steps)),
     ]  # fmt: skip
     if record.environment is None:
         yield Table(caption="The run", rows=rows)

@@ -62,6 +62,7 @@ def _terrain_rows(record: RunRecord, maps: xr.Dataset) -> list[tuple[str, str]]:
         rows.append(("without data", f"{np.count_nonzero(~known)} nodes, closed"))
     if maps.attrs.get("dem_sha256"):
         rows.insert(1, ("its SHA-256", str(maps.attrs["dem_sha256"])))
+    rows.append(("erodible soil", _soil_words(terrain)))
     edits = terrain.get("edits") or []
     if edits:
         kinds = [next((key for key in one if key in EDITS), "edit") for one in edits]
@@ -70,6 +71,13 @@ def _terrain_rows(record: RunRecord, maps: xr.Dataset) -> list[tuple[str, str]]:
 
 
 EDITS = ("dam", "wall", "excavation", "buildings")
+
+
+def _soil_words(terrain: dict) -> str:
+    depth, zones = terrain.get("soil_depth"), terrain.get("zones")
+    words = f"{rounded(depth, 'm')} deep" if isinstance(depth, float | int) else f"from {depth}" if depth else "none"
+    words = "that of the built-in example" if depth is None and terrain.get("example") else words
+    return f"{words}; other depths in zones" if zones else words
 
 
 def _release_rows(maps: xr.Dataset) -> list[tuple[str, str]]:

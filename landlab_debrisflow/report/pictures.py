@@ -63,9 +63,9 @@ def section_pictures(results: Results, maps: xr.Dataset) -> Iterator[Picture]:
     if not bool((maps.debris_flow__max_depth > 0.0).any()):
         return
     thalweg = results.dataset("thalweg") if "thalweg" in series_of(results) else None
-    own = thalweg is not None and "thalweg_x" in thalweg
-    line = np.stack([thalweg.thalweg_x, thalweg.thalweg_y], axis=1) if own else None
-    along = "the thalweg of the scene" if own else "the deepest way of the flow, down from its release"
+    line, along = None, "the deepest way of the flow, down from its release"
+    if thalweg is not None and "thalweg_x" in thalweg:
+        line, along = np.stack([thalweg.thalweg_x, thalweg.thalweg_y], axis=1), "the thalweg of the scene"
     words = f"Long section along {along}: the ground before and after, and the highest surface of the flow."
     yield picture(draw_section(maps, line), words, words)
     if thalweg is not None:

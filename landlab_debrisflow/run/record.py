@@ -13,6 +13,7 @@ from ..record.files import write_atomically
 from ..scene.content import leaves, named_files
 from ..scene.digest import digest
 from .files import is_result
+from .record_checks import check_record
 
 FORMAT = 2
 """Version of the record: 2 has the keys given, remarks, environment and statement; 1 has none of these."""
@@ -125,14 +126,7 @@ class RunRecord:
                 f"{READABLE[0]} to {FORMAT}; read it with the version that wrote it, or run the scene with another "
                 "output directory"
             )
-        kinds = {"scene": dict, "inputs": dict, "digest": str, "files": list, "state": str, "budget": dict}
-        kinds |= {"elapsed_time": float | int, "at_rest": bool, "scene_file": str | None, "version": str}
-        kinds |= dict.fromkeys(("plan", "environment", "statement"), dict | None)
-        kinds |= dict.fromkeys(("given", "notes", "doubts", "warnings"), list | None)
-        if unfit := [name for name, kind in kinds.items() if not isinstance(values.get(name), kind)]:
-            raise InputError(f"{path} is no whole record of a run: {unfit[0]} is {values.get(unfit[0])!r}")
-        if not all(isinstance(volume, float | int) for volume in values["budget"].values()):
-            raise InputError(f"{path} is no whole record of a run: its budget is {values['budget']!r:.60}")
+        check_record(values, path)
         return cls(**{name: value for name, value in values.items() if name in names})
 
     @property
@@ -142,7 +136,7 @@ class RunRecord:
 
     def write(self, path: Path) -> None:
         """Write the record, atomically."""
-        text = json.dumps(dataclasses.asdict(self) | {"written": _now()}, indent=1)
+        text = json.dumps(dataclasses.asdict(self) | {"format": FORMAT, "written": _now()}, indent=1)
         write_atomically(path, lambda temporary: temporary.write_text(text + "\n", encoding="utf-8"))
 
     def differences(self, other: "RunRecord", free: tuple[str, ...] = ()) -> list[str]:

@@ -18,30 +18,28 @@ def remarks(scene: Any) -> dict[str, list[str]]:
 
 @contextlib.contextmanager
 def noted_warnings(directory: OutputDirectory) -> Iterator[None]:
-    """Add the warnings of the package in a block to the record of a run, each once.
+    """Add the warnings of the package in a block to the record of a run, each once, as they come.
 
     An interruption is no warning: the state of the record tells it.
     """
-    handler = _Collector()
+    handler = _Noter(directory)
     log.addHandler(handler)
     try:
         yield
     finally:
         log.removeHandler(handler)
-        before = directory.record.warnings or []
-        if (found := list(dict.fromkeys([*before, *handler.found]))) != directory.record.warnings:
-            with contextlib.suppress(OSError):  # the disk is full: the run fails for that, if it has not failed yet
-                directory.note(warnings=found)
 
 
-class _Collector(logging.Handler):
-    """Handler that keeps warnings."""
+class _Noter(logging.Handler):
+    """Handler that notes warnings in a record, so that a run that is killed has told them."""
 
-    def __init__(self) -> None:
+    def __init__(self, directory: OutputDirectory):
         super().__init__(logging.WARNING)
-        self.found: list[str] = []
+        self._directory = directory
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Keep a warning."""
-        if record.module != "interruption":
-            self.found.append(record.getMessage())
+        """Note a warning."""
+        found, message = self._directory.record.warnings or [], record.getMessage()
+        if record.module != "interruption" and message not in found:
+            with contextlib.suppress(OSError):  # a full disk ends the run, not its warnings
+                self._directory.note(warnings=[*found, message])

@@ -153,7 +153,9 @@ def _compute(
     try:
         monitor.expect(scene.output_keys.max_duration, scene.setup.numerics.rest_energy)
         directory.remove_page()
-        directory.note(state=RUNNING, environment=environment(), **remarks(scene))
+        directory.note(
+            state=RUNNING, environment=environment(), warnings=directory.record.warnings or [], **remarks(scene)
+        )
         if scene.text is not None:
             directory.publish(lambda folder: (folder / SCENE).write_text(scene.text, encoding="utf-8"))
         observers = Observers(scene, directory)

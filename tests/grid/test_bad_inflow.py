@@ -30,7 +30,7 @@ GOOD = {
         ({"discharge": {"a": 1.0}}, ("discharge must be a number or a list", "'a'")),
         ({"discharge": [0.0, 20.0]}, ("discharge has 2 values for 3 times", "one for each or for all")),
         ({"discharge": []}, ("discharge has 0 values for 3 times",)),
-        ({"discharge": 0.0}, ("discharge is 0 m3 s-1 at all times", "leave it out")),
+        ({"discharge": 0.0}, ("discharge is 0 m3 s-1 at all times", "leave the hydrograph out")),
         ({"velocity": [4.0, 0.0, 4.0]}, ("velocity is 0 m s-1 at 5 s (index 1)", "20 m3 s-1", "give a velocity > 0")),
         ({"velocity": -1.0}, ("velocity must lie in [0, inf] m s-1", "-1.0")),
         ({"velocity": [4.0, 4.0]}, ("velocity has 2 values for 3 times",)),

@@ -219,7 +219,7 @@ def test_a_full_disk_loses_no_snapshots(tmp_path, monkeypatch):
     with pytest.raises(OSError, match="No space left on device") as failure:
         flow.run_until_rest()
     notes = " ".join(failure.value.__notes__)
-    assert "Snapshots: all are kept; make room and call write()" in notes and "the call had come to its end" in notes
+    assert "all snapshots are kept; make room and call write()" in notes and "the call had come to its end" in notes
     assert flow.at_rest and flow.budget["deposited"] > 0.0 and os.listdir(tmp_path) == []
     full = False
     assert snapshots.write() == tmp_path / "event.nc"

@@ -150,7 +150,7 @@ def test_diagnostics_tell_what_a_run_took():
 
 
 def test_a_dataset_that_is_no_state_is_refused():
-    with pytest.raises(InputError, match=r"state: the Dataset lacks identity, .* and more; give what to_dataset"):
+    with pytest.raises(InputError, match=r"state: the Dataset lacks identity, .* and more; give a Dataset that"):
         build("moves").state.from_dataset(xr.Dataset())
 
 

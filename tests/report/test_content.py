@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from landlab_debrisflow import __version__, measures
+from landlab_debrisflow import Scene, __version__, measures
 from landlab_debrisflow.report import write_report
 from landlab_debrisflow.report.numbers import rounded
 from landlab_debrisflow.report.outcome import outcome_of
@@ -85,7 +85,9 @@ def test_input_and_provenance(results, read):
     assert terrain["grid"].startswith("61 rows × 141 columns of nodes, 5 m apart")
     run = dict(read.table("The run"))
     assert run["package"] == f"landlab_debrisflow {__version__}" and "numba" in run["libraries"]
-    assert run["digest of the scene and its files"] == results.record.digest
+    assert run["digest of keys and files"] == results.record.digest
+    scene = Scene.from_file(results.directory / results.record.scene_file)
+    assert run["digest of the scene"] == scene.digest()
     assert "doi = {10.1002/nag.3339}" in read.texts("pre")[-1]
     words = " ".join(read.texts("p"))
     assert "Not modelled are boulders and wood" in words and "Made by landlab-debrisflow report" in words

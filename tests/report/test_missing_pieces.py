@@ -92,7 +92,7 @@ def test_damaged_maps_are_named(begun, content):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["gauges.nc", "thalweg.nc", "exposure.csv"])
+@pytest.mark.parametrize("name", ["gauges.nc", "exposure.csv"])
 def test_other_damaged_files_are_named(results, name, tmp_path):
     folder = tmp_path / "damaged"
     shutil.copytree(results.directory, folder)

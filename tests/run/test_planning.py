@@ -88,6 +88,7 @@ def test_a_run_uses_its_plan_and_reports(whole):
     assert whole.maps.attrs["numerics_particle_count"] == 1000 and whole.maps.attrs["numerics_preset"] == "fast"
     assert "Statement on a run by a plan" in whole.report and "run-out" in whole.report and "CPU" not in whole.report
     assert (whole.directory / "report.txt") in whole.files
+    assert whole.record.statement["particles"] >= 1000 and set(whole.record.statement["errors"]) >= {"run_out", "speed"}
     assert (whole.directory / "columns.nc").is_file()
 
 

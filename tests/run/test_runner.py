@@ -10,6 +10,7 @@ import xarray as xr
 from landlab_debrisflow import InputError
 from landlab_debrisflow.record.monitor import Monitor
 from landlab_debrisflow.run import runner
+from landlab_debrisflow.run.doubts import scene_doubts
 from landlab_debrisflow.run.runner import resume_scene, run_scene
 from landlab_debrisflow.scene.releases import set_release
 
@@ -31,6 +32,10 @@ def test_a_run_writes_maps_budget_and_record(whole):
     expected = {"run.json", "maps.nc", "budget.nc", *(f"{name}.{end}" for name in GEOTIFFS for end in ("tif", "qml"))}
     assert expected <= names and not [name for name in names if name.startswith(".")]
     assert len([name for name in names if name.startswith("series/")]) == 4  # after 2, 4, 6, 8 s
+    assert whole.record.given[:2] == ["terrain.example", "terrain.soil_depth"] and whole.record.environment["python"]
+    assert [words for words in whole.record.warnings if words.startswith("not at rest after 9 s")]
+    same = scene(whole.directory.parent)
+    assert whole.record.doubts == list(scene_doubts(same)) and whole.record.notes == same.notes
     assert whole.finished and whole.record.version and whole.record.scene["output"]["interval"] == 2.0
     with xr.open_dataset(whole.directory / "budget.nc") as budget:
         assert budget.released.values[-1] == pytest.approx(whole.budget["released"], rel=1e-14)
