@@ -34,7 +34,6 @@ extensions = [
     "outside",
     "anchors",
     "children",
-    "expected",
     "cells",
     "docstrings",
     "mathml",
