@@ -1,11 +1,13 @@
 """Animations show every time of a series with one scale, and are written whole or refused."""
 
+import matplotlib
 import numpy as np
 import pytest
+from matplotlib.animation import FFMpegWriter
 from PIL import Image
 
 from landlab_debrisflow import InputError
-from landlab_debrisflow.plots import animate, animation, save_animation
+from landlab_debrisflow.plots import animate, save_animation
 
 from .drawing import event, panels, values_of
 
@@ -42,7 +44,7 @@ def test_long_series_are_thinned_and_a_relief_is_not_needed(tmp_path):
         assert 3 <= image.n_frames <= 4
 
 
-def test_what_cannot_be_animated_is_refused(tmp_path, monkeypatch):
+def test_what_cannot_be_animated_is_refused(tmp_path):
     maps, moving = series()
     with pytest.raises(InputError, match=r"no map 'dept' over time \(did you mean 'depth'\?\)"):
         animate(moving, maps, "dept")
@@ -51,8 +53,8 @@ def test_what_cannot_be_animated_is_refused(tmp_path, monkeypatch):
     drawn = animate(moving, maps)
     with pytest.raises(InputError, match=r"must be .gif or .mp4, got '.avi'"):
         save_animation(drawn, tmp_path / "depth.avi")
-    monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", lambda: False)
-    with pytest.raises(InputError, match="needs the program ffmpeg, which is not installed; install it"):
+    without = matplotlib.rc_context({"animation.ffmpeg_path": "no such program"})
+    with without, pytest.raises(InputError, match="needs the program ffmpeg, which is not installed; install it"):
         save_animation(drawn, tmp_path / "depth.mp4")
     save_animation(drawn, tmp_path / "depth.gif", dpi=20)  # matplotlib warns of animations that nobody saved
     assert [path.name for path in tmp_path.iterdir()] == ["depth.gif"]
@@ -60,7 +62,7 @@ def test_what_cannot_be_animated_is_refused(tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_mp4_is_written_where_ffmpeg_is(tmp_path):
-    if not animation.FFMpegWriter.isAvailable():
+    if not FFMpegWriter.isAvailable():
         pytest.skip("ffmpeg is not installed")
     maps, moving = series()
     path = save_animation(animate(moving, maps), tmp_path / "depth.mp4", dpi=40)

@@ -2,13 +2,13 @@
 
 import shutil
 
+import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
 
 from landlab_debrisflow import InputError
 from landlab_debrisflow.cli import exit_codes, main
-from landlab_debrisflow.plots import animation
 from landlab_debrisflow.run.directory import OutputDirectory
 from landlab_debrisflow.run.pictures import draw_pictures
 
@@ -90,7 +90,7 @@ def test_an_unfinished_run_is_drawn_from_its_checkpoint(tmp_path, caplog):
         list(draw_pictures(directory))
 
 
-def test_what_cannot_be_drawn_is_refused_before_anything_is_written(run, tmp_path, monkeypatch):
+def test_what_cannot_be_drawn_is_refused_before_anything_is_written(run, tmp_path):
     def refused(match, path, *words, **keywords):
         with pytest.raises(InputError, match=match):
             list(draw_pictures(path, *words, **keywords))
@@ -108,6 +108,6 @@ def test_what_cannot_be_drawn_is_refused_before_anything_is_written(run, tmp_pat
     refused("missing does not exist; create it first", run, to=tmp_path / "missing" / "pictures")
     refused("format must be png, pdf, svg, got 'bmp'", run, form="bmp")
     refused("dpi must lie in", run, dpi=5)
-    monkeypatch.setattr(animation.FFMpegWriter, "isAvailable", lambda: False)
-    refused("needs the program ffmpeg", run, animation="mp4")
+    with matplotlib.rc_context({"animation.ffmpeg_path": "no such program"}):
+        refused("needs the program ffmpeg", run, animation="mp4")
     assert not (tmp_path / "missing").exists()
