@@ -3,6 +3,7 @@
 Nothing global is changed: figures are plain matplotlib objects, made without pyplot and without a display.
 """
 
+import io
 from typing import Any
 
 from matplotlib.axes import Axes
@@ -98,6 +99,15 @@ def number_text(value: float) -> str:
     return f"{value:.4g}"
 
 
+class ShownFigure(Figure):
+    """Figure that a notebook shows as the result of a cell, whether pyplot has been imported or not."""
+
+    def _repr_png_(self) -> bytes:
+        picture = io.BytesIO()
+        self.savefig(picture, format="png", dpi=100)
+        return picture.getvalue()
+
+
 def new_figure(width: float, height: float) -> Figure:
     """Return an empty figure whose pieces are laid out without overlap.
 
@@ -110,7 +120,7 @@ def new_figure(width: float, height: float) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
+    return ShownFigure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
 
 
 def figure_of(axes: Axes) -> Figure:

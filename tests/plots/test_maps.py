@@ -225,3 +225,9 @@ def test_noise_of_a_plain_has_no_contours():
     plain = maps.assign(topographic__elevation=(("y", "x"), noise))
     assert not [one for one in panels(draw_map(plain))[0].collections if isinstance(one, ContourSet)]
     assert [one for one in panels(draw_map(maps))[0].collections if isinstance(one, ContourSet)]
+
+
+def test_a_notebook_shows_a_figure_without_pyplot():
+    """IPython asks results of cells for this method; the plain figures of matplotlib have none."""
+    maps, _ = event()
+    assert draw_map(maps, "max_depth")._repr_png_().startswith(b"\x89PNG")
