@@ -50,10 +50,3 @@ def test_every_column_of_the_comparison_has_its_source():
     assert len(cited) == 5
     for number in cited:
         assert re.search(rf"\[{number}\]\s.*?\]\(https://", sources, re.DOTALL)
-
-
-@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "docs/laws.md"])
-def test_links_to_files_lead_somewhere(page):
-    path = ROOT / page
-    targets = re.findall(r"\]\((?!https?:)([^)#]+)(?:#[\w-]+)?\)", path.read_text(encoding="utf-8"))
-    assert targets and [target for target in targets if not (path.parent / target).exists()] == []

@@ -20,8 +20,8 @@ def add_command(commands) -> None:
     )  # fmt: skip
     plot.add_argument("--format", choices=FORMATS, default="png", help="format of pictures (default: %(default)s)")
     plot.add_argument(
-        "--animation", choices=ANIMATIONS, default="gif",
-        help="format of the animation, if maps were written as the run went (default: %(default)s)",
+        "--animation", choices=ANIMATIONS,
+        help="format of the animation of maps that were written as the run went (default: gif, if there are such maps)",
     )  # fmt: skip
     plot.add_argument("--output", type=Path, metavar="DIR", help="directory of the pictures (default: pictures there)")
     plot.add_argument("--dpi", type=int, default=150, help="dots per inch (default: %(default)s)")

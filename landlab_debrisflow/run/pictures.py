@@ -47,7 +47,7 @@ def draw_pictures(
     maps: Sequence[str] | None = None,
     *,
     form: str = "png",
-    animation: str = "gif",
+    animation: str | None = None,
     to: str | Path | None = None,
     dpi: int = 150,
 ) -> Iterator[Path]:
@@ -62,8 +62,8 @@ def draw_pictures(
         Names of maps, or ``all``; by default an overview, the maps of it, and those that the scene names.
     form : {"png", "pdf", "svg"}
         Format of pictures.
-    animation : {"gif", "mp4", "none"}
-        Format of the animation of a series of maps; MP4 needs ffmpeg.
+    animation : {"gif", "mp4", "none"}, optional
+        Format of the animation of a series of maps; MP4 needs ffmpeg. By default GIF, if there is a series.
     to : str or Path, optional
         Directory of the pictures, which is made if that above exists; by default ``pictures`` in that of the results.
     dpi : int
@@ -76,28 +76,42 @@ def draw_pictures(
     Raises
     ------
     InputError
-        If there is nothing to draw, a map is not known, or ffmpeg is missing.
+        If there is nothing to draw, a map is not known, ffmpeg is missing, or an animation is wanted of no series.
     OutputError, OSError
         If a picture cannot be written.
     """
     require(form in FORMATS, "plot: format", f"be {', '.join(FORMATS)}", form, error=InputError)
-    require(animation in ANIMATIONS, "plot: animation", f"be {', '.join(ANIMATIONS)}", animation, error=InputError)
+    allowed = animation is None or animation in ANIMATIONS
+    require(allowed, "plot: animation", f"be {', '.join(ANIMATIONS)}", animation, error=InputError)
     in_range("plot: dpi", dpi, 20, 1200, error=InputError)
     path = Path(path)
     recorded = read_recorded(path)
-    if "series" in recorded.datasets:
-        check_format(f".{animation}")
+    moving = _format_of_animation(recorded, animation)
     drawings = _drawings(recorded, _chosen(recorded, maps), with_overview=maps is None or ALL in maps)
     with _folder(path, to) as (folder, note):
         for name, draw in drawings.items():
             file = folder / f"{name}.{form}"
             note(file)
             yield save_figure(draw(), file, dpi)
-        if animation != "none" and "series" in recorded.datasets:
-            file = folder / f"{_moving(recorded)}.{animation}"
+        if moving is not None:
+            file = folder / f"{_animated(recorded)}.{moving}"
             note(file)
-            moving = animate(recorded.datasets["series"], recorded.maps, _moving(recorded), shapes=recorded.shapes)
-            yield save_animation(moving, file, dpi=min(dpi, 110))
+            series = animate(recorded.datasets["series"], recorded.maps, _animated(recorded), shapes=recorded.shapes)
+            yield save_animation(series, file, dpi=min(dpi, 110))
+
+
+def _format_of_animation(recorded: Recorded, wanted: str | None) -> str | None:
+    """Return the format of the animation, None for none, or raise InputError if it cannot be made."""
+    if wanted == "none" or (wanted is None and "series" not in recorded.datasets):
+        return None
+    if "series" not in recorded.datasets:
+        raise InputError(
+            f"plot: {recorded.path} holds no series of maps that could be animated; set output: interval in the scene, "
+            "and run it anew with --overwrite"
+        )
+    form = wanted or "gif"
+    check_format(f".{form}")
+    return form
 
 
 def _chosen(recorded: Recorded, names: Sequence[str] | None) -> list[str]:
@@ -177,7 +191,7 @@ def _thalweg(thalweg: xr.Dataset | None) -> np.ndarray | None:
     return np.stack([thalweg.thalweg_x.values, thalweg.thalweg_y.values], axis=1)
 
 
-def _moving(recorded: Recorded) -> str:
+def _animated(recorded: Recorded) -> str:
     """Return the name of the map of a series that is animated: the depth, if it is there."""
     names = [
         str(name).removeprefix("debris_flow__") for name, data in recorded.datasets["series"].items() if data.ndim == 3

@@ -24,8 +24,10 @@ def heights(axes):
 
 
 @pytest.mark.parametrize("settled", [True, False])
-def test_surfaces_lie_where_ground_was_lost_and_left(settled):
+@pytest.mark.parametrize("stacked", [True, False])
+def test_surfaces_lie_where_ground_was_lost_and_left(settled, stacked):
     maps, before = event(settled=settled)
+    maps = maps.drop_attrs() if stacked else maps
     upper, lower = draw_section(maps, LINE, before=before).axes
     distance, ground = line(upper, "ground before")
     assert_allclose(ground, 0.3 * (400.0 - (distance + 5.0)), rtol=1e-12)

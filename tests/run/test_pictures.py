@@ -108,6 +108,7 @@ def test_what_cannot_be_drawn_is_refused_before_anything_is_written(run, tmp_pat
     refused("missing does not exist; create it first", run, to=tmp_path / "missing" / "pictures")
     refused("format must be png, pdf, svg, got 'bmp'", run, form="bmp")
     refused("dpi must lie in", run, dpi=5)
+    refused("no series of maps that could be animated; set output: interval", run / "maps.nc", animation="gif")
     with matplotlib.rc_context({"animation.ffmpeg_path": "no such program"}):
         refused("needs the program ffmpeg", run, animation="mp4")
     assert not (tmp_path / "missing").exists()
