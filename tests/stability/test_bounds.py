@@ -21,7 +21,7 @@ INFINITE = 1e6
 TOO_FINE = {"particle_count": 3000, "particle_spacing": 0.3}
 """Bounds that only memory limits: the number of particles without an upper one, the spacing of 1e-6 m."""
 
-SHORT = {"courant_number": 1e-5, "gravity": 0.5}
+SHORT = {"courant_number": 1e-5, "advective_courant_number": 0.02, "gravity": 0.5}
 """Duration where a bound makes steps tiny or falls fast [s]; elsewhere 2 s."""
 
 
