@@ -1,6 +1,7 @@
 """Set-up shared by all tests."""
 
 import os
+import signal
 
 from .numba_cache import NUMBA_CACHE
 
@@ -20,6 +21,14 @@ from .twins import build, outcome, state
 def pytest_collection_modifyitems(items):
     """Build the site last: its pages run side by side, and read the kernels that tests have compiled by then."""
     items.sort(key=lambda item: "site" in getattr(item, "fixturenames", ()))
+
+
+@pytest.fixture(autouse=True, scope="session")
+def ctrl_c_is_heard():
+    """Let Ctrl-C raise KeyboardInterrupt, also where the tests are a job in the background, which ignores it."""
+    found = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, found)
 
 
 @pytest.fixture

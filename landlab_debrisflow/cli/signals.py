@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from ..core.ending import request_end
+
 ENDING = ("SIGTERM", "SIGHUP")
 """Names of the signals, where the system has them."""
 
@@ -24,9 +26,7 @@ class EndingSignal:
 
     def _handle(self, number: int, frame: FrameType | None) -> None:
         self.number = number
-        interrupt = signal.getsignal(signal.SIGINT)
-        if callable(interrupt):
-            interrupt(signal.SIGINT, frame)
+        request_end()  # not by SIGINT: shells let their background jobs ignore that one
 
 
 @contextmanager

@@ -3,8 +3,9 @@
 import logging
 import signal
 import threading
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
+from ..core.ending import noting_requests
 from ..core.errors import InputError
 
 log = logging.getLogger("landlab_debrisflow")
@@ -14,8 +15,9 @@ class Interruption:
     """Context of every call, which asks it between two steps whether an end is `requested`.
 
     Ctrl-C is noted instead of raised while a call runs in the main thread, unless the user's program has a handler of
-    its own in place of Python's. A second Ctrl-C is raised at once, unless interruptions are `deferred`: within a step
-    it undoes the call, as any failure in a step does; within an observer it counts as a failure of the observer.
+    its own in place of Python's; so is a request of `core.ending.request_end`. A second one is raised at once, unless
+    interruptions are `deferred`: within a step it undoes the call, as any failure in a step does; within an observer it
+    counts as a failure of the observer.
 
     Attributes
     ----------
@@ -32,7 +34,7 @@ class Interruption:
 
     def __init__(self):
         self.failure = self.end = None
-        self._running = self._handles = self._asked = self._raised = False
+        self._running = self._asked = self._raised = False
         self._deferred = 0
 
     def __enter__(self):
@@ -42,17 +44,18 @@ class Interruption:
                 "observe(flow) may look at the flow but not run it: call when the run has ended"
             )
         self._asked, self._raised, self.failure, self._deferred = False, False, None, 0
-        main = threading.current_thread() is threading.main_thread()
-        self._handles = main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-        if self._handles:
-            signal.signal(signal.SIGINT, self._note)
+        self._signals = ExitStack()
+        if threading.current_thread() is threading.main_thread():
+            self._signals.enter_context(noting_requests(self._note))
+            if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+                signal.signal(signal.SIGINT, lambda number, frame: self._note())
+                self._signals.callback(signal.signal, signal.SIGINT, signal.default_int_handler)
         self._running = True
         return self
 
     def __exit__(self, *_):
         self._deferred, self._running = 1, False
-        if self._handles:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+        self._signals.close()
 
     @property
     def running(self) -> bool:
@@ -92,7 +95,7 @@ class Interruption:
         cause.add_note(words)
         raise cause
 
-    def _note(self, number, frame):
+    def _note(self):
         if self._asked and not self._deferred and not self._raised:
             self._raised = True  # a further Ctrl-C must not interrupt the handling of this one
             raise KeyboardInterrupt

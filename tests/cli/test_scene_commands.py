@@ -148,9 +148,13 @@ def test_help_tells_the_exit_codes(capsys):
     assert exit_codes.epilog() in capsys.readouterr().out
 
 
-def start(*words):
+def start(*words, interrupt=signal.SIG_DFL):
     command = [sys.executable, "-m", "landlab_debrisflow.cli.main", *words]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    before = signal.signal(signal.SIGINT, interrupt)  # inherited by the process
+    try:
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @pytest.mark.slow
@@ -160,7 +164,9 @@ def test_a_run_that_a_signal_ends_is_resumed(number, scene, tmp_path):
     text = SCENE.replace("max_duration: 3.0", "max_duration: 60.0, checkpoint_interval: 0.1").replace("60}", "600}")
     (tmp_path / scene).write_text(text, encoding="utf-8")
     folder = tmp_path / "slope_out"
-    with start("run", scene) as process:
+    # a script lets its background jobs ignore SIGINT: the other signals end them all the same
+    interrupt = signal.SIG_DFL if number == signal.SIGINT else signal.SIG_IGN
+    with start("run", scene, interrupt=interrupt) as process:
         while process.poll() is None and not (folder / "checkpoint.nc").exists():
             time.sleep(0.01)
         process.send_signal(number)

@@ -46,10 +46,8 @@ def expected():
 
 @pytest.fixture(autouse=True)
 def the_handler_is_pythons_again():
-    # commands that a shell runs in the background ignore Ctrl-C
-    found = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
-    assert signal.signal(signal.SIGINT, found) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def during_a_step(monkeypatch, number, action, stage="consolidate"):
