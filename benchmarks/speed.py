@@ -215,7 +215,8 @@ def main() -> None:
         sys.exit(not speed_against.compare(options.against, 2 if options.quick else speed_against.PROCESSES))
     most = 10_000 if options.quick else 1_000_000
     console = Console(width=180)
-    told = result_files.provenance(COMMAND)  # before it makes a load itself
+    command = f"{COMMAND} --peer PYTHON" if options.peer else COMMAND
+    told = result_files.provenance(command)  # before it makes a load itself
     made = Report(console.log)
     engine.cap(1000).run_one_step(1.0)  # compiles
     engine.valley(200).run_one_step(5.0)
@@ -230,7 +231,7 @@ def main() -> None:
     if options.quick:
         show(made.tables, console)
         return
-    result_files.keep("speed", {"tables": made.tables, "curves": made.curves}, COMMAND, told)
+    result_files.keep("speed", {"tables": made.tables, "curves": made.curves}, command, told)
     charts.make("speed")
 
 

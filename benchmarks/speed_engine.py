@@ -28,8 +28,6 @@ from validation.cases.planes import similarity_body
 FLOPS = 63
 """Floating-point operations for a pair in summation._sum, minima and maxima among them, a reciprocal root as two."""
 
-BY_LATTICE = 50_000  # particles from which they are placed without the relaxation of the release
-
 
 class Steps:
     """Counts of steps and particle-steps inside `counting`."""
@@ -54,33 +52,9 @@ def counting():
         yield done
 
 
-def _lattice(depth, spacing, corner, surface, count):
-    """Place particles of the similarity solution's cap on a jittered lattice: the release's own relaxation is slow."""
-    side = int(np.ceil(np.sqrt(4.0 * count / np.pi)))
-    rng = np.random.default_rng(0)
-    x, y = (np.stack(np.meshgrid(*2 * [np.arange(side) + 0.5])) + rng.uniform(-0.2, 0.2, (2, side, side))).reshape(
-        2, -1
-    )
-    x, y = 2.0 * x / side - 1.0, 2.0 * y / side - 1.0
-    part = x**2 + y**2
-    used = np.sort(np.argsort(part, kind="stable")[:count])
-    x, y, part = x[used], y[used], part[used] / part[used].max()
-    radius = np.sqrt(1.0 - np.sqrt(1.0 - 0.9999 * part))  # within which this part of a paraboloid's volume lies
-    stretch = 80.0 * radius / np.sqrt(part)
-    west, south = spacing[0] * 55.0, spacing[1] * 55.0  # the centre of the cap from the lower left node
-    return (
-        x * stretch * spacing[0] / spacing[1] + west,
-        y * stretch + south,
-        4.0 * (1.0 - radius**2) * spacing[1] / spacing[0],
-    )
-
-
 def cap(count, threads=1):
     """Return the similarity solution at rest."""
-    if count < BY_LATTICE:
-        return similarity_body(count, threads)
-    with mock.patch.object(release, "place_particles", _lattice):
-        return similarity_body(count, threads)
+    return similarity_body(count, threads)
 
 
 class SumRate(NamedTuple):
