@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..core.errors import InputError
 from .colours import extend_of, linear_norm
-from .style import LABEL, TICK, TITLE, dress, figure_of, new_figure, plain_text
+from .style import LABEL, TICK, TITLE, dress, figure_of, legend_above, new_figure, plain_text
 
 PROFILES = 5
 """Number of profiles that are drawn beside the image."""
@@ -129,7 +129,4 @@ def _draw_profiles(axes: Axes, time: np.ndarray, height: np.ndarray, pressure: n
     axes.axvline(0.0, color="0.7", linewidth=0.6)
     axes.set_xlabel("excess pore pressure [kPa]", fontsize=LABEL)
     dress(axes, grid=True)
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=TICK, borderaxespad=0.2,
-        handlelength=1.2, columnspacing=1.0,
-    )  # fmt: skip
+    legend_above(axes, 3)

@@ -9,7 +9,18 @@ from matplotlib.figure import Figure
 
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
-from .style import LABEL, TICK, TITLE, dress, figure_of, label_text, line_style, new_figure, number_text, plain_text
+from .style import (
+    LABEL,
+    TITLE,
+    dress,
+    figure_of,
+    label_text,
+    legend_above,
+    line_style,
+    new_figure,
+    number_text,
+    plain_text,
+)  # fmt: skip
 
 PANEL = (7.5, 1.9)
 """Width and height of a panel [inch]."""
@@ -129,9 +140,7 @@ def _draw_series(
         panel.tick_params(labelbottom=number == len(panels) - 1 or axes is not None)
     panels[-1].set_xlabel("time [s]", fontsize=LABEL)
     if labels:
-        panels[0].legend(
-            loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, fontsize=TICK, borderaxespad=0.2
-        )
+        legend_above(panels[0], 3)
     figure = figure_of(panels[0])
     if axes is None:
         figure.align_ylabels(panels)

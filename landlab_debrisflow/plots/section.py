@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..core.errors import InputError
 from ..record.places import line as checked_line
 from .ground import GroundProfile, ground_of
-from .style import AFTER, BEFORE, DEPOSIT, EROSION, LABEL, PEAK, TICK, TITLE, dress, figure_of, new_figure, plain_text
+from .style import AFTER, BEFORE, DEPOSIT, EROSION, LABEL, PEAK, dress, figure_of, legend_above, new_figure, title_above
 from .thalweg import trace_thalweg
 
 KILOMETRES_FROM = 10_000.0
@@ -74,8 +74,7 @@ def draw_section(
         figure.align_ylabels([upper, lower])
     below.set_xlabel(f"distance along the line [{unit}]", fontsize=LABEL)
     below.set_xlim(distance[0], distance[-1])
-    if title is not None:
-        upper.set_title(plain_text(title), loc="left", fontsize=TITLE, pad=22.0)
+    title_above(upper, title)
     return figure
 
 
@@ -132,7 +131,7 @@ def _draw_elevation(axes: Axes, distance: np.ndarray, profile: xr.Dataset, is_ex
     axes.set_ylim(floor, None)
     axes.set_ylabel("elevation [m]", fontsize=LABEL)
     dress(axes, grid=True)
-    _legend(axes)
+    legend_above(axes, 4)
 
 
 def _draw_heights(axes: Axes, distance: np.ndarray, profile: xr.Dataset) -> None:
@@ -144,12 +143,4 @@ def _draw_heights(axes: Axes, distance: np.ndarray, profile: xr.Dataset) -> None
     axes.axhline(0.0, color=BEFORE, linewidth=1.0, linestyle="--")
     axes.set_ylabel("height over the\nground before [m]", fontsize=LABEL)
     dress(axes, grid=True)
-    _legend(axes)
-
-
-def _legend(axes: Axes) -> None:
-    """Draw the legend above the axes, where it covers nothing."""
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, frameon=False, fontsize=TICK, borderaxespad=0.2,
-        handlelength=1.6, columnspacing=1.4,
-    )  # fmt: skip
+    legend_above(axes, 4)

@@ -150,6 +150,27 @@ def dress(axes: Axes, *, grid: bool = False) -> None:
             axes.spines[side].set_visible(False)
 
 
+def legend_above(axes: Axes, columns: int) -> None:
+    """Draw the legend of axes above them, where it covers nothing.
+
+    Parameters
+    ----------
+    axes : matplotlib.axes.Axes
+    columns : int
+        Entries in a row.
+    """
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False, fontsize=TICK, borderaxespad=0.2,
+        handlelength=1.6, columnspacing=1.4,
+    )  # fmt: skip
+
+
+def title_above(axes: Axes, title: str | None) -> None:
+    """Draw the title of axes, if there is one, above the legend that stands over them."""
+    if title is not None:
+        axes.set_title(plain_text(title), loc="left", fontsize=TITLE, pad=22.0)
+
+
 def halo(width: float = 2.5) -> list[AbstractPathEffect]:
     """Return path effects that put a white rim around text or a line, so that it is legible on any ground.
 

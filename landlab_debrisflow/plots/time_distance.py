@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..core.errors import InputError
-from .style import LABEL, MUTED, TICK, TITLE, dress, figure_of, line_style, new_figure, plain_text
+from .style import LABEL, MUTED, dress, figure_of, legend_above, line_style, new_figure, title_above
 
 
 def draw_time_distance(thalweg: xr.Dataset, *, axes: Axes | None = None, title: str | None = None) -> Figure:
@@ -47,7 +47,6 @@ def draw_time_distance(thalweg: xr.Dataset, *, axes: Axes | None = None, title: 
     axes.set_ylabel("distance along the thalweg [m]", fontsize=LABEL)
     dress(axes, grid=True)
     axes.margins(x=0.01)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=TICK, borderaxespad=0.2)
-    if title is not None:
-        axes.set_title(plain_text(title), loc="left", fontsize=TITLE, pad=22.0)
+    legend_above(axes, 2)
+    title_above(axes, title)
     return figure_of(axes)

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..core.errors import InputError
-from .style import AFTER, DEPOSIT, EROSION, LABEL, PEAK, TICK, TITLE, dress, figure_of, new_figure, plain_text
+from .style import AFTER, DEPOSIT, EROSION, LABEL, PEAK, dress, figure_of, legend_above, new_figure, title_above
 
 SOURCES = {"released": ("released", "#b8a88a"), "inflow": ("flowed in", DEPOSIT), "eroded": ("eroded", EROSION)}
 PLACES = {"deposited": ("settled", AFTER, "-"), "outflow": ("left the grid", PEAK, "--")}
@@ -53,9 +53,6 @@ def draw_volumes(budget: xr.Dataset, *, axes: Axes | None = None, title: str | N
     axes.set_ylabel("volume [m³]", fontsize=LABEL)
     dress(axes, grid=True)
     if known:
-        axes.legend(
-            loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, frameon=False, fontsize=TICK, borderaxespad=0.2
-        )
-    if title is not None:
-        axes.set_title(plain_text(title), loc="left", fontsize=TITLE, pad=22.0)
+        legend_above(axes, 4)
+    title_above(axes, title)
     return figure_of(axes)

@@ -8,6 +8,7 @@ import xarray as xr
 
 from ..core.version import __version__
 from ..run.record import RunRecord
+from ..run.recorded import Recorded, read_recorded
 from ..run.results import Results
 from .blocks import Block, Section, Sentences, Table, Verbatim, line
 from .cautions import DISTRUST, NOT_MODELLED
@@ -76,13 +77,13 @@ def gather_content(results: Results) -> Content:
     """
     record = results.record
     state, alert = state_of(results)
-    maps = results.maps if results.finished else None
+    recorded = read_recorded(results.directory) if results.finished else Recorded(results.directory)
     exposure = exposed(results) if results.finished else None
-    summary = [] if maps is None else summary_of(record, outcome_of(results, maps), exposure)
+    summary = [] if recorded.maps is None else summary_of(record, outcome_of(recorded.maps), exposure)
     kind = f"Report of a run of {record.started[:10]}, landlab_debrisflow {record.version}"
     return Content(
         title=scene_name(results), kind=kind, state=state, alert=alert, summary=Sentences(summary),
-        sections=list(_sections(results, maps, exposure)), made=_made(),
+        sections=list(_sections(results, recorded, exposure)), made=_made(),
     )  # fmt: skip
 
 
@@ -93,8 +94,8 @@ def scene_name(results: Results) -> str:
     return name.removesuffix(".yaml").removesuffix(".yml").removesuffix("_out") or name
 
 
-def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | None) -> Iterator[Section]:
-    record = results.record
+def _sections(results: Results, recorded: Recorded, exposure: Exposed | None) -> Iterator[Section]:
+    record, maps = results.record, recorded.maps
     if maps is not None:
         yield Section("errors", "How sure this is", [*error_blocks(results), Sentences([BEYOND])])
     yield Section("cautions", "Processes left out, and numbers to distrust", [
@@ -102,16 +103,16 @@ def _sections(results: Results, maps: xr.Dataset | None, exposure: Exposed | Non
     ])  # fmt: skip
     yield Section("remarks", "Notes, doubts and warnings", list(_remarks(record)))
     if maps is not None:
-        yield Section("maps", "Maps", [*map_pictures(results, maps), *moving_pictures(results, maps)])
-        if sections := list(section_pictures(results, maps)):
+        yield Section("maps", "Maps", [*map_pictures(recorded, maps), *moving_pictures(recorded)])
+        if sections := list(section_pictures(recorded, maps)):
             yield Section("sections", "Along the flow", sections)
-        if series := list(series_pictures(results)):
+        if series := list(series_pictures(recorded)):
             yield Section("series", "At sections and gauges", series)
-        if columns := list(column_pictures(results)):
+        if columns := list(column_pictures(recorded)):
             yield Section("columns", "Pore pressure in a column", columns)
         if exposure is not None:
             yield Section("exposure", "Exposed polygons", [exposure_table(exposure)])
-        yield Section("volumes", "Volumes", [*ledger_blocks(record.budget), *volume_pictures(results)])
+        yield Section("volumes", "Volumes", [*ledger_blocks(record.budget), *volume_pictures(recorded)])
     yield Section("input", "Input", input_blocks(record, maps))
     yield Section("scene", "The scene as it was given", scene_blocks(record))
     yield Section("parameters", "Laws and parameters", law_blocks(record, maps))

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..record.measures import RELEASE, measures
-from ..run.results import Results
+from ..run.results import before_in
 
 AFFECTED = 0.1
 """Peak depth from which on a node counts as affected [m]."""
@@ -43,21 +43,19 @@ class Outcome:
     travel_angle: float
 
 
-def outcome_of(results: Results, maps: xr.Dataset) -> Outcome:
+def outcome_of(maps: xr.Dataset) -> Outcome:
     """Return the numbers of an event.
 
     Parameters
     ----------
-    results : Results
-        Results of a run that came to its end.
     maps : xarray.Dataset
-        As `Results.maps` returns them.
+        As `Results.maps` returns them, of a run that came to its end.
 
     Returns
     -------
     Outcome
     """
-    before = results.before
+    before = before_in(maps)
     lies = maps.debris_flow__deposit_depth.fillna(0.0) + maps.debris_flow__depth.fillna(0.0)
     whole = maps.assign(debris_flow__deposit_depth=lies)  # moving mass has come as far
     released = before is not None and bool((before[RELEASE] > 0.0).any())

@@ -17,7 +17,8 @@ from ..plots import (
     draw_time_distance,
     draw_volumes,
 )
-from ..run.results import Results
+from ..plots.style import unit_text
+from ..run.recorded import Recorded
 from .blocks import Picture
 from .numbers import rounded
 
@@ -44,71 +45,58 @@ MAPS = {
 ALWAYS = 6
 
 
-def map_pictures(results: Results, maps: xr.Dataset) -> Iterator[Picture]:
+def map_pictures(recorded: Recorded, maps: xr.Dataset) -> Iterator[Picture]:
     """Yield maps of the end of a run: the first ones of `MAPS`, and further ones that its scene names."""
-    asked = (results.record.scene.get("output") or {}).get("maps") or ()
-    shapes = _exposed_shapes(results)
     for number, (name, words) in enumerate(MAPS.items()):
-        if number >= ALWAYS and name not in asked:
+        if number >= ALWAYS and name not in recorded.asked:
             continue
         if name != "elevation_change" and f"debris_flow__{name}" not in maps:
             continue
-        figure = draw_map(maps, name, shapes=shapes)
+        figure = draw_map(maps, name, shapes=recorded.shapes)
         title = figure.axes[0].get_title(loc="left")
         yield picture(figure, f"Map: {title}. {_range_words(maps, name)}", words)
 
 
-def section_pictures(results: Results, maps: xr.Dataset) -> Iterator[Picture]:
+def section_pictures(recorded: Recorded, maps: xr.Dataset) -> Iterator[Picture]:
     """Yield the long section along the thalweg of a run or the deepest way of its flow, and the way of its front."""
     if not bool((maps.debris_flow__max_depth > 0.0).any()):
         return
-    thalweg = results.dataset("thalweg") if "thalweg" in series_of(results) else None
-    line, along = None, "the deepest way of the flow, down from its release"
-    if thalweg is not None and "thalweg_x" in thalweg:
-        line, along = np.stack([thalweg.thalweg_x, thalweg.thalweg_y], axis=1), "the thalweg of the scene"
+    line = recorded.thalweg
+    along = "the deepest way of the flow, down from its release" if line is None else "the thalweg of the scene"
     words = f"Long section along {along}: the ground before and after, and the highest surface of the flow."
     yield picture(draw_section(maps, line), words, words)
-    if thalweg is not None:
+    if (front := recorded.datasets.get("thalweg")) is not None:
         words = "Distance of the front along the thalweg against time: the steeper, the faster."
-        yield picture(draw_time_distance(thalweg), f"{words} {_front_words(thalweg)}", words)
+        yield picture(draw_time_distance(front), f"{words} {_front_words(front)}", words)
 
 
-def series_pictures(results: Results) -> Iterator[Picture]:
+def series_pictures(recorded: Recorded) -> Iterator[Picture]:
     """Yield hydrographs at sections and series at gauges, if the run has any."""
-    found = series_of(results)
-    if "sections" in found:
-        sections = results.dataset("sections")
+    if (sections := recorded.datasets.get("sections")) is not None:
         words = "Hydrographs at the sections of the scene: discharge, depth and speed against time."
         yield picture(draw_hydrographs(sections), f"{words} {_crossed_words(sections)}", words)
-    if "gauges" in found:
+    if (gauges := recorded.datasets.get("gauges")) is not None:
         words = "Depth, speed and excess pore pressure at the base, at the gauges of the scene, against time."
-        yield picture(draw_gauges(results.dataset("gauges")), words, words)
+        yield picture(draw_gauges(gauges), words, words)
 
 
-def column_pictures(results: Results) -> Iterator[Picture]:
+def column_pictures(recorded: Recorded) -> Iterator[Picture]:
     """Yield the pore pressure of a marked column against time, if the run followed any."""
-    if "columns" in series_of(results):
-        columns = results.dataset("columns")
-        if columns.sizes.get("time") and np.isfinite(columns.excess_pore_pressure.values).any():
-            words = (
-                "Excess pore pressure within the column of one particle: on the left over height and time, where the "
-                "upper edge is the surface of the flow; on the right its profile at some times."
-            )
-            yield picture(draw_column(columns), words, words)
+    columns = recorded.datasets.get("columns")
+    if columns is not None and columns.sizes.get("time") and bool(columns.excess_pore_pressure.notnull().any()):
+        words = (
+            "Excess pore pressure within the column of one particle: on the left over height and time, where the "
+            "upper edge is the surface of the flow; on the right its profile at some times."
+        )
+        yield picture(draw_column(columns), words, words)
 
 
-def volume_pictures(results: Results) -> Iterator[Picture]:
+def volume_pictures(recorded: Recorded) -> Iterator[Picture]:
     """Yield the volumes of a run against time."""
-    if "budget" in series_of(results):
-        budget = results.dataset("budget")
-        if budget.sizes.get("time", 0) > 1:
-            words = "Volumes against time: released, inflow and eroded above each other, deposit and outflow as lines."
-            yield picture(draw_volumes(budget), words, words)
-
-
-def series_of(results: Results) -> set[str]:
-    """Return the names of the NetCDF files in a directory of results, without their ending."""
-    return {path.stem for path in results.directory.glob("*.nc")}
+    budget = recorded.datasets.get("budget")
+    if budget is not None and budget.sizes.get("time", 0) > 1:
+        words = "Volumes against time: released, inflow and eroded above each other, deposit and outflow as lines."
+        yield picture(draw_volumes(budget), words, words)
 
 
 def picture(figure: Any, text: str, caption: str) -> Picture:
@@ -145,8 +133,8 @@ def _range_words(maps: xr.Dataset, name: str) -> str:
     data = maps.get(f"debris_flow__{name}")
     if data is None or not np.isfinite(data.values).any():
         return ""
-    unit = str(data.attrs.get("units", "")).replace("1", "")
-    return f"Largest value: {rounded(float(data.max()), unit)}."
+    unit = str(data.attrs.get("units", "1"))
+    return f"Largest value: {rounded(float(data.max()), '' if unit == '1' else unit_text(unit))}."
 
 
 def _front_words(thalweg: xr.Dataset) -> str:
@@ -157,15 +145,3 @@ def _front_words(thalweg: xr.Dataset) -> str:
 def _crossed_words(sections: xr.Dataset) -> str:
     volumes = zip(sections["section"].values, sections.crossed_volume.values, strict=True)
     return "; ".join(f"{rounded(float(value), 'm³')} crossed {name}" for name, value in volumes) + "."
-
-
-def _exposed_shapes(results: Results) -> Any:
-    """Return the exposed polygons of a run; None without any, or without the library that reads them."""
-    path = results.directory / "exposure.gpkg"
-    if not path.is_file():
-        return None
-    try:
-        import geopandas
-    except ImportError:
-        return None
-    return geopandas.read_file(path, engine="pyogrio")

@@ -94,17 +94,18 @@ def draw_pictures(
             note(file)
             yield save_figure(draw(), file, dpi)
         if moving is not None:
-            file = folder / f"{_animated(recorded)}.{moving}"
+            name = recorded.animated or "depth"
+            file = folder / f"{name}.{moving}"
             note(file)
-            series = animate(recorded.datasets["series"], recorded.maps, _animated(recorded), shapes=recorded.shapes)
+            series = animate(recorded.datasets["series"], recorded.maps, name, shapes=recorded.shapes)
             yield save_animation(series, file, dpi=min(dpi, 110))
 
 
 def _format_of_animation(recorded: Recorded, wanted: str | None) -> str | None:
     """Return the format of the animation, None for none, or raise InputError if it cannot be made."""
-    if wanted == "none" or (wanted is None and "series" not in recorded.datasets):
+    if wanted == "none" or (wanted is None and recorded.animated is None):
         return None
-    if "series" not in recorded.datasets:
+    if recorded.animated is None:
         raise InputError(
             f"plot: {recorded.path} holds no series of maps that could be animated; set output: interval in the scene, "
             "and run it anew with --overwrite"
@@ -146,7 +147,7 @@ def _drawings(recorded: Recorded, names: Sequence[str], with_overview: bool) -> 
                 draw_map, maps, name, shapes=recorded.shapes, places=places
             )
         if _moved(maps):
-            drawings["section"] = partial(draw_section, maps, _thalweg(found.get("thalweg")))
+            drawings["section"] = partial(draw_section, maps, recorded.thalweg)
         if "tracks" in found:
             drawings["tracks"] = partial(draw_tracks, found["tracks"], maps)
     of_series = {
@@ -182,23 +183,6 @@ def _moved(maps: xr.Dataset) -> bool:
     """Return whether a long section can be drawn: the flow reached two nodes or more, and the ground is known."""
     depth = maps.get("debris_flow__max_depth")
     return "topographic__elevation" in maps and depth is not None and int((depth > 0.0).sum()) > 1
-
-
-def _thalweg(thalweg: xr.Dataset | None) -> np.ndarray | None:
-    """Return the vertices of the thalweg of a run, shape (n, 2) [m]; None if it has none."""
-    if thalweg is None or "thalweg_x" not in thalweg:
-        return None
-    return np.stack([thalweg.thalweg_x.values, thalweg.thalweg_y.values], axis=1)
-
-
-def _animated(recorded: Recorded) -> str:
-    """Return the name of the map of a series that is animated: the depth, if it is there."""
-    names = [
-        str(name).removeprefix("debris_flow__") for name, data in recorded.datasets["series"].items() if data.ndim == 3
-    ]
-    if not names:
-        raise InputError(f"plot: the series of {recorded.path} holds no maps over time, y and x")
-    return "depth" if "depth" in names else names[0]
 
 
 @contextlib.contextmanager

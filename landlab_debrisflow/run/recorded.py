@@ -49,6 +49,21 @@ class Recorded:
     asked: tuple[str, ...] = ()
     shapes: Any = None
 
+    @property
+    def thalweg(self) -> np.ndarray | None:
+        """Vertices of the thalweg of the scene, shape (n, 2) [m]; None if the scene has none."""
+        front = self.datasets.get("thalweg")
+        if front is None or "thalweg_x" not in front:
+            return None
+        return np.stack([front.thalweg_x.values, front.thalweg_y.values], axis=1)
+
+    @property
+    def animated(self) -> str | None:
+        """Name of the map of the series that is animated, the depth if the series has it; None without a series."""
+        series = self.datasets.get(SERIES, xr.Dataset())
+        names = [str(name).removeprefix(OUTPUT_PREFIX) for name, data in series.items() if data.ndim == 3]
+        return "depth" if "depth" in names else next(iter(names), None)
+
 
 def read_recorded(path: Path) -> Recorded:
     """Read the records of a run.
@@ -66,10 +81,10 @@ def read_recorded(path: Path) -> Recorded:
     if path.is_file() or path.suffix == ".zarr":
         return _of_file(path)
     if not path.exists():
-        raise InputError(f"plot: {path} does not exist; give the directory of the results of a scene, or its maps.nc")
+        raise InputError(f"{path} does not exist; give the directory of the results of a scene, or its maps.nc")
     results = Results(path)
     asked = tuple((results.record.scene.get("output") or {}).get("maps") or ())
-    if not (path / MAPS).is_file():
+    if not results.finished and not (path / MAPS).is_file():
         return _of_unfinished(results, asked)
     datasets = {name: results.dataset(name) for name in KINDS if (path / f"{name}.nc").is_file()}
     if (store := path / f"{SERIES}{SERIES_SUFFIX['zarr']}").is_dir():
@@ -94,10 +109,8 @@ def _of_unfinished(results: Results, asked: tuple[str, ...]) -> Recorded:
         with tempfile.TemporaryDirectory() as folder:
             datasets[SERIES] = _opened(combine_maps(path / SERIES, Path(folder) / f"{SERIES}.nc"))
     if maps is None and not datasets:
-        if results.finished:
-            raise InputError(f"plot: {path} lacks its {MAPS}; run the scene anew with --overwrite")
         raise InputError(
-            f"plot: {path} holds nothing to draw yet: the run is {state}"
+            f"{path} holds nothing to draw yet: the run is {state}"
             f"{f', and {failure}' if failure else ' and has no checkpoint'}; landlab-debrisflow resume {path} goes on"
         )
     return Recorded(path, maps, datasets, asked)
@@ -132,7 +145,7 @@ def _of_file(path: Path) -> Recorded:
     """Return the Dataset of one file, as maps or as one of `KINDS`."""
     if path.suffix not in (".nc", ".zarr"):
         raise InputError(
-            f"plot: {path} is no file of results that can be drawn; give the directory of a run, or a NetCDF file of it"
+            f"{path} is no file of results that can be drawn; give the directory of a run, or a NetCDF file of it"
         )
     dataset = _opened(path)
     if kind := _kind(dataset):
@@ -140,7 +153,7 @@ def _of_file(path: Path) -> Recorded:
     if any(set(data.dims) == {"y", "x"} for data in dataset.values()):
         return Recorded(path, dataset)
     raise InputError(
-        f"plot: {path} holds nothing that can be drawn: it has {', '.join(map(str, dataset)) or 'no variables'}; give "
+        f"{path} holds nothing that can be drawn: it has {', '.join(map(str, dataset)) or 'no variables'}; give "
         "maps over y and x, or another file of a run"
     )
 
@@ -164,8 +177,10 @@ def _opened(path: Path) -> xr.Dataset:
     try:
         with xr.open_dataset(path, engine=engine, decode_coords="all", decode_timedelta=False) as data:
             return data.load()
-    except (OSError, RuntimeError, ValueError, KeyError, ImportError) as error:
-        raise InputError(f"plot: cannot read {path}: {error}; it is damaged, or no such file") from error
+    except ImportError as error:
+        raise InputError(f'cannot read {path}: {error}; pip install "landlab_debrisflow[geo]"') from error
+    except (OSError, RuntimeError, ValueError, KeyError) as error:
+        raise InputError(f"cannot read {path}: {error}; it is damaged, or no such file") from error
 
 
 def _shapes(path: Path) -> Any:

@@ -91,10 +91,7 @@ class Results:
     @property
     def before(self) -> xr.Dataset | None:
         """Ground before the event and depth of all releases, as `measures` takes them; None if not written."""
-        maps = self.maps
-        if ELEVATION_BEFORE not in maps:
-            return None
-        return maps[[ELEVATION_BEFORE, RELEASED_DEPTH]].rename({ELEVATION_BEFORE: ELEVATION, RELEASED_DEPTH: RELEASE})
+        return before_in(self.maps)
 
     def dataset(self, name: str) -> xr.Dataset:
         """Return one of the files of the results, whole.
@@ -151,3 +148,21 @@ class Results:
         if record.budget:
             rows.append(("budget [m3]", ", ".join(f"{name} {grouped(v)}" for name, v in record.budget.items())))
         return [*rows, ("files", ", ".join(path.name for path in self.files))]
+
+
+def before_in(maps: xr.Dataset) -> xr.Dataset | None:
+    """Return ground before the event and depth of all releases in maps of a file, as `measures` takes them.
+
+    Parameters
+    ----------
+    maps : xarray.Dataset
+        As `Results.maps` returns them.
+
+    Returns
+    -------
+    xarray.Dataset or None
+        None if the version that wrote the file did not keep them.
+    """
+    if ELEVATION_BEFORE not in maps:
+        return None
+    return maps[[ELEVATION_BEFORE, RELEASED_DEPTH]].rename({ELEVATION_BEFORE: ELEVATION, RELEASED_DEPTH: RELEASE})

@@ -41,7 +41,7 @@ def test_the_summary_is_that_of_record_and_maps(results, read):
 
 def test_run_out_is_counted_from_the_release(results):
     """By hand: 99 % of the mass, which still moves, lies nearer to the centre of the outline, (400035, 5200157.5)."""
-    found, maps = outcome_of(results, results.maps), results.maps
+    found, maps = outcome_of(results.maps), results.maps
     x, y = np.meshgrid(maps.x, maps.y)
     depth = np.nan_to_num(maps.debris_flow__depth.values)
     far = np.hypot(x - 400035.0, y - 5200157.5)
