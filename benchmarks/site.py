@@ -45,8 +45,8 @@ def first_map(console: Console) -> None:
         installed, first, second = seconds(install), seconds(run), seconds(run)
         assert Path(checkout, "first_flow.png").stat().st_size > 0
     console.print(
-        f"empty environment to the first map: {installed + first:.0f} s, {installed:.0f} s for the installation; a second "
-        f"run {second:.1f} s",
+        f"empty environment to the first map: {installed + first:.0f} s, {installed:.0f} s for the installation; a "
+        f"second run {second:.1f} s",
         highlight=False,
         soft_wrap=True,
     )
