@@ -72,7 +72,8 @@ def chart():
     for axis, body in zip(axes[2], found.body.values, strict=True):
         depth = found.scar_depth.sel(body=body)
         scar = draw_map(axis, found.scar_ground, depth, 16.0)
-        axis.set_title(f"S-1000, {WORDS.get(body, body)}: {float(depth.max()):.1f} m", fontsize=10)
+        axis.set_title(f"S-1000, {WORDS.get(body, body)}: {float(depth.max()):.1f} m deepest", fontsize=10)
+        axis.set_xlabel("easting [m]")
         axis.ticklabel_format(useOffset=False, style="plain")
         axis.tick_params(axis="x", rotation=30)
         axis.locator_params(nbins=4)
@@ -80,7 +81,7 @@ def chart():
     axes[1, 0].set_ylabel("y [m]")
     axes[2, 0].set_ylabel("northing [m]")
     figure.colorbar(square, ax=axes[1], label="depth, 2 m on average [m]")
-    figure.colorbar(scar, ax=axes[2], label="depth, the observed volume [m]")
+    figure.colorbar(scar, ax=axes[2], label="depth of the observed volume [m]")
     figure.suptitle("A square of 40 m on a plane of 30°, and the scar of S-1000; contours of the ground every 5 m")
     return figure
 

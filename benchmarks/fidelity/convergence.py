@@ -14,6 +14,9 @@ from .replay import QUANTITIES, true_errors
 COUNTS = (500, 1000, 2000)
 """Particles of the runs that are compared, with default steps."""
 
+CHANGE = "footprints of particles were sharpened and suction was kept"
+"""The change of the engine between the runs that are called before and after."""
+
 
 def errors_by_count(scenes, names, name: str, counts=COUNTS, truth: int = FULL) -> np.ndarray:
     """Return the errors of a quantity with default steps, (counts, scenes), against a number of particles."""
@@ -73,5 +76,5 @@ def draw_convergence(after, before) -> Figure:
     panels[-1].legend(*handles, loc="center", frameon=False)
     figure.supxlabel("number of particles")
     figure.supylabel(f"error against {FULL} particles of the same version [%]", fontsize="medium")
-    figure.suptitle(f"Engine before and after the change, {len(names)} random scenes, default steps")
+    figure.suptitle(f"Before and after {CHANGE}: {len(names)} random scenes, default steps")
     return figure
