@@ -11,6 +11,7 @@ from landlab_debrisflow.plots import (
     draw_column,
     draw_gauges,
     draw_hydrographs,
+    draw_section,
     draw_time_distance,
     draw_tracks,
     draw_volumes,
@@ -46,6 +47,23 @@ def test_hydrographs_have_names_volumes_and_units():
     assert_allclose(figure.axes[0].lines[1].get_ydata(), [5.0, 6.0, 7.0, 8.0, 9.0])
     assert np.isnan(figure.axes[1].lines[0].get_ydata()[0])
     assert overlaps(figure) == [] and outside(figure) == []
+
+
+def test_legends_stand_above_the_data():
+    front = xr.Dataset(dict.fromkeys(("front_distance", "farthest_distance"), ("time", TIME)), {"time": TIME})
+    terms = ("released", "inflow", "eroded", "deposited", "outflow")
+    budget = xr.Dataset(dict.fromkeys(terms, ("time", TIME)), {"time": TIME})
+    for figure in (
+        draw_hydrographs(sections()),
+        draw_time_distance(front),
+        draw_volumes(budget),
+        draw_section(event()[0]),
+    ):
+        figure.draw_without_rendering()
+        legends = [(axes, axes.get_legend()) for axes in figure.axes if axes.get_legend() is not None]
+        assert legends
+        for axes, legend in legends:
+            assert legend.get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0  # pixels
 
 
 def test_no_two_lines_are_alike():

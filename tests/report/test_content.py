@@ -1,6 +1,7 @@
 """A report tells what the run was given, what came out, how sure it is, and how it was made."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -77,6 +78,18 @@ def test_maps_sections_series_are_pictures_with_words(read):
     assert len(pictures) >= 5 and all(given["alt"].strip() and given["src"] for given in pictures)
     captions = " ".join(read.texts("figcaption"))
     assert all(words in captions for words in ("vertical depth", "Péclet", "Long section", "Hydrographs", "gauges"))
+
+
+def test_pictures_say_what_they_show(read):
+    alternatives = [attributes["alt"] for tag, attributes, _ in read.elements if tag == "img"]
+    pictures = [attributes["src"].split(";")[0] for tag, attributes, _ in read.elements if tag == "img"]
+    assert any(re.fullmatch(r"Map: Peak speed\. Largest value: [\d.]+\sm/s\.", words) for words in alternatives)
+    assert any(
+        re.fullmatch(r"Map: Peak basal pressure ratio\. Largest value: [\d.]+\.", words) for words in alternatives
+    )
+    assert any(words.startswith("Long section along the thalweg of the scene") for words in alternatives)
+    assert pictures.count("data:image/gif") == 1  # the animation, of the series that the scene asks for
+    assert alternatives[pictures.index("data:image/gif")] == "Animation of the depth of the flow from 3 to 9 s."
 
 
 def test_input_and_provenance(results, read):

@@ -11,6 +11,7 @@ from landlab_debrisflow import InputError
 from landlab_debrisflow.cli import exit_codes, main
 from landlab_debrisflow.run.directory import OutputDirectory
 from landlab_debrisflow.run.pictures import draw_pictures
+from landlab_debrisflow.run.recorded import read_recorded
 
 from .running import Stopping, scene
 
@@ -45,6 +46,11 @@ def test_everything_that_was_recorded_is_drawn_and_noted(run):
     (run / "pictures" / "mine.png").write_bytes(b"")
     directory.remove_page()  # as a run that goes on does
     assert names((run / "pictures").iterdir()) == ["mine.png"]
+
+
+def test_the_section_follows_the_thalweg_of_the_scene(run):
+    assert read_recorded(run).thalweg == pytest.approx(np.array(PLACES["thalweg"]), abs=0.0)
+    assert read_recorded(run / "maps.nc").thalweg is None
 
 
 def test_maps_are_chosen_by_name(run, tmp_path, capsys):
