@@ -8,6 +8,7 @@ import pytest
 
 from landlab_debrisflow import Scene, __version__, measures
 from landlab_debrisflow.report import write_report
+from landlab_debrisflow.report.inputs import input_blocks
 from landlab_debrisflow.report.numbers import rounded
 from landlab_debrisflow.report.outcome import outcome_of
 from landlab_debrisflow.run.results import Results
@@ -105,6 +106,12 @@ def test_input_and_provenance(results, read):
     words = " ".join(read.texts("p"))
     assert "Not modelled are boulders and wood" in words and "Made by landlab-debrisflow report" in words
     assert len(read.texts("li")) > 5  # of which five to distrust
+
+
+def test_the_dem_is_told_by_its_name_and_checksum(results):
+    maps = results.maps.assign_attrs(dem="../dem 2021.tif", dem_sha256="0f" * 32)
+    terrain = dict(input_blocks(results.record, maps)[0].rows)
+    assert terrain["elevation from"] == "../dem 2021.tif" and terrain["its SHA-256"] == "0f" * 32
 
 
 def test_stated_errors_are_those_of_the_run(results, tmp_path):
