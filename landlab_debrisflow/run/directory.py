@@ -255,8 +255,8 @@ def _lock(directory: Path) -> Iterator[None]:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             raise OutputError(
-                f"cannot write results to {directory}: another process is running a scene there; wait for it, or set "
-                "output: directory to another name"
+                f"cannot write results to {directory}: another process writes there, a run or its pictures; "
+                "wait for it, or choose another directory (output: directory in the scene, --output of plot)"
             ) from error
         try:
             yield

@@ -22,7 +22,7 @@ def test_an_empty_directory_does_not_stay(tmp_path):
 
 
 def test_two_runs_do_not_share_a_directory(tmp_path):
-    refused = pytest.raises(OutputError, match="another process is running a scene there")
+    refused = pytest.raises(OutputError, match="another process writes there")
     with OutputDirectory.claimed(tmp_path / "out"), refused, OutputDirectory.claimed(tmp_path / "out"):
         pass
 
