@@ -10,6 +10,7 @@ from matplotlib.colors import Colormap, LogNorm, Normalize
 from matplotlib.image import AxesImage
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator
 from matplotlib.transforms import Bbox
+from numpy.typing import ArrayLike
 
 from .colours import extend_of
 from .extent import Extent, cell_edges, within
@@ -18,6 +19,9 @@ from .style import LABEL, NOTE, TICK, halo, unit_text
 
 MISSING = "nothing to show"
 """Text of a map without values."""
+
+BETWEEN = 0.05
+"""Least fraction of the nodes between two isochrones [-]: lines and labels of a front that hardly moves would meet."""
 
 
 def draw_values(
@@ -160,7 +164,7 @@ def draw_isochrones(axes: Axes, values: xr.DataArray, extent: Extent, lines: int
     if shown.size == 0 or shown.max() <= shown.min() or int(np.isfinite(part.values).sum()) < 9:
         return
     ticks = MaxNLocator(lines, steps=[1, 2, 3, 5, 6, 10]).tick_values(float(shown.min()), float(shown.max()))
-    levels = [time for time in ticks if shown.min() < time < shown.max()]
+    levels = spread_levels(shown, ticks)
     if not levels:
         return
     drawn = axes.contour(
@@ -168,3 +172,31 @@ def draw_isochrones(axes: Axes, values: xr.DataArray, extent: Extent, lines: int
     )
     for text in axes.clabel(drawn, fontsize=NOTE, fmt="%g", inline_spacing=1):
         text.set_path_effects(halo(2.0))
+
+
+def spread_levels(values: np.ndarray, levels: ArrayLike) -> list[float]:
+    """Return the levels that have a fraction `BETWEEN` of the values between each other, and at both ends.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+    levels : array_like
+        In increasing order.
+
+    Returns
+    -------
+    list of float
+
+    Examples
+    --------
+    >>> spread_levels(np.arange(100.0), [10.0, 12.0, 50.0, 99.0])
+    [10.0, 50.0]
+    """
+    ordered, least = np.sort(values), BETWEEN * values.size
+    kept, below = [], 0
+    for level in np.asarray(levels, float):
+        lower = int(np.searchsorted(ordered, level))
+        if lower - below >= least and values.size - lower >= least:
+            kept.append(float(level))
+            below = lower
+    return kept
