@@ -11,6 +11,7 @@ from .core.jit import inner, kernel
 from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
+from .physics.consolidation import Consolidation
 from .physics.contracts import (
     BasalState,
     BaseContact,
@@ -37,6 +38,7 @@ __all__ = [
     "ColumnForcing",
     "ColumnLaw",
     "ColumnState",
+    "Consolidation",
     "ConstantRatio",
     "Coulomb",
     "ErosionLaw",

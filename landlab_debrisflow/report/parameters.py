@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray as xr
 
-from ..core.values import keys_of
+from ..core.values import from_mapping, keys_of
 from ..physics.registry import LAWS
 from ..plots.style import unit_text
 from ..run.record import RunRecord
@@ -121,9 +121,18 @@ def _origin(record: RunRecord, key: str, value: Any, asked: Any, field: Any) -> 
 
 def _value_words(value: Any, meta: Mapping[str, Any]) -> str:
     """Return a value with its unit, if the value is a number or a list of numbers."""
+    if meta.get("derivation") and isinstance(value, Mapping):
+        return _derivation_words(value, meta)
     unit = str(meta.get("unit", "-"))
     words = isinstance(value, str | bool | dict) or (isinstance(value, list) and not isinstance(value[0], float | int))
     return plain(value) if words or unit == "-" else f"{plain(value)}{SPACE}{unit_text(unit)}".replace(f"{SPACE}°", "°")
+
+
+def _derivation_words(values: Mapping[str, Any], meta: Mapping[str, Any]) -> str:
+    """Return a number with the parameters that it was derived from, all with their units."""
+    declared = keys_of(meta["derivation"])
+    source = ", ".join(f"{key} {_value_words(value, declared[key].metadata)}" for key, value in values.items())
+    return f"{_value_words(from_mapping(meta['derivation'], values).value, meta)}, from {source}"
 
 
 def _mapping(value: Any) -> dict[str, Any]:
