@@ -60,8 +60,7 @@ def checked_numbers(
 
     `argument` declares the argument `name`: unit, bounds, remedy. `when` is text on the time, for the message.
     """
-    meta = argument.metadata
-    array = _float_array(derived(f"solve_column: {name}", value, meta))
+    array = _float_array(derived(f"solve_column: {name}", value, meta := argument.metadata))
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
         refuse(f"{name} must be one number or one per {each}, got {got}{when}; {meta['remedy']}")
