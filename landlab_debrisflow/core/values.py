@@ -10,6 +10,7 @@ import numpy as np
 
 from .checks import in_range
 from .coordinates import checked_coordinates
+from .derived_number import DerivedNumber
 from .errors import ParameterError
 from .hints import did_you_mean, give_number, number_in, number_with_unit, python_value, same_word
 
@@ -52,33 +53,6 @@ class NodeValues:
         return f"<{self.values.size} node values {span}>"
 
 
-class DerivedNumber(float):
-    """Number that followed from other parameters: a float that keeps them, for output.
-
-    Attributes
-    ----------
-    parameters : dict of str to float
-        From what the number followed, by name.
-
-    Examples
-    --------
-    >>> number = DerivedNumber(0.5, {"permeability": 1e-9})
-    >>> number, number == 0.5, number.parameters
-    (0.5, True, {'permeability': 1e-09})
-    """
-
-    parameters: dict[str, float]
-
-    def __new__(cls, value: float, parameters: Mapping[str, float]) -> "DerivedNumber":
-        """Make the number."""
-        number = super().__new__(cls, value)
-        number.parameters = dict(parameters)
-        return number
-
-    def __getnewargs__(self):
-        return float(self), self.parameters
-
-
 def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
     """Return the value of a parameter, or of an argument, in its declared type.
 
@@ -105,6 +79,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return _checked_file(name, value)
     if meta["coordinates"]:
         return checked_coordinates(name, value, meta["coordinates"], meta["named"])
+    if dataclasses.is_dataclass(kind):
+        return _checked_item(name, value, kind)
     if kind is dict:
         return _checked_mapping(name, value)
     if kind is tuple and meta["choices"] and meta["length"] is not None and isinstance(value, str):
@@ -170,6 +146,16 @@ def derived(name: str, value: Any, meta: Mapping[str, Any]) -> Any:
     return DerivedNumber(
         source.value, {field.name: getattr(source, field.name) for field in dataclasses.fields(source)}
     )
+
+
+def _checked_item(name: str, value: Any, cls: type):
+    """Return an instance of a declared class from one, or from a mapping."""
+    if isinstance(value, cls):
+        return value
+    if not isinstance(value, Mapping):
+        names = ", ".join(keys_of(cls))
+        raise ParameterError(f"{name} must be a mapping with some of {names} (all have defaults), got {value!r:.60}")
+    return _item(name, cls, value)
 
 
 def _item(name: str, cls: type, mapping):
@@ -279,6 +265,22 @@ def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[st
 def keys_of(cls: Any) -> dict[str, dataclasses.Field]:
     """Return the declarations of a class by their keys in a mapping: the names, of `from_` without the underscore."""
     return {field.name.removesuffix("_"): field for field in dataclasses.fields(cls)}
+
+
+def flat_keys_of(cls: Any) -> dict[str, dataclasses.Field]:
+    """Return the declarations of a class by their keys, and with a dot those of a parameter that is declared itself."""
+    found: dict[str, dataclasses.Field] = {}
+    for key, field in keys_of(cls).items():
+        found[key] = field
+        if dataclasses.is_dataclass(kind := field.metadata["kind"]):
+            found |= {f"{key}.{inner}": one for inner, one in keys_of(kind).items()}
+    return found
+
+
+def with_inner(obj: Any) -> list[Any]:
+    """Return an object of a declared class, or another one, and the objects of declared classes that it holds."""
+    values = [getattr(obj, field.name) for field in dataclasses.fields(obj)] if dataclasses.is_dataclass(obj) else []
+    return [obj, *(value for value in values if dataclasses.is_dataclass(value) and not isinstance(value, type))]
 
 
 def name_of(cls: type) -> str:

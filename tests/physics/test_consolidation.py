@@ -7,7 +7,7 @@ import pytest
 from landlab.bmi import wrap_as_bmi
 
 from landlab_debrisflow import DebrisFlow, Material, ParameterError, solve_column
-from landlab_debrisflow.core.values import DerivedNumber
+from landlab_debrisflow.core.derived_number import DerivedNumber
 from landlab_debrisflow.laws import Consolidation
 from landlab_debrisflow.run.scene import Scene
 from landlab_debrisflow.scene.schema import scene_schema
