@@ -25,7 +25,7 @@ CHOICES = (
     "earlier set",
     "numerics",
 )
-"""Ways to choose a value. Centres are recomputed from the range; ``numerics`` is no physics."""
+"""Ways to choose a value. Centres are recomputed from the range; a derived value follows from others of the set."""
 ROUNDING = 0.06
 """Relative distance from the centre of a range that rounding of a value may cause, such as .39 to .4."""
 
