@@ -22,6 +22,7 @@ CHOICES = (
     "published simulation",
     "measured",
     "published value",
+    "derived",
     "earlier set",
     "numerics",
 )
