@@ -5,58 +5,28 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
-from ..core.structs import struct
-from ..physics.contracts import BasalState, BasalStress, BaseContact, ColumnForcing, ColumnLaw, ColumnState, Phases
+from ..physics.contracts import (
+    NOT_ASKED,
+    BasalState,
+    BasalStress,
+    BaseContact,
+    ColumnForcing,
+    ColumnLaw,
+    ColumnState,
+    Phases,
+)
+from .normal_stress import BedLoad, Weighing, press_on_bed
 
 BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
 """Contact at the base of columns where nothing is drained."""
 
+SOIL_ALONE = np.array([BaseContact.INFLOW], np.int8)
+"""The same over a bed whose stress is not that of the flow: soil brings its own pressure, and nothing else comes in."""
+
 NO_SOURCE = np.zeros(1)
 """Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
-NOT_ASKED = np.zeros(1)
-"""Eroded depth that friction laws are given [m]: none of them reads it, and finding it takes time."""
-
 NO_VARIABLES = SimpleNamespace()
-
-
-@struct
-class BedLoad(NamedTuple):
-    """Flow whose weight the bed bears, at n particles.
-
-    Attributes
-    ----------
-    thickness : ndarray, shape (n,)
-        Slope-normal thickness [m].
-    density : ndarray, shape (n,)
-        Density of the mixture [kg m-3].
-    pressure : ndarray, shape (n,)
-        Basal excess pore pressure [Pa].
-    """
-
-    thickness: np.ndarray
-    density: np.ndarray
-    pressure: np.ndarray
-
-
-@struct
-class Weighing(NamedTuple):
-    """Constants by which a flow weighs on the bed.
-
-    Attributes
-    ----------
-    gravity : float
-        Acceleration by gravity [m s-2].
-    bearing_density : float
-        Hydrostatic pressure at the base over normal gravity and thickness [kg m-3].
-    least_radius : float
-        Least radius of curvature of the bed [m].
-    """
-
-    gravity: float
-    bearing_density: float
-    least_radius: float
 
 
 class BasalLaw(NamedTuple):
@@ -101,6 +71,8 @@ class ColumnPhysics(NamedTuple):
         Where a drain holds the excess pore pressure at 0; None: nowhere.
     water_to_buoyant : float
         Density of water over buoyant density [-].
+    contact : ndarray of int8, shape (1,)
+        Contact at the base of columns where nothing is drained, `BY_EROSION` or `SOIL_ALONE`.
     """
 
     law: ColumnLaw
@@ -108,6 +80,7 @@ class ColumnPhysics(NamedTuple):
     phases: Phases
     drained: Any
     water_to_buoyant: float
+    contact: np.ndarray = BY_EROSION
 
 
 def basal_state(
@@ -166,55 +139,6 @@ def _variables(p, which: slice, basal: BasalLaw, asking: bool):
     return SimpleNamespace(**{name: value.copy() if asking else value for name, value in values.items()})
 
 
-@kernel
-def press_on_bed(first, velocity, sample, cosine, load, weighing):
-    """Return speed, normal gravity and effective normal stress at the base of particles.
-
-    The centripetal part v.Hess(Z).v is capped at v^2 over the least radius: a raster resolves no smaller radius than
-    its spacing, and noise of the elevation must not add to the load.
-
-    Parameters
-    ----------
-    first : int
-        Place of the first particle asked for.
-    velocity : ndarray, shape (3, all)
-        Velocity of all particles [m s-1].
-    sample : SurfaceSample
-        Bed below all particles.
-    cosine : ndarray, shape (all,)
-        Cosine of the slope of the bed [-].
-    load : BedLoad
-        Load of the n particles asked for.
-    weighing : Weighing
-        Constants by which the flow weighs on the bed.
-
-    Returns
-    -------
-    speed : ndarray, shape (n,)
-        [m s-1]
-    normal_gravity : ndarray, shape (n,)
-        Slope-normal gravity with the centripetal part [m s-2].
-    effective_normal_stress : ndarray, shape (n,)
-        [Pa]
-    """
-    _, _, _, curvature_xx, curvature_xy, curvature_yy = sample
-    thickness, density, pressure = load
-    gravity, bearing_density, least_radius = weighing
-    n = thickness.size
-    speed, normal_gravity, effective_normal_stress = np.empty(n), np.empty(n), np.empty(n)
-    for k in range(n):
-        i = first + k
-        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
-        bend = u * u * curvature_xx[i] + 2.0 * u * v * curvature_xy[i] + v * v * curvature_yy[i]
-        most = (u * u + v * v) / least_radius
-        bend = min(max(bend, -most), most)
-        speed[k] = np.sqrt(u * u + v * v + w * w)
-        normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
-        stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
-        effective_normal_stress[k] = max(0.0, stress)
-    return speed, normal_gravity, effective_normal_stress
-
-
 def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False):
     """Return yield stress [Pa] and drag [Pa s m-1] under the particles `p[which]`, each of shape (n,).
 
@@ -271,11 +195,11 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
         Soil that came in [m3] and its excess pore pressure over the liquefaction value [-].
     """
     load = p.liquefaction_pressure[which]
-    bed_pressure, bases = entrained_ratio * load, BY_EROSION
+    bed_pressure, bases = entrained_ratio * load, columns.contact
     if columns.drained is not None:
         drained = columns.drained[p.nearest_node[which]]
         bed_pressure[drained] = 0.0
-        bases = np.where(drained, BaseContact.PRESCRIBED, BaseContact.BY_EROSION).astype(np.int8)
+        bases = np.where(drained, BaseContact.PRESCRIBED, columns.contact).astype(np.int8)
     return ColumnForcing(
         volume=p.volume[which],
         thickness=p.thickness[which],

@@ -8,9 +8,14 @@ the laws of other kinds in Python: no law knows another.
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple, Protocol
 
+import numpy as np
 from numpy import ndarray as Array
 
-from ..spatial.packing import Position
+from .bed_state import SATURATED_BED, BedState
+from .flow_state import FlowState
+
+NOT_ASKED = np.zeros(1)
+"""Value of a state that no law of the kind reads: finding it takes time."""
 
 
 class BasalStress(NamedTuple):
@@ -22,11 +27,13 @@ class BasalStress(NamedTuple):
     [Pa]
     liquefaction : ndarray, shape (n,); rho' g h_n cos(theta), of static gravity g [Pa]
     excess_pore_pressure : ndarray, shape (n,); p_b, above hydrostatic, at the base [Pa]
+    shear : ndarray, shape (n,); tau_b, yield stress and drag of the friction law; (1,) for friction laws [Pa]
     """
 
     effective_normal: Array
     liquefaction: Array
     excess_pore_pressure: Array
+    shear: Array = NOT_ASKED
 
 
 class BasalState(NamedTuple):
@@ -44,6 +51,7 @@ class BasalState(NamedTuple):
     material : Material; densities [kg m-3], porosity [-], gravity [m s-2]
     parameters : object; the law's parameters as attributes, each (n,) or (1,), in SI units (angles in rad)
     variables : object; the law's own variables as attributes, (n,), written in place for the next step
+    bed : BedState; pore water of the bed, for erosion laws
     """
 
     depth: Array
@@ -56,10 +64,11 @@ class BasalState(NamedTuple):
     material: Any
     parameters: Any
     variables: Any
+    bed: BedState = SATURATED_BED
 
 
 class BaseContact(IntEnum):
-    """Condition at the base of a column; a step is given one of the first three.
+    """Condition at the base of a column; a step is given one of the first three, or INFLOW.
 
     ================ ==================== ============================ ===========================
     contact          base of the column   pressure of incoming soil    stands for
@@ -70,7 +79,8 @@ class BaseContact(IntEnum):
     IMPERMEABLE      dp/dy = 0            that of the base: SEALED     itself
     PRESCRIBED       p of the bed         that of the bed              itself
     ERODING          p of the bed         that of the bed              itself
-    INFLOW           nothing diffuses in  that of the bed              itself
+    INFLOW           nothing diffuses in  that of the bed              itself while soil comes in,
+                                                                       IMPERMEABLE else
     SEALED           nothing diffuses in  that of the column's base    itself
     DRAINED          p = 0                0                            PRESCRIBED with 0 Pa
     ================ ==================== ============================ ===========================
@@ -115,7 +125,7 @@ class ColumnForcing(NamedTuple):
     liquefaction_pressure : ndarray, shape (n,); after the step [Pa]
     entrained : ndarray, shape (n,); volume granted by the bed in the step [m3]; > 0 means eroding
     bed_pressure : ndarray, shape (n,) or (1,); of the soil that came in, or of the bed below [Pa]
-    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE or PRESCRIBED
+    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE, PRESCRIBED or INFLOW
     porosity_source : ndarray, shape (n,) or (1,); pressure made by a change of porosity, at all levels [Pa s-1]
     coefficient_of_consolidation : ndarray, shape (n,) or (1,); c_v [m2 s-1]
     water_to_buoyant : float; density of water over buoyant density: lower bound of the pressure ratio [-]
@@ -145,7 +155,13 @@ class FrictionLaw(Protocol):
 
 
 class ErosionLaw(Protocol):
-    """Rate at which the flow erodes the bed."""
+    """Rate at which the flow erodes the bed.
+
+    The rate of a law with ``is_jump_condition = True`` is the jump of shear stress across the base, so flow and bed
+    have a stress of their own there. The shear stress of the friction law then contains the momentum of the soil that
+    comes in, which is not taken from the flow again; and soil brings its own pressure to the column and no more
+    (INFLOW). Without that attribute it is False.
+    """
 
     def entrainment_rate(self, state: BasalState, out: Array) -> None:
         """Write the demanded erosion rate into `out`, shape (n,): bed volume per map area and time [m s-1].
@@ -176,65 +192,6 @@ class ColumnLaw(Protocol):
 
 MIXTURE, WATER = 0, 1
 """Phase of a particle: grains, with the water between them if the flow law has one phase; or water."""
-
-
-class Smoothing(NamedTuple):
-    """Smoothing length, its cap [m] and the grad-h term Omega [-] of each of n particles; arrays of shape (n,)."""
-
-    length: Array  # (n,) smoothing length [m]
-    longest: Array  # (n,) cap of it [m]
-    gradient_term: Array  # (n,) Omega of the grad-h formulation, of the step before [-]
-
-
-class MixtureState(NamedTuple):
-    """Mixture at each of n particles, as a flow law of two phases reads it, with the arrays for its results."""
-
-    phase: Array  # (n,) MIXTURE or WATER (int8)
-    share: Array  # (n,) fraction of the thickness that belongs to the own phase, of the step before [-]
-    cross_term: Array  # (n,) as that of `spatial.cross_summation.CrossPhaseSums`, of the step before [-]
-    mean_pressure: Array  # (n,) depth mean of the excess pore pressure [Pa]
-    material: Any  # physics.material.Material
-    written: Any  # `MixtureSums` of the moving particles, without ghosts
-
-
-class MixtureSums(NamedTuple):
-    """Results of a flow law of two phases for m particles: own share [-], cross term [-] and mean pressure [Pa], (m,).
-
-    Particles in sleeping cells are left unchanged.
-    """
-
-    share: Array  # (m,) fraction of the thickness that belongs to the own phase [-]
-    cross_term: Array  # (m,) [-]
-    mean_pressure: Array  # (m,) for water only: depth mean of the excess pore pressure of the grains around [Pa]
-
-
-class FlowState(NamedTuple):
-    """The moving mass that a flow law reads: n particles on the surface, ghosts behind walls included.
-
-    Attributes
-    ----------
-    position : Position; on the surface [m]
-    velocity : ndarray, shape (3, n); tangent to the bed [m s-1]
-    volume : ndarray, shape (n,); of the particle [m3]
-    smoothing : Smoothing; smoothing lengths [m] and their caps
-    thickness : ndarray, shape (n,); slope-normal, of the own phase, of the step before [m]
-    thickening : ndarray, shape (n,); -h div v, of the step before [m s-1]
-    cos_slope : ndarray, shape (n,); cosine of the slope of the bed [-]
-    density : ndarray, shape (n,); of the mixture [kg m-3]
-    gravity : float; acceleration by gravity [m s-2]
-    mixture : MixtureState or None; None in a flow of one phase
-    """
-
-    position: Position
-    velocity: Array
-    volume: Array
-    smoothing: Smoothing
-    thickness: Array
-    thickening: Array
-    cos_slope: Array
-    density: Array
-    gravity: float
-    mixture: MixtureState | None
 
 
 class FlowLaw(Protocol):

@@ -102,6 +102,12 @@ class Setup:
         built["inflow"] = _hydrographs(self.inflow)
         for name, value in built.items():
             object.__setattr__(self, name, value)
+        if getattr(self.erosion, "is_jump_condition", False) and getattr(self.column, "scheme", "") == "lax_wendroff":
+            raise ParameterError(
+                f"erosion: {law_name('erosion', self.erosion)} needs a column whose base keeps a pressure of its own, "
+                "got the scheme 'lax_wendroff', whose base has the pressure of the bed while soil comes in; choose the "
+                "scheme 'default' or 'upwind', or another law of erosion"
+            )
 
     @property
     def two_phases(self) -> bool:
