@@ -58,10 +58,10 @@ def basal_state(count=50, seed=1, **given):
     effective = np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure)
     values = {
         "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
-        "normal_gravity": normal_gravity, "stress": BasalStress(effective, liquefaction, pressure, rng.uniform(0.0, 1.5, count) * effective),
-        "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count),
-        "bed": BedState(rng.uniform(0.0, 1.0, count), rng.uniform(0.0, 1.0, count), None, np.arange(count)),
+        "normal_gravity": normal_gravity, "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count),
+        "stress": BasalStress(effective, liquefaction, pressure, rng.uniform(0.0, 1.5, count) * effective),
         "material": Material(basal_slip_ratio=given.pop("slip_ratio", 0.0)), "parameters": None, "variables": None,
+        "bed": BedState(rng.uniform(0.0, 1.0, count), rng.uniform(0.0, 1.0, count), None, np.arange(count)),
     }  # fmt: skip
     return BasalState(**(values | given))
 

@@ -75,6 +75,7 @@ SCENES |= {
     for kind, law in (
         ("friction", "voellmy"),
         ("erosion", "liquefied_bed"),
+        ("erosion", "excess_traction"),
         ("column", "classical"),
         ("column", "none"),
     )
