@@ -75,7 +75,6 @@ SCENES |= {
     for kind, law in (
         ("friction", "voellmy"),
         ("erosion", "liquefied_bed"),
-        ("erosion", "excess_traction"),
         ("column", "classical"),
         ("column", "none"),
     )
