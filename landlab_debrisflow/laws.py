@@ -12,19 +12,10 @@ from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
 from .physics.bed_state import BedState
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
-from .physics.contracts import (
-    BasalState,
-    BaseContact,
-    ColumnForcing,
-    ColumnLaw,
-    ColumnState,
-    ErosionLaw,
-    FlowLaw,
-    FrictionLaw,
-)
+from .physics.column_contracts import BaseContact, ColumnForcing, ColumnLaw, ColumnState
+from .physics.contracts import BasalState, ErosionLaw, FlowLaw, FlowState, FrictionLaw
 from .physics.erosion import ExcessTraction, Growth, LiquefiedBed, NoErosion, ShearExcess
 from .physics.flow import OnePhase, TwoPhase
-from .physics.flow_state import FlowState
 from .physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 from .physics.registry import LAWS
 

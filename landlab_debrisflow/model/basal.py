@@ -1,32 +1,64 @@
-"""The base of the flow: its state as laws read it, and the forcing of the pore-pressure columns above."""
+"""The base of the flow: its state as laws read it, and the resistance there."""
 
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..physics.contracts import (
-    NOT_ASKED,
-    BasalState,
-    BasalStress,
-    BaseContact,
-    ColumnForcing,
-    ColumnLaw,
-    ColumnState,
-    Phases,
-)
-from .normal_stress import BedLoad, Weighing, press_on_bed
-
-BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
-"""Contact at the base of columns where nothing is drained."""
-
-SOIL_ALONE = np.array([BaseContact.INFLOW], np.int8)
-"""The same over a bed whose stress is not that of the flow: soil brings its own pressure, and nothing else comes in."""
-
-NO_SOURCE = np.zeros(1)
-"""Pressure by a change of porosity [Pa s-1]: one phase has none."""
+from ..core.jit import kernel
+from ..core.structs import struct
+from ..physics.contracts import NOT_ASKED, BasalState, BasalStress, Phases
+from ..physics.friction.shear import THINNEST
 
 NO_VARIABLES = SimpleNamespace()
+
+
+@struct
+class BedLoad(NamedTuple):
+    """Flow whose weight the bed bears, at n particles.
+
+    Attributes
+    ----------
+    thickness : ndarray, shape (n,)
+        Slope-normal thickness [m].
+    density : ndarray, shape (n,)
+        Density of the mixture [kg m-3].
+    pressure : ndarray, shape (n,)
+        Basal excess pore pressure [Pa].
+    """
+
+    thickness: np.ndarray
+    density: np.ndarray
+    pressure: np.ndarray
+
+
+@struct
+class Weighing(NamedTuple):
+    """Constants by which a flow weighs on the bed.
+
+    Attributes
+    ----------
+    gravity : float
+        Acceleration by gravity [m s-2].
+    bearing_density : float
+        Hydrostatic pressure at the base over normal gravity and thickness [kg m-3].
+    least_radius : float
+        Least radius of curvature of the bed [m].
+    """
+
+    gravity: float
+    bearing_density: float
+    least_radius: float
+
+
+def weighing_on(material, spacing: float):
+    """Return the `Weighing` of a material on a raster whose smaller node spacing is `spacing` [m]."""
+    return Weighing(gravity=material.gravity, bearing_density=material.bearing_density, least_radius=spacing)
+
+
+def shear_per_speed(thickness, material):
+    """Return the shear rate over the mean speed, 2 (1 - v_b/v)/h_n, for `thickness` h_n, shape (n,) [m-1]."""
+    return 2.0 * (1.0 - material.basal_slip_ratio) / np.maximum(thickness, THINNEST)
 
 
 class BasalLaw(NamedTuple):
@@ -46,6 +78,8 @@ class BasalLaw(NamedTuple):
         Variables per particle that the law brought.
     varies : bool
         Whether a parameter varies in space.
+    dilatant_column : ColumnLaw or None
+        Law of the columns above, if it has dilatancy.
     """
 
     law: Any
@@ -54,33 +88,7 @@ class BasalLaw(NamedTuple):
     spacing: float
     variables: tuple
     varies: bool
-
-
-class ColumnPhysics(NamedTuple):
-    """Law, material and boundary by which the columns under particles are advanced in a call.
-
-    Attributes
-    ----------
-    law : ColumnLaw
-        Law of the columns.
-    material : Material
-        Densities, porosity and gravity.
-    phases : Phases
-        Gives the coefficient of consolidation.
-    drained : ndarray of bool, shape (nodes,), or None
-        Where a drain holds the excess pore pressure at 0; None: nowhere.
-    water_to_buoyant : float
-        Density of water over buoyant density [-].
-    contact : ndarray of int8, shape (1,)
-        Contact at the base of columns where nothing is drained, `BY_EROSION` or `SOIL_ALONE`.
-    """
-
-    law: ColumnLaw
-    material: Any
-    phases: Phases
-    drained: Any
-    water_to_buoyant: float
-    contact: np.ndarray = BY_EROSION
+    dilatant_column: Any
 
 
 def basal_state(
@@ -107,9 +115,7 @@ def basal_state(
     depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
     load = BedLoad(thickness=thickness, density=density, pressure=pressure)
-    weighing = Weighing(
-        gravity=material.gravity, bearing_density=material.bearing_density, least_radius=basal.spacing
-    )  # fmt: skip
+    weighing = weighing_on(material, basal.spacing)
     first = which.start or 0
     speed, normal_gravity, effective = press_on_bed(
         first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
@@ -129,6 +135,9 @@ def basal_state(
         material=material,
         parameters=parameters,
         variables=_variables(p, which, basal, asking) if basal.variables else NO_VARIABLES,
+        dilatancy=None
+        if (column := basal.dilatant_column) is None
+        else column.at_base(p.column_memory[which]).dilatancy,
     )
 
 
@@ -137,6 +146,55 @@ def _variables(p, which: slice, basal: BasalLaw, asking: bool):
     place = {False: which, True: (slice(None), which)}
     values = {v.name: getattr(p, v.name)[place[v.components > 0]] for v in basal.variables}
     return SimpleNamespace(**{name: value.copy() if asking else value for name, value in values.items()})
+
+
+@kernel
+def press_on_bed(first, velocity, sample, cosine, load, weighing):
+    """Return speed, normal gravity and effective normal stress at the base of particles.
+
+    The centripetal part v.Hess(Z).v is capped at v^2 over the least radius: a raster resolves no smaller radius than
+    its spacing, and noise of the elevation must not add to the load.
+
+    Parameters
+    ----------
+    first : int
+        Place of the first particle asked for.
+    velocity : ndarray, shape (3, all)
+        Velocity of all particles [m s-1].
+    sample : SurfaceSample
+        Bed below all particles.
+    cosine : ndarray, shape (all,)
+        Cosine of the slope of the bed [-].
+    load : BedLoad
+        Load of the n particles asked for.
+    weighing : Weighing
+        Constants by which the flow weighs on the bed.
+
+    Returns
+    -------
+    speed : ndarray, shape (n,)
+        [m s-1]
+    normal_gravity : ndarray, shape (n,)
+        Slope-normal gravity with the centripetal part [m s-2].
+    effective_normal_stress : ndarray, shape (n,)
+        [Pa]
+    """
+    _, _, _, curvature_xx, curvature_xy, curvature_yy = sample
+    thickness, density, pressure = load
+    gravity, bearing_density, least_radius = weighing
+    n = thickness.size
+    speed, normal_gravity, effective_normal_stress = np.empty(n), np.empty(n), np.empty(n)
+    for k in range(n):
+        i = first + k
+        u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
+        bend = u * u * curvature_xx[i] + 2.0 * u * v * curvature_xy[i] + v * v * curvature_yy[i]
+        most = (u * u + v * v) / least_radius
+        bend = min(max(bend, -most), most)
+        speed[k] = np.sqrt(u * u + v * v + w * w)
+        normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
+        stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
+        effective_normal_stress[k] = max(0.0, stress)
+    return speed, normal_gravity, effective_normal_stress
 
 
 def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False):
@@ -148,6 +206,9 @@ def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking:
     state = basal_state(p, which, friction, pressure, asking=asking)
     yield_stress, drag = np.empty(state.depth.size), np.empty(state.depth.size)
     friction.law.basal_resistance(state, yield_stress, drag)
+    if friction.dilatant_column is not None:  # sheared pore fluid resists beside the grains, whatever their friction
+        viscosity = friction.dilatant_column.at_base(p.column_memory[which]).fluid_viscosity
+        drag += shear_per_speed(state.thickness, friction.material) * viscosity
     return yield_stress, drag
 
 
@@ -173,50 +234,3 @@ def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, 
     """
     yield_stress, drag = basal_resistance(p, which, friction, pressure, asking=True)
     return phases.held_at_rest(p, exchange, which, yield_stress, drag, walls)
-
-
-# ---- columns ----
-
-
-def column_state(p, which: slice) -> ColumnState:
-    """Return the column arrays of the particles `p[which]` as a `ColumnState` of views: pressures in Pa."""
-    return ColumnState(p.excess_pore_pressure[which], p.column_memory[which], p.column_clipped[which])
-
-
-def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained_ratio) -> ColumnForcing:
-    """Return the forcing of some columns by one step of the flow.
-
-    Parameters
-    ----------
-    p : Particles
-    which : slice
-    columns : ColumnPhysics
-    entrained, entrained_ratio : ndarray, shape (n,)
-        Soil that came in [m3] and its excess pore pressure over the liquefaction value [-].
-    """
-    load = p.liquefaction_pressure[which]
-    bed_pressure, bases = entrained_ratio * load, columns.contact
-    if columns.drained is not None:
-        drained = columns.drained[p.nearest_node[which]]
-        bed_pressure[drained] = 0.0
-        bases = np.where(drained, BaseContact.PRESCRIBED, columns.contact).astype(np.int8)
-    return ColumnForcing(
-        volume=p.volume[which],
-        thickness=p.thickness[which],
-        liquefaction_pressure=load,
-        entrained=entrained,
-        bed_pressure=bed_pressure,
-        base=bases,
-        porosity_source=NO_SOURCE,
-        coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, which),
-        water_to_buoyant=columns.water_to_buoyant,
-        bounded=True,
-    )
-
-
-def present_profiles(p, which: slice, columns: ColumnPhysics):
-    """Return the excess pore pressure of the columns of `p[which]` at levels now, (n, levels) [Pa]; change nothing."""
-    state = ColumnState(*(values.copy() for values in column_state(p, which)))
-    none = np.zeros(state.clipped.size)
-    columns.law.synchronise(state, column_forcing(p, which, columns, none, none))
-    return state.profile

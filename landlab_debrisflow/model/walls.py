@@ -7,8 +7,7 @@ against the wall. The faces of closed nodes are the walls, so each ghost is in x
 import numpy as np
 
 from ..core.jit import kernel
-from ..physics.flow_state import FlowState, Smoothing
-from ..spatial.packing import Position
+from ..physics.contracts import FlowState, Position, Smoothing
 from ..spatial.raster import CLOSED, Raster, nearest_place
 from ..spatial.summation import SMOOTHING_RATIO
 from .kinematics import stop_at_walls

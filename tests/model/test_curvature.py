@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.core.parameters import on_nodes
-from landlab_debrisflow.model.normal_stress import BedLoad, Weighing, press_on_bed
+from landlab_debrisflow.model.basal import BedLoad, Weighing, press_on_bed
 from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 from landlab_debrisflow.physics.material import Material

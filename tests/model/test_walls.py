@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.walls import ghost_particles
+from landlab_debrisflow.physics.contracts import FlowState, Position, Smoothing
 from landlab_debrisflow.physics.flow import OnePhase
-from landlab_debrisflow.physics.flow_state import FlowState, Smoothing
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.packing import Position
 from landlab_debrisflow.spatial.raster import CLOSED, Raster
 from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, Sums
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...core.parameters import declared
 from ...spatial.summation import SummationInput, sum_over_neighbours
-from ..flow_state import FlowState
+from ..contracts import FlowState
 
 
 @declared

@@ -7,8 +7,7 @@ import numpy as np
 from ...core.parameters import declared, parameter
 from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, cells_of_phase, sum_over_other_phase
 from ...spatial.summation import SummationInput, plain_thickness, sum_over_neighbours
-from ..contracts import WATER
-from ..flow_state import FlowState
+from ..contracts import WATER, FlowState
 
 MOST_CROSSED = 4.0
 """Largest cross term that is allowed: flows have up to 2, but a particle of almost no mass beside others has 1e15
