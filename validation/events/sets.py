@@ -23,9 +23,11 @@ CHOICES = (
     "measured",
     "published value",
     "earlier set",
+    "fitted",
     "numerics",
 )
-"""Ways to choose a value. Centres are recomputed from the range; ``numerics`` is no physics."""
+"""Ways to choose a value. Centres are recomputed from the range; ``fitted`` is to this event, and no forecast;
+``numerics`` is no physics."""
 ROUNDING = 0.06
 """Relative distance from the centre of a range that rounding of a value may cause, such as .39 to .4."""
 

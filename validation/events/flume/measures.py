@@ -130,31 +130,31 @@ def references(result: xr.Dataset) -> dict[str, dict[str, float]]:
     return found
 
 
-def _of_stations(key: str, words: str, form: str, shown: dict[str, tuple[str, ...]], tabulated: bool = True):
-    """Return measures by name, one for each series."""
-    return {f"{key} {WORDS[name]} {station}": Measure(f"{words} {WORDS[name]} {station}", form, tabulated)
-            for name, stations in shown.items() for station in stations}  # fmt: skip
+def _of_series(key: str, words: str, form: str, series: dict[str, tuple[str, ...]], tabulated: bool = True):
+    """Return measures by name, one for each series, whose symbol and station fill the words."""
+    return {f"{key} {WORDS[name]} {station}": Measure(words.format(f"{WORDS[name]} {station}"), form, tabulated)
+            for name, stations in series.items() for station in stations}  # fmt: skip
 
 
-PASSING = {"thickness": ("32 m", "66 m"), "pressure": ("32 m", "66 m")}
+PASSING = {name: ("32 m", "66 m") for name in SERIES}
 MEASURES = (
-    _of_stations("arrival error", "arrival − measured [s],", "{:+.2f}", {"thickness": ("32 m", "66 m")})
-    | _of_stations("peak error", "peak / measured − 1,", "{:+.2f}", PASSING)
+    _of_series("arrival error", "arrival {} − measured [s]", "{:+.2f}", {"thickness": PASSING["thickness"]})
+    | _of_series("peak error", "peak {} / measured − 1", "{:+.2f}", PASSING)
     | {
         "peak h 2 m": Measure("peak h 2 m [m]", "{:.3f}"),
-        "toe": Measure("toe [m]", "{:.1f}"),
         "largest_thickness": Measure("largest h, 8–77 m [m]"),
-        "start ratio": Measure("arrival by start ratio 0–0.9 [s]"),
+        "start ratio": Measure("shift of arrivals by a start ratio of 0.9 [s]"),
+        "toe": Measure("toe [m]", "{:.1f}"),
         "overlap": Measure("IoU of deposits"),
     }
-    | _of_stations("within", "within ± 1 sd,", "{:.2f}", SERIES)
-    | _of_stations("arrival", "arrival [s],", "{:.2f}", SERIES, tabulated=False)
-    | _of_stations("peak", "peak [m, Pa],", "{:.4g}", PASSING, tabulated=False)
-    | _of_stations("time of peak", "time of peak [s],", "{:.2f}", SERIES, tabulated=False)
-    | _of_stations("rms", "rms / measured peak,", "{:.2f}", SERIES, tabulated=False)
-    | {f"start ratio {station}": Measure(f"arrival at {station}, start ratio 0.9 less that of the set [s]", "{:+.2f}",
-                                         tabulated=False) for station in SERIES["pressure"]}
-    | {f"pressure ratio {station}": Measure(f"p / weight, {station}", tabulated=False)
+    | _of_series("within", "{} within ± 1 sd", "{:.2f}", SERIES)
+    | _of_series("arrival", "arrival {} [s]", "{:.2f}", SERIES, tabulated=False)
+    | _of_series("peak", "peak {} [m, Pa]", "{:.4g}", PASSING, tabulated=False)
+    | _of_series("time of peak", "time of peak {} [s]", "{:.2f}", SERIES, tabulated=False)
+    | _of_series("rms", "rms {} / measured peak", "{:.2f}", SERIES, tabulated=False)
+    | {f"start ratio {station}": Measure(f"arrival {station}, start ratio 0.9 − set [s]", "{:+.2f}", tabulated=False)
+       for station in PASSING["thickness"]}
+    | {f"pressure ratio {station}": Measure(f"p / weight {station}", tabulated=False)
        for station in SERIES["pressure"]}
     | {
         "peak h 2 m over D-Claw": Measure("peak h 2 m / D-Claw", tabulated=False),

@@ -9,13 +9,15 @@ from landlab_debrisflow.plots.style import LABEL, LINES, MUTED, NOTE, TICK, TITL
 
 from .measured import LAST_TIME, SERIES
 
-BLUE, RED, _, _, SKY, ORANGE, BLACK = LINES
+BLUE, RED, GREEN, _, SKY, ORANGE, BLACK = LINES
 BAND = "0.82"
-STYLES = {"measured_permeability": (RED, "-.", 1.2), "no_dilatancy": (ORANGE, ":", 1.8)}
+STYLES = {"measured_permeability": (RED, "-.", 1.2), "no_dilatancy": (ORANGE, ":", 1.8),
+          "hydrostatic": (GREEN, "--", 1.2)}  # fmt: skip
 WORDS = {
     "george_iverson_2014": "modelled, permeability 5·10⁻⁹ m²,\nhydrostatic start",
     "measured_permeability": "the same with the measured permeability,\n10⁻¹¹ m²",
-    "no_dilatancy": "hydrostatic start, no pressure by shear",
+    "no_dilatancy": "no pressure by shear, suction where it thins",
+    "hydrostatic": "no excess pressure at any time",
 }
 """Runs in the legend; others have their own name."""
 
@@ -86,8 +88,7 @@ def _draw_deposit(figure: Figure, axes: Axes, result: xr.Dataset) -> None:
         axes.plot([], [], color=colour, linewidth=1.1, label=str(date))
     axes.plot([76.0, 82.4], [1.0, 1.0], [76.0, 82.4], [-1.0, -1.0], color="0.4", linewidth=2.0)
     axes.set(xlim=(76.0, s[-1]), ylim=(y[0], y[-1]), xlabel="distance along the bed from the gate [m]", ylabel="y [m]")
-    axes.set_title("deposit (more than 1 cm), and outlines of four that were mapped; left: end of the channel walls",
-                   fontsize=TITLE)  # fmt: skip
+    axes.set_title("modelled deposit, and outlines of the four that were mapped", fontsize=TITLE)
     axes.set_aspect("equal")
-    axes.legend(loc="lower right", fontsize=NOTE, ncols=2, frameon=False)
+    axes.legend(loc="lower left", fontsize=NOTE, ncols=4, frameon=False)
     axes.tick_params(labelsize=TICK)

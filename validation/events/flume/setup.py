@@ -29,7 +29,7 @@ STRAIGHT = (8.0, 77.0)
 """Distances between which the channel is straight and clear of the gate; a plug would stand there [m]."""
 
 DEFAULT = "george_iverson_2014"
-BESIDE = ("measured_permeability", "no_dilatancy")
+BESIDE = ("measured_permeability", "no_dilatancy", "hydrostatic")
 """Sets whose runs are shown beside that of the default set."""
 
 OTHER_START = 0.9
