@@ -94,7 +94,7 @@ def half_peak(time: np.ndarray, series: np.ndarray) -> float:
 
 
 def pressure_ratio(thickness: np.ndarray, pressure: np.ndarray, time: np.ndarray) -> float:
-    """Return pore pressure over the weight of the flow [-], mean of the times with more than `BODY`; NaN without any."""
+    """Return pore pressure over the weight of the flow [-], mean of the times with more than `BODY`, or NaN."""
     body = np.isfinite(pressure) & (thickness > BODY) & (time <= LAST_TIME)
     if not body.any():
         return float("nan")
@@ -136,7 +136,7 @@ def _of_series(key: str, words: str, form: str, series: dict[str, tuple[str, ...
             for name, stations in series.items() for station in stations}  # fmt: skip
 
 
-PASSING = {name: ("32 m", "66 m") for name in SERIES}
+PASSING = dict.fromkeys(SERIES, ("32 m", "66 m"))
 MEASURES = (
     _of_series("arrival error", "arrival {} − measured [s]", "{:+.2f}", {"thickness": PASSING["thickness"]})
     | _of_series("peak error", "peak {} / measured − 1", "{:+.2f}", PASSING)

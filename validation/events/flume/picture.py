@@ -31,7 +31,11 @@ def draw(result: xr.Dataset) -> Figure:
     """Return the figure from the stored result."""
     figure = Figure(figsize=(10.0, 8.2), layout="constrained")
     axes = figure.subplot_mosaic(
-        [["thickness 2 m", "thickness 32 m", "thickness 66 m"], ["legend", "pressure 32 m", "pressure 66 m"], ["map"] * 3],
+        [
+            ["thickness 2 m", "thickness 32 m", "thickness 66 m"],
+            ["legend", "pressure 32 m", "pressure 66 m"],
+            ["map"] * 3,
+        ],
         height_ratios=(1.0, 1.0, 0.8),
     )  # fmt: skip
     for name, stations in SERIES.items():
@@ -59,7 +63,8 @@ def _draw_series(axes: Axes, result: xr.Dataset, name: str, station: str) -> Non
     for index, run in enumerate(map(str, result.run.values)):
         colour, dashes, width = STYLES.get(run, (SKY, "--", 1.2)) if index else (BLUE, "-", 2.0)
         series = scale * result[name].isel(run=index).sel(at).values
-        axes.plot(time, series, color=colour, linestyle=dashes, linewidth=width, label=WORDS.get(run, f"the same, {run}"))
+        words = WORDS.get(run, f"the same, {run}")
+        axes.plot(time, series, color=colour, linestyle=dashes, linewidth=width, label=words)
     low, high = LIMITS[station]
     axes.set(xlim=(low, high), xlabel="time since the gate began to open [s]")
     seen = (time >= low) & (time <= high)
@@ -78,12 +83,12 @@ def _draw_deposit(figure: Figure, axes: Axes, result: xr.Dataset) -> None:
     """Draw the deposit of the first run, and the outlines of those that were mapped."""
     deposit = 100.0 * result.deposit.isel(run=0)
     s, y = result.s.values, result.y.values
-    image = axes.pcolormesh(s, y, deposit.where(deposit > 1.0), cmap="Blues", vmin=0.0, vmax=THICKEST, shading="nearest")
+    colours = {"cmap": "Blues", "vmin": 0.0, "vmax": THICKEST}
+    image = axes.pcolormesh(s, y, deposit.where(deposit > 1.0), shading="nearest", **colours)
     bar = figure.colorbar(image, ax=axes, extend="max", pad=0.01)
     bar.set_label("deposit, vertical [cm]", fontsize=LABEL)
     bar.ax.tick_params(labelsize=TICK)
-    colours = (BLACK, RED, ORANGE, MUTED)
-    for colour, date in zip(colours, result.experiment.values, strict=True):
+    for colour, date in zip((BLACK, RED, ORANGE, MUTED), result.experiment.values, strict=True):
         axes.contour(s, y, result.mapped_deposit.sel(experiment=date), [0.5], colors=[colour], linewidths=1.1)
         axes.plot([], [], color=colour, linewidth=1.1, label=str(date))
     axes.plot([76.0, 82.4], [1.0, 1.0], [76.0, 82.4], [-1.0, -1.0], color="0.4", linewidth=2.0)

@@ -42,9 +42,9 @@ def run(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        By ``run``: ``thickness`` [m] and ``pressure`` [Pa] over ``time`` [s] and ``station``; ``deposit``, vertical [m],
-        over ``y`` and distance along the bed ``s``; ``largest_thickness`` in the straight channel [m], ``outflow`` [m3],
-        ``duration`` [s]. The measured series and deposits as `measured` returns them.
+        By ``run``: ``thickness`` [m] and ``pressure`` [Pa] over ``time`` [s] and ``station``; ``deposit``, vertical
+        [m], over ``y`` and distance along the bed ``s``; ``largest_thickness`` in the straight channel [m], ``outflow``
+        [m3], ``duration`` [s]. The measured series and deposits as `measured` returns them.
     """
     runs = {words: _run_one(each, particle_count) for words, each in _runs(parameters)}
     names = xr.DataArray(list(runs), dims="run", name="run")
@@ -140,7 +140,7 @@ class Sensors:
         self._rows.append((flow.elapsed_time, thickness, hydrostatic + excess))
 
     def series(self, delay: float) -> dict[str, tuple]:
-        """Return ``thickness`` [m] and ``pressure`` [Pa] at `TIMES`, later than the run by the delay of the gate [s]."""
+        """Return ``thickness`` [m] and ``pressure`` [Pa] at `TIMES`, delayed by that of the gate [s]."""
         time, *columns = (np.array(each) for each in zip(*self._rows, strict=True))
         found = {}
         for name, unit, column in zip(("thickness", "pressure"), ("m", "Pa"), columns, strict=True):
