@@ -9,6 +9,7 @@ from pathlib import Path
 from landlab_debrisflow.core.errors import InputError
 from landlab_debrisflow.core.hints import did_you_mean
 
+from . import record
 from .event import Event
 
 FOLDER = Path(__file__).parent
@@ -29,3 +30,9 @@ def find_event(name: str) -> Event:
     if name not in EVENTS:
         raise InputError(f"there is no event {name!r}{did_you_mean(name, EVENTS)}; there are {', '.join(EVENTS)}")
     return importlib.import_module(f"{__name__}.{name}").EVENT
+
+
+def chart(name: str):
+    """Return the figure of an event, drawn from its result.nc alone."""
+    event = find_event(name)
+    return event.draw(record.read_result(event))

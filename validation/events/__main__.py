@@ -25,7 +25,7 @@ def run_and_record(event: Event, parameters: ParameterSet, particle_count: int) 
     parameters.commit()  # refuses before anything runs
     result = event.run(parameters, particle_count)
     scores = event.score(result)
-    record.add_scores(event, parameters, particle_count, scores)
+    record.add_scores(event, parameters, particle_count, scores, event.references(result))
     shown = event.default_set, event.particle_count, ""
     if (parameters.name, particle_count, parameters.change) == shown:
         record.keep_result(event, parameters, result)
@@ -34,35 +34,32 @@ def run_and_record(event: Event, parameters: ParameterSet, particle_count: int) 
 
 def run_event(event: Event, options: argparse.Namespace, console: Console) -> None:
     """Run the sets, scans and refinements of an event that are asked for, and print their scores."""
-    for set_name in options.set or [event.default_set]:
-        parameters = event.read_set(set_name)
-        count = options.particles or event.particle_count
+    count, columns = options.particles or event.particle_count, {}
+    for parameters in [event.read_set(name) for name in options.set or [event.default_set]]:
         runs = [(parameters, count)]
         if options.scan:
             runs += [(changed, count) for changed in parameters.scan()]
         if options.refine:
-            runs += [(parameters, 2 * count), *((parameters, near) for near in record.nearby_counts(count))]
-        columns = {}
-        for changed, particle_count in runs:
+            runs += [(parameters, number) for number in (*record.nearby_counts(count), 2 * count)]
+        for changed, number in runs:
             begin = time.perf_counter()
-            words = f"{changed.change or set_name}\n{particle_count} particles"
-            columns[words] = run_and_record(event, changed, particle_count)
-            title = words.replace("\n", ", ")
-            console.print(f"{event.name}: {title}, {time.perf_counter() - begin:.0f} s", highlight=False)
-        console.print(table(event, parameters, columns), highlight=False)
+            words = ", ".join(filter(None, (changed.name, changed.change, f"{number} particles")))
+            columns[words] = run_and_record(event, changed, number)
+            console.print(f"{event.name}: {words}, {time.perf_counter() - begin:.0f} s", highlight=False)
+    console.print(table(event, columns), highlight=False)
 
 
-def table(event: Event, parameters: ParameterSet, columns: dict[str, dict[str, float]]) -> Table:
-    """Return all measures, one run in a column."""
-    shown = Table(
-        title=f"{event.title}: set {parameters.name}, commit {parameters.commit().name}", title_justify="left"
-    )
-    shown.add_column("", no_wrap=True)
-    for words in columns:
-        shown.add_column(Text(words), justify="right")
-    for key, measure in event.measures.items():
-        cells = [values.get(key, math.nan) for values in columns.values()]
-        shown.add_row(Text(measure.words), *("" if math.isnan(cell) else measure.form.format(cell) for cell in cells))
+def table(event: Event, rows: dict[str, dict[str, float]]) -> Table:
+    """Return the scores that are tabulated, one run in a row; scores.json has all of them."""
+    shown = Table(title=event.title, title_justify="left")
+    shown.add_column("")
+    measures = {key: measure for key, measure in event.measures.items() if measure.tabulated}
+    for measure in measures.values():
+        shown.add_column(Text(measure.words), justify="right")
+    for words, values in rows.items():
+        numbers = [values.get(key, math.nan) for key in measures]
+        cells = [each.form.format(n) for n, each in zip(numbers, measures.values(), strict=True)]
+        shown.add_row(Text(words), *("" if math.isnan(n) else cell for n, cell in zip(numbers, cells, strict=True)))
     return shown
 
 
@@ -77,7 +74,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     if options.particles is not None and options.particles < 1:
         parser.error(f"--particles must be 1 or more, got {options.particles}")
-    console = Console(width=max(100, Console().width))
+    console = Console(width=max(160, Console().width))
     try:
         for event in [find_event(name) for name in options.events or EVENTS]:
             run_event(event, options, console)

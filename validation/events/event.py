@@ -74,17 +74,20 @@ class Event:
     measures : mapping of str to Measure
     targets : tuple of Target
     run : callable
-        Given a `ParameterSet` and a number of particles, returns a Dataset: the small maps and series that the figure
-        and the scores need, observed and modelled.
+        Given a `ParameterSet` and a number of particles, returns a Dataset: the maps and series that the figure and
+        the scores need, observed and modelled.
     score : callable
         Given that Dataset, returns the measures by name.
     references : callable
         Given that Dataset, returns measures of other things than runs, by their words: the observation itself, a model
-        without physics, a perfect model seen through the noise of the measurement.
+        without physics, a perfect model seen through the noise of the measurement. They are recorded with the scores.
+    shown : callable
+        Given that Dataset, returns the variables that the figure needs, to be committed as result.nc: small, and of
+        measured data no more than its licence allows.
     draw : callable
-        Given that Dataset, returns the figure.
+        Given the variables that are stored, returns the figure.
     steps : mapping of str to float
-        Steps to which variables of the Dataset are rounded when it is stored.
+        Steps to which variables are rounded when they are stored, as integers of 16 bits.
     shared_sets : str
         Name of the event in whose folder the sets are; by default the event's own.
     """
@@ -98,6 +101,7 @@ class Event:
     run: Callable[[ParameterSet, int], xr.Dataset]
     score: Callable[[xr.Dataset], dict[str, float]]
     references: Callable[[xr.Dataset], dict[str, dict[str, float]]]
+    shown: Callable[[xr.Dataset], xr.Dataset]
     draw: Callable[[xr.Dataset], Any]
     steps: Mapping[str, float]
     shared_sets: str = ""

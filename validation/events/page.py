@@ -64,10 +64,8 @@ def scores(name: str) -> str:
     event = find_event(name)
     kept = record.read_scores(event.folder)
     columns = [key for key, measure in event.measures.items() if measure.tabulated]
-    rows = []
-    if (event.folder / "result.nc").is_file():
-        references = event.references(record.read_result(event))
-        rows += [(words, "", *_cells(event, found, columns)) for words, found in references.items()]
+    references = record.read_references(event.folder)
+    rows = [(words, "", *_cells(event, found, columns)) for words, found in references.items()]
     for row in kept:
         if not row["change"] and row["particles"] == event.particle_count:
             version = f"{row['commit']}, {row['code']}"

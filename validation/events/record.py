@@ -25,22 +25,22 @@ NEARBY = (0.9, 0.95, 1.05, 1.1)
 
 def read_scores(folder: Path) -> list[dict[str, Any]]:
     """Return the rows of scores.json, oldest first; none if there is no file."""
-    path = folder / "scores.json"
-    if not path.is_file():
-        return []
-    try:
-        rows = json.loads(path.read_text(encoding="utf-8"))["rows"]
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(
-            f"{path} is no record of scores: {error}; take it back from Git, never write it anew"
-        ) from error
-    for row in rows:
-        row["scores"] = {key: math.nan if value is None else value for key, value in row["scores"].items()}
-    return rows
+    return _read(folder)["rows"]
 
 
-def add_scores(event: Event, parameters: ParameterSet, particle_count: int, scores: Mapping[str, float]) -> dict:
-    """Append scores to scores.json of an event and return their row.
+def read_references(folder: Path) -> dict[str, dict[str, float]]:
+    """Return the scores of the references of an event by their words; none before its first run."""
+    return _read(folder)["references"]
+
+
+def add_scores(
+    event: Event,
+    parameters: ParameterSet,
+    particle_count: int,
+    scores: Mapping[str, float],
+    references: Mapping[str, Mapping[str, float]],
+) -> None:
+    """Append scores to scores.json of an event, and write the scores of its references anew.
 
     A row that is there already with the same set, commit, change, particles and scores is not repeated; no row is
     ever removed.
@@ -58,12 +58,13 @@ def add_scores(event: Event, parameters: ParameterSet, particle_count: int, scor
     }  # fmt: skip
     rows = read_scores(event.folder)
     same = ("set", "commit", "change", "particles", "scores")
-    if any(_text({key: old[key] for key in same}) == _text({key: row[key] for key in same}) for old in rows):
-        return row
-    lines = ",\n  ".join(_text(each) for each in [*rows, row])
-    text = f'{{\n "event": {json.dumps(event.name)},\n "rows": [\n  {lines}\n ]\n}}\n'
+    if not any(_text({key: old[key] for key in same}) == _text({key: row[key] for key in same}) for old in rows):
+        rows.append(row)
+    named = [{"reference": words, "scores": dict(found)} for words, found in references.items()]
+    members = ((name, ",\n  ".join(map(_text, each))) for name, each in (("references", named), ("rows", rows)))
+    lists = ",\n ".join(f'"{name}": [\n  {lines}\n ]' for name, lines in members)
+    text = f'{{\n "event": {json.dumps(event.name)},\n {lists}\n}}\n'
     write_atomically(event.folder / "scores.json", lambda path: path.write_text(text, encoding="utf-8"))
-    return row
 
 
 def latest(rows: list[dict], set_name: str, particle_count: int, change: str = "") -> dict | None:
@@ -88,8 +89,8 @@ def nearby_counts(particle_count: int) -> tuple[int, ...]:
 
 
 def keep_result(event: Event, parameters: ParameterSet, result: xr.Dataset) -> Path:
-    """Write the result that is shown as result.nc of an event, with the set and its commit."""
-    found = parameters.commit()
+    """Write the variables that are shown as result.nc of an event, with the set and its commit."""
+    found, result = parameters.commit(), event.shown(result)
     told = {f"measured_{key}": value for key, value in provenance(f"python -m validation.events {event.name}").items()}
     attributes = {**result.attrs, "set": parameters.name, "set_commit": found.name, "set_date": found.date, **told}
     encoding: dict[str, dict[str, Any]] = {
@@ -107,6 +108,25 @@ def read_result(event: Event) -> xr.Dataset:
     if not path.is_file():
         raise InputError(f"there is no {path}; python -m validation.events {event.name} makes it")
     return xr.load_dataset(path)
+
+
+def _read(folder: Path) -> dict[str, Any]:
+    path = folder / "scores.json"
+    if not path.is_file():
+        return {"rows": [], "references": {}}
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        rows = [row | {"scores": _numbers(row["scores"])} for row in content["rows"]]
+        references = {row["reference"]: _numbers(row["scores"]) for row in content["references"]}
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            f"{path} is no record of scores: {error!r}; take it back from Git, never write it anew"
+        ) from error
+    return {"rows": rows, "references": references}
+
+
+def _numbers(scores: Mapping[str, float | None]) -> dict[str, float]:
+    return {key: math.nan if value is None else value for key, value in scores.items()}
 
 
 def _rounded(value: float) -> float | None:

@@ -18,7 +18,8 @@ EVENT = Event(
     run=partial(setup.run_landslide, "cascade2009", fan_rows=FAN_ROWS),
     score=measures.score,
     references=measures.references,
+    shown=picture.shown,
     draw=picture.draw,
-    steps={"elevation": 0.05, "observed_change": 1e-3, "modelled_change": 1e-3, "released_depth": 1e-3},
+    steps=picture.STEPS,
     shared_sets="s1000",
 )  # fmt: skip

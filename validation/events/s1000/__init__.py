@@ -23,6 +23,7 @@ EVENT = Event(
     run=partial(setup.run_landslide, "s1000"),
     score=measures.score,
     references=measures.references,
+    shown=picture.shown,
     draw=picture.draw,
-    steps={"elevation": 0.05, "observed_change": 1e-3, "modelled_change": 1e-3, "released_depth": 1e-3},
+    steps=picture.STEPS,
 )  # fmt: skip

@@ -88,6 +88,11 @@ def build_grid(folder: str, site: dict) -> RasterModelGrid:
     return grid
 
 
+def read_elevation(folder: str) -> np.ndarray:
+    """Return the elevation before the event at nodes [m]."""
+    return _read(find_file(folder, "pre_runout_DEM.asc"))[0]
+
+
 def read_release(folder: str) -> np.ndarray:
     """Return the depth of the release at nodes [m]; the file holds the lowering, which is negative."""
     lowering, _ = _read(find_file(folder, "landslide_depth.asc"))
