@@ -13,8 +13,7 @@ EVENT = Event(
     run=setup.run,
     score=measures.score,
     references=measures.references,
+    shown=picture.shown,
     draw=picture.draw,
-    steps={
-        "thickness": 1e-4, "pressure": 1.0, "deposit": 1e-4, "measured_thickness": 1e-4, "measured_pressure": 1.0,
-    },
+    steps=picture.STEPS,
 )  # fmt: skip

@@ -26,6 +26,13 @@ LIMITS = {"2 m": (0.0, 8.0), "32 m": (2.0, 17.0), "66 m": (4.0, LAST_TIME)}
 THICKEST = 20.0
 """At the end of the colours of the deposit, and of those that were mapped [cm]."""
 
+STEPS = {"thickness": 1e-4, "pressure": 1.0, "deposit": 1e-4, "measured_thickness": 1e-4, "measured_pressure": 1.0}
+
+
+def shown(result: xr.Dataset) -> xr.Dataset:
+    """Return the variables of the figure: all of them; the measured ones are of US government works."""
+    return result
+
 
 def draw(result: xr.Dataset) -> Figure:
     """Return the figure from the stored result."""
