@@ -163,8 +163,8 @@ MEASURES = (
     }
 )  # fmt: skip
 """Thickness h, and total pore pressure p at the base: Δt, half-peak arrival less the measured one; Δh, Δp, peak over
-the measured one, less 1; h 2 m, peak there; largest h between 8 and 77 m; start ratio, the larger shift of the arrivals at
-32 and 66 m by a start ratio of 0.9; IoU of the deposit with four mapped ones, their mean; in band, share of times
+the measured one, less 1; h 2 m, peak there; largest h between 8 and 77 m; start ratio, the larger shift of the arrivals
+at 32 and 66 m by a start ratio of 0.9; IoU of the deposit with four mapped ones, their mean; in band, share of times
 within one standard deviation of the mean."""
 
 TARGETS = (
