@@ -78,6 +78,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return _checked_file(name, value)
     if meta["coordinates"]:
         return checked_coordinates(name, value, meta["coordinates"], meta["named"])
+    if dataclasses.is_dataclass(kind):
+        return _checked_item(name, value, kind)
     if kind is dict:
         return _checked_mapping(name, value)
     if kind is tuple and meta["choices"] and meta["length"] is not None and isinstance(value, str):
@@ -129,6 +131,16 @@ def _checked_items(name: str, value: Any, cls: type):
         if not isinstance(one, Mapping | cls):
             raise ParameterError(f"{name}[{k}] must be a mapping, got {one!r}")
     return tuple(one if isinstance(one, cls) else _item(f"{name}[{k}]", cls, one) for k, one in enumerate(several))
+
+
+def _checked_item(name: str, value: Any, cls: type):
+    """Return an instance of a declared class from one, or from a mapping."""
+    if isinstance(value, cls):
+        return value
+    if not isinstance(value, Mapping):
+        names = ", ".join(keys_of(cls))
+        raise ParameterError(f"{name} must be a mapping with some of {names} (all have defaults), got {value!r:.60}")
+    return _item(name, cls, value)
 
 
 def _item(name: str, cls: type, mapping):

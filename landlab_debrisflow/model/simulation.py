@@ -6,8 +6,9 @@ from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
 from ..terrain.bed import Bed
 from . import activity, step
-from .basal import held_at_rest, present_profiles
+from .basal import held_at_rest
 from .bed_load import load_bed
+from .column_forcing import present_profiles
 from .deposit import resting_depth
 from .diagnostics import Diagnostics
 from .inflow.inflow import Inflow
@@ -48,7 +49,7 @@ class Simulation:
 
     def __init__(self, setup, inflow: Inflow | None = None):
         self.setup, flow, column = setup, setup.flow, setup.column
-        self.phases = OnePhaseDynamics(setup.material)
+        self.phases = OnePhaseDynamics(setup.material, column)
         if setup.two_phases:
             self.phases = TwoPhaseDynamics(flow, setup.material, column.stores_pressure)
         laws = (flow, setup.friction, setup.erosion, column, self.phases)

@@ -14,7 +14,8 @@ from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
-from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
+from ..physics.column_contracts import ColumnLaw
+from ..physics.contracts import ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
 from .digest import digest, state_of, text_of
