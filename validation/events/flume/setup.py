@@ -28,6 +28,7 @@ PAD_FROM = 76.0
 STRAIGHT = (8.0, 77.0)
 """Distances between which the channel is straight and clear of the gate; a plug would stand there [m]."""
 
+FIELDS = ("depth", "deposit_depth", "max_depth")
 DEFAULT = "george_iverson_2014"
 BESIDE = ("measured_permeability", "no_dilatancy", "hydrostatic")
 """Sets whose runs are shown beside that of the default set."""
@@ -71,16 +72,14 @@ def _run_one(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
     numerics = keywords.pop("numerics", {}) | {"particle_count": particle_count}
     flow = DebrisFlow(grid, **keywords, numerics=numerics, observers=[sensors])
     flow.run_until_rest(LONGEST)
-    depth = flow.maps.debris_flow__deposit_depth + flow.maps.debris_flow__depth
-    pad = along > PAD_FROM
+    fields = {name: grid.at_node[f"debris_flow__{name}"].reshape(grid.shape) for name in FIELDS}
+    pad, straight = along > PAD_FROM, (along > STRAIGHT[0]) & (along < STRAIGHT[1])
     cosine = 1.0 / np.gradient(along, grid.dx)
-    straight = (along > STRAIGHT[0]) & (along < STRAIGHT[1])
-    thickest = np.nanmax(flow.maps.debris_flow__max_depth.values[:, straight] * cosine[straight])
     y = grid.y_of_node.reshape(grid.shape)[:, 0]
     return xr.Dataset(
         sensors.series(parameters.plain("site")["gate_delay"]) | {
-            "deposit": (("y", "s"), depth.fillna(0.0).values[:, pad], {"units": "m"}),
-            "largest_thickness": ((), thickest, {"units": "m"}),
+            "deposit": (("y", "s"), (fields["depth"] + fields["deposit_depth"])[:, pad], {"units": "m"}),
+            "largest_thickness": ((), (fields["max_depth"] * cosine)[:, straight].max(), {"units": "m"}),
             "outflow": ((), flow.budget["outflow"], {"units": "m3"}),
             "duration": ((), flow.elapsed_time, {"units": "s"}),
         },
