@@ -29,7 +29,7 @@ STRAIGHT = (8.0, 77.0)
 """Distances between which the channel is straight and clear of the gate; a plug would stand there [m]."""
 
 FIELDS = ("depth", "deposit_depth", "max_depth")
-DEFAULT = "george_iverson_2014"
+DEFAULT, PARTICLE_COUNT = "george_iverson_2014", 1000
 BESIDE = ("measured_permeability", "no_dilatancy", "hydrostatic")
 """Sets whose runs are shown beside that of the default set."""
 
@@ -47,19 +47,19 @@ def run(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
         [m], over ``y`` and distance along the bed ``s``; ``largest_thickness`` in the straight channel [m], ``outflow``
         [m3], ``duration`` [s]. The measured series and deposits as `measured` returns them.
     """
-    runs = {words: _run_one(each, particle_count) for words, each in _runs(parameters)}
+    runs = {words: _run_one(each, particle_count) for words, each in _runs(parameters, particle_count)}
     names = xr.DataArray(list(runs), dims="run", name="run")
     found = xr.concat(list(runs.values()), names)
     return xr.merge([found, measured.read_series(TIMES), measured.read_deposits(found.s.values)], join="exact")
 
 
-def _runs(parameters: ParameterSet) -> Iterator[tuple[str, ParameterSet]]:
+def _runs(parameters: ParameterSet, particle_count: int) -> Iterator[tuple[str, ParameterSet]]:
     """Yield words and sets; the set itself is first, and alone if it has a change."""
     yield parameters.name, parameters
     if parameters.change:
         return
     yield f"start ratio {OTHER_START}", parameters.changed("material", "initial_pressure_ratio", OTHER_START)
-    if parameters.name == DEFAULT:
+    if (parameters.name, particle_count) == (DEFAULT, PARTICLE_COUNT):
         for name in BESIDE:
             yield name, read_set(parameters.paths[0].parent, name)
 
