@@ -250,6 +250,22 @@ def keys_of(cls: Any) -> dict[str, dataclasses.Field]:
     return {field.name.removesuffix("_"): field for field in dataclasses.fields(cls)}
 
 
+def flat_keys_of(cls: Any) -> dict[str, dataclasses.Field]:
+    """Return the declarations of a class by their keys, and with a dot those of a parameter that is declared itself."""
+    found: dict[str, dataclasses.Field] = {}
+    for key, field in keys_of(cls).items():
+        found[key] = field
+        if dataclasses.is_dataclass(kind := field.metadata["kind"]):
+            found |= {f"{key}.{inner}": one for inner, one in keys_of(kind).items()}
+    return found
+
+
+def with_inner(obj: Any) -> list[Any]:
+    """Return an object of a declared class, or another one, and the objects of declared classes that it holds."""
+    values = [getattr(obj, field.name) for field in dataclasses.fields(obj)] if dataclasses.is_dataclass(obj) else []
+    return [obj, *(value for value in values if dataclasses.is_dataclass(value) and not isinstance(value, type))]
+
+
 def name_of(cls: type) -> str:
     """Return the name of a declared class in messages: its `keyword`, or the name of the class."""
     return getattr(cls, "keyword", cls.__name__)

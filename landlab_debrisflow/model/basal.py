@@ -138,9 +138,9 @@ def basal_state(
         material=material,
         parameters=parameters,
         variables=_variables(p, which, basal, asking) if basal.variables else NO_VARIABLES,
-        dilatancy_angle=None
+        dilatancy=None
         if (column := basal.dilatant_column) is None
-        else column.at_base(p.column_memory[which]).dilatancy_angle,
+        else column.at_base(p.column_memory[which]).dilatancy,
     )
 
 

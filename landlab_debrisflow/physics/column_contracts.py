@@ -60,12 +60,12 @@ class DilatantBase(NamedTuple):
 
     Attributes
     ----------
-    dilatancy_angle : ndarray; psi, which adds to the friction angle [rad]
+    dilatancy : ndarray; tan(psi), whose angle psi adds to the friction angle [-]
     fluid_viscosity : ndarray; of the pore fluid, over the mixture: mu (1 - m) [Pa s]
     coefficient_of_consolidation : ndarray; [m2 s-1]
     """
 
-    dilatancy_angle: Array
+    dilatancy: Array
     fluid_viscosity: Array
     coefficient_of_consolidation: Array
 

@@ -44,8 +44,8 @@ class BasalState(NamedTuple):
     material : Material; densities [kg m-3], porosity [-], gravity [m s-2]
     parameters : object; the law's parameters as attributes, each (n,) or (1,), in SI units (angles in rad)
     variables : object; the law's own variables as attributes, (n,), written in place for the next step
-    dilatancy_angle : ndarray, shape (n,), psi at the base, that adds to the friction angle [rad]; or None if the column
-    law has no dilatancy
+    dilatancy : ndarray, shape (n,), tan(psi) at the base, whose angle psi adds to the friction angle [-]; or None if
+    the column law has no dilatancy
     """
 
     depth: Array
@@ -58,7 +58,7 @@ class BasalState(NamedTuple):
     material: Any
     parameters: Any
     variables: Any
-    dilatancy_angle: Array | None = None
+    dilatancy: Array | None = None
 
 
 class FrictionLaw(Protocol):
