@@ -10,6 +10,7 @@ from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.cli import main
 from landlab_debrisflow.core.parameters import declared, parameter
 from landlab_debrisflow.core.values import flat_keys_of
+from landlab_debrisflow.physics.consolidation import Consolidation
 from landlab_debrisflow.physics.registry import LAWS
 
 PAGE = (Path(__file__).parents[2] / "docs" / "laws.md").read_text(encoding="utf-8")
