@@ -124,7 +124,7 @@ class AdvancedColumns:
         state = columns.synchronised()
         dilatant = {}
         if self.is_dilatant:
-            angle = np.degrees(columns.at_base().dilatancy_angle)
+            angle = np.degrees(np.arctan(columns.at_base().dilatancy))
             dilatant = {
                 "solid_fraction": state.solid_fraction, "dilatancy_angle": angle,
                 "coefficient_of_consolidation": coefficient,

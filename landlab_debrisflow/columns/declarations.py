@@ -3,6 +3,7 @@
 from ..core.parameters import parameter
 from ..physics.column.dilatancy import DENSEST, LOOSEST, Dilatancy
 from ..physics.column.driver import PACKED, SOLID_DENSITY
+from ..physics.consolidation import Consolidation
 
 HYDROSTATIC = "give a finite pressure over the hydrostatic one, negative for suction"
 NUMBERS = {
@@ -16,6 +17,7 @@ NUMBERS = {
     ),
     "coefficient_of_consolidation": parameter(
         "m2 s-1", "diffusivity of excess pore pressure", 1e-3, (0.0, None), remedy="give 0 for no diffusion",
+        derivation=Consolidation,
     ),
     "basal_pressure": parameter("Pa", "excess pore pressure of the bed", 1.0, timed=True, remedy=HYDROSTATIC),
     "initial_pressure": parameter("Pa", "at the base at time 0", None, remedy=HYDROSTATIC),

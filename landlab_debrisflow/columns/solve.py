@@ -1,6 +1,6 @@
 """Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import xarray as xr
@@ -15,7 +15,7 @@ from .dataset import dataset
 def solve_column(
     thickness: ArrayLike = 1.0,
     entrainment_rate: ArrayLike | Callable[[float], ArrayLike] = 0.01,
-    coefficient_of_consolidation: ArrayLike | None = None,
+    coefficient_of_consolidation: ArrayLike | Mapping[str, float] | None = None,
     basal_pressure: ArrayLike | Callable[[float], ArrayLike] = 1.0,
     times: ArrayLike | None = None,
     initial: str | ArrayLike = "zero",
@@ -54,8 +54,10 @@ def solve_column(
         h at time 0, > 0 [m].
     entrainment_rate : float, array_like or function of time
         e_R >= 0, per column [m s-1]. A function gets the time [s] and returns one number or one per column.
-    coefficient_of_consolidation : float or array_like, optional
-        c_v >= 0, per column; by default 1e-3 [m2 s-1]. With `dilatancy` it follows from the state.
+    coefficient_of_consolidation : float, array_like or mapping, optional
+        c_v >= 0, per column, by default 1e-3 [m2 s-1]; or what it follows from, ``{"permeability": ...,
+        "pore_fluid_viscosity": ..., "stiffness": ...}`` [m2, Pa s, Pa], for all columns. With `dilatancy` it follows
+        from the state.
     basal_pressure : float, array_like or function of time
         Excess pore pressure of the bed, per column [Pa].
     times : array_like, shape (time,)

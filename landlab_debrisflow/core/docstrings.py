@@ -1,5 +1,6 @@
 """Docstrings of declared classes: the section ``Parameters``, from the declarations."""
 
+import dataclasses
 import inspect
 import math
 import re
@@ -40,8 +41,16 @@ def allowed(meta) -> str:
         return ", ".join(meta["choices"])
     if meta["kind"] is bool:
         return "true, false"
+    if dataclasses.is_dataclass(meta["kind"]):
+        return "mapping"
     kind = {int: "integer, ", tuple: "list, "}.get(meta["kind"], "")
-    return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *meta["words"]))
+    others = [*meta["words"], *([f"mapping of {', '.join(_names(meta))}"] if meta["derivation"] else [])]
+    return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *others))
+
+
+def _names(meta) -> list[str]:
+    """Return the names of the parameters from which a number may be derived."""
+    return [field.name for field in dataclasses.fields(meta["derivation"])]
 
 
 def _interval(low, high, open_below) -> str:
@@ -63,11 +72,13 @@ def default(value) -> str:
 
 def _entry(field) -> str:
     meta, value = field.metadata, field.default
-    number = not meta["choices"] and meta["kind"] is not bool
+    number = not meta["choices"] and meta["kind"] is not bool and not dataclasses.is_dataclass(meta["kind"])
     kind = {tuple: "float or list of float"}.get(meta["kind"], meta["kind"].__name__)
     if meta["choices"]:
         kind = "{" + ", ".join(f'"{word}"' for word in meta["choices"]) + "}"
     kind += "".join(f' or "{word}"' for word in meta["words"])
+    if meta["derivation"]:
+        kind += f" or mapping of {', '.join(_names(meta))}"
     if meta["varies"]:
         kind += ", array over nodes or name of a field"
     words = default(value) if number else f'"{value}"' if meta["choices"] else str(value)

@@ -285,8 +285,7 @@ class Simulation:
 
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
-        p = self.particles
-        if p.count == 0:  # the flow may have no bed yet
+        if (p := self.particles).count == 0:  # the flow may have no bed yet
             return p.excess_pore_pressure
         return present_profiles(p, slice(p.count), self.surroundings.columns)
 

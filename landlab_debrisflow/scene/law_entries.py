@@ -4,14 +4,15 @@ The docstring of a law has a form (CONTRIBUTING.md): its first line is the formu
 a section ``References`` is its source.
 """
 
-import dataclasses
 import inspect
 import re
 import typing
 
 from ..core.docstrings import allowed, default
+from ..core.values import flat_keys_of
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
+from ..physics.consolidation import Consolidation
 from ..physics.material import Material
 from ..physics.registry import LAWS
 
@@ -54,9 +55,13 @@ def law_entries(kind: str) -> list[Entry]:
 
 
 def other_entries() -> list[Entry]:
-    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow."""
+    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow.
+
+    A parameter of the material that may be given by the parameters it follows from is among them, with a formula.
+    """
     classes = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
-    return [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
+    entries = [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
+    return [*entries, _entry("coefficient_of_consolidation", Consolidation, has_formula=True)]
 
 
 def _entry(title: str, cls: type, has_formula: bool) -> Entry:
@@ -64,7 +69,7 @@ def _entry(title: str, cls: type, has_formula: bool) -> Entry:
     formula, _, summary = first.partition(": ") if has_formula else ("", "", first)
     formula = formula if summary else formula.removesuffix(".")
     details, source = _split_off_references(details)
-    rows = [_row(parameter) for parameter in dataclasses.fields(cls)]
+    rows = [_row(name, parameter) for name, parameter in flat_keys_of(cls).items()]
     return Entry(title, cls, formula, summary, "\n\n".join(details), source, rows)
 
 
@@ -81,7 +86,7 @@ def _split_off_references(paragraphs):
     return paragraphs[: sections[0]] if sections else paragraphs, source
 
 
-def _row(parameter) -> tuple[str, ...]:
+def _row(name: str, parameter) -> tuple[str, ...]:
     meta = parameter.metadata
     in_space = "yes" if meta["varies"] else ""
-    return (parameter.name, meta["unit"], default(parameter.default), allowed(meta), in_space, meta["meaning"])
+    return (name, meta["unit"], default(parameter.default), allowed(meta), in_space, meta["meaning"])

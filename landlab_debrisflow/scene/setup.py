@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..core.derived_number import DerivedNumber
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean
 from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
-from ..physics.column_contracts import ColumnLaw
+from ..physics.column.dilatancy import check_dilatancy
+from ..physics.column_contracts import ColumnLaw, is_dilatant
 from ..physics.contracts import ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
@@ -103,11 +105,24 @@ class Setup:
         built["inflow"] = _hydrographs(self.inflow)
         for name, value in built.items():
             object.__setattr__(self, name, value)
+        if self.has_dilatancy:
+            check_dilatancy(self.material, self.two_phases)
+        if getattr(self.erosion, "is_jump_condition", False) and getattr(self.column, "scheme", "") == "lax_wendroff":
+            raise ParameterError(
+                f"erosion: {law_name('erosion', self.erosion)} needs a column whose base keeps a pressure of its own, "
+                "got the scheme 'lax_wendroff', whose base has the pressure of the bed while soil comes in; choose the "
+                "scheme 'default' or 'upwind', or another law of erosion"
+            )
 
     @property
     def two_phases(self) -> bool:
         """Whether grains and water move as two phases: then the flow law has a `drag_coefficient` between them."""
         return hasattr(self.flow, "drag_coefficient")
+
+    @property
+    def has_dilatancy(self) -> bool:
+        """Whether debris of the columns contracts or dilates as it is sheared."""
+        return is_dilatant(self.column)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Setup":
@@ -153,7 +168,8 @@ class Setup:
 
         def values_of(kind, obj):
             values = {field.name: getattr(obj, field.name) for field in dataclasses.fields(obj)}
-            plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+            plain = {name: _plain(value) for name, value in values.items()}
+            plain = {name: values_of(kind, value) if is_declared(value) else value for name, value in plain.items()}
             return {
                 name: array_of(kind, name, value) if isinstance(value, NodeValues) else value
                 for name, value in plain.items() if value is not None
@@ -248,7 +264,7 @@ def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
         )
     for kind in LAWS:
         for key, value in mapping[kind].items():
-            if not isinstance(value, Mapping):
+            if not isinstance(value, Mapping) or list(value) != ["variable"]:
                 continue
             if (name := value.get("variable")) not in dataset:
                 raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")
@@ -259,6 +275,13 @@ def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
 def is_declared(obj: Any) -> bool:
     """Return whether the parameters of an object are all declared."""
     return dataclasses.is_dataclass(obj) and all("meaning" in field.metadata for field in dataclasses.fields(obj))
+
+
+def _plain(value: Any) -> Any:
+    """Return a tuple as a list, and a number that followed from other parameters as the mapping of these."""
+    if isinstance(value, DerivedNumber):
+        return dict(value.parameters)
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _variable(kind: str, name: str) -> str:

@@ -8,7 +8,7 @@ from ...core.variables import Variable
 from ..column_contracts import ColumnForcing, ColumnState, DilatantBase
 from .consolidating import Consolidating
 from .dilatancy import Dilatancy
-from .schemes.dilatant import ANGLE, COEFFICIENT, FLUID, SIZE, advance_dilatant
+from .schemes.dilatant import COEFFICIENT, DILATANCY, FLUID, SIZE, advance_dilatant
 
 SOLID_FRACTION = Variable("solid_fraction", "-", "volume fraction of the grains in the column", per_level=True)
 
@@ -87,7 +87,7 @@ class ALE(Consolidating):
 
     def at_base(self, memory) -> DilatantBase:
         """Return the debris at the base of columns with dilatancy, from their `memory`, shape (n, memory_size)."""
-        return DilatantBase(memory[:, ANGLE], memory[:, FLUID], memory[:, COEFFICIENT])
+        return DilatantBase(memory[:, DILATANCY], memory[:, FLUID], memory[:, COEFFICIENT])
 
     def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
         """Turn every profile of `columns` into the pressures at levels now [Pa], in place; `forcing` is the last.

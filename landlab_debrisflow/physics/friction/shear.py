@@ -15,8 +15,8 @@ SLOWEST = 1e-9
 stress, or of one that thins under shear, goes to infinity at rest; with this bound a body that starts reaches its speed
 in a few kicks."""
 
-STEEPEST = math.radians(89.0)
-"""Largest angle of friction [rad]."""
+STEEPEST = math.tan(math.radians(89.0))
+"""Largest coefficient of friction [-]."""
 
 THINNEST = 1e-6
 """Least thickness in a rate of shear, a grain of clay [m]: no rate divides by 0."""
@@ -35,11 +35,13 @@ def strength(cohesion, friction_angle, state: BasalState, out) -> None:
 def friction_coefficient(friction_angle, state: BasalState):
     """Return tan(phi), or tan(phi + psi) of debris that dilates by the angle psi (Iverson & George, 2014, eq. 4.16).
 
-    `friction_angle` is phi [rad], (n,) or (1,); `state` may have psi, of shape (n,) [rad].
+    `friction_angle` is phi [rad], (n,) or (1,); `state` may have tan(psi), of shape (n,) [-].
     """
-    if state.dilatancy_angle is None:
-        return np.tan(friction_angle)
-    return np.tan(np.clip(friction_angle + state.dilatancy_angle, 0.0, STEEPEST))
+    grains, dilatancy = np.tan(friction_angle), state.dilatancy
+    if dilatancy is None:
+        return grains
+    whole = 1.0 - grains * dilatancy  # of the tangent of a sum
+    return np.clip((grains + dilatancy) / np.maximum(whole, 1.0 / STEEPEST), 0.0, STEEPEST)
 
 
 def shearing(state: BasalState):

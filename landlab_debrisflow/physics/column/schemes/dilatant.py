@@ -13,10 +13,10 @@ from .contact import IMPERMEABLE, INFLOW, SEALED, contact_of
 from .dilatant_block import LANES, NOT_PRESCRIBED, Block, Rates, equilibrium, relative_conductivity, solve_block
 from .lazy.remap import cubic_between, interpolate
 
-# places in `ColumnState.memory`: 1 once the column is known; load at the base at the end of the last step [Pa]; angle
-# of dilatancy at the base [rad]; viscosity of the pore fluid there, over the mixture [Pa s]; coefficient of
+# places in `ColumnState.memory`: 1 once the column is known; load at the base at the end of the last step [Pa]; tangent
+# of the angle of dilatancy at the base [-]; viscosity of the pore fluid there, over the mixture [Pa s]; coefficient of
 # consolidation there [m2 s-1]
-IS_KNOWN, LAST_LOAD, ANGLE, FLUID, COEFFICIENT = range(5)
+IS_KNOWN, LAST_LOAD, DILATANCY, FLUID, COEFFICIENT = range(5)
 SIZE = 5
 
 THINNEST = 1e-6
@@ -98,7 +98,7 @@ def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
             base, solid, gd = stress[cells, b], fraction[cells, b], rates[i]
             tends = equilibrium(base, law.viscosity * gd, law.inertia * gd * gd, law.critical)
             memory[i, IS_KNOWN], memory[i, LAST_LOAD] = 1.0, loads[i]
-            memory[i, ANGLE], memory[i, FLUID] = np.arctan(solid - tends), law.viscosity * (1.0 - solid)
+            memory[i, DILATANCY], memory[i, FLUID] = solid - tends, law.viscosity * (1.0 - solid)
             memory[i, COEFFICIENT] = (
                 law.conductivity * relative_conductivity(solid) * solid * (base + law.reference_stress)
                 / law.compressibility
@@ -152,7 +152,10 @@ def _take_in(work, rest, load, bed, contact, soil):
             elif row == 0:
                 work[row, j] = interpolate(old, ratios, cells, min(j * pull, float(cells)))
             else:
-                work[row, j] = cubic_between(old, cells, min(j * pull, float(cells)))
+                place = min(j * pull, float(cells))
+                low = min(int(place), cells - 1)
+                value = cubic_between(old, cells, low, place)
+                work[row, j] = min(max(value, min(old[low], old[low + 1])), max(old[low], old[low + 1]))
     if contact >= INFLOW:
         new = min(1.0, 2.0 * cells * (1.0 - rest))
         work[0, cells] = base_stress + new * (entry - base_stress)
