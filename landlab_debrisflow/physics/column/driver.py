@@ -136,7 +136,8 @@ class Columns:
         if is_dilatant(law):
             given = np.asarray(solid_fraction, dtype=float)
             fractions = np.array(np.broadcast_to(given[:, None] if given.ndim == 1 else given, profile.shape))
-            soil = fractions.flat[0] if soil_solid_fraction is None and count else soil_solid_fraction
+            first = fractions.flat[0] if count else PACKED
+            soil = float(first if soil_solid_fraction is None else soil_solid_fraction)
             shearing = Shearing(
                 rate=_per_column(shear_rate, count), load=self.forcing.liquefaction_pressure,
                 start_solid_fraction=PACKED, soil_solid_fraction=soil, solid_density=solid_density,

@@ -58,3 +58,8 @@ def fluxes(dilatancy, before, columns):
     cells = before.shape[1] - 1
     width = columns.forcing.thickness[:, None] / cells
     return -conductivity(dilatancy, mean) * np.diff(columns.profile(), axis=1) / width
+
+
+def mean(values):
+    """Return the depth mean of values at levels, the last axis, trapezoidal."""
+    return (values[..., 1:-1].sum(axis=-1) + 0.5 * (values[..., 0] + values[..., -1])) / (values.shape[-1] - 1)

@@ -66,7 +66,7 @@ INVISCID, FAST = TIGHT | {"pore_fluid_viscosity": 1e-5, "grain_diameter": 1.0}, 
 def test_a_fluid_without_viscosity_loses_stress_exponentially_at_any_step(steps):
     columns = advance(dilatant_columns(INVISCID, 1.0, 0.62, FAST), 1.0 / FAST / steps, steps)
     exact = [float(stress_after_strain(1.0, s, 0.62, DEBRIS)) for s in LOADING * ETA]
-    # an exponent of 0.73 is wrong by 1.5e-5 at 5165 Pa; a change of up to 1e-3 is not iterated, and wrong by half its square
+    # an exponent of 0.73 is wrong by 1.5e-5, at 5165 Pa; a change below 1e-3 is not iterated: wrong by half its square
     atol = 0.1 + 5165.0 * steps * 0.5 * min(0.73 / steps, 1e-3) ** 2
     assert_allclose(stresses(columns)[0], exact, rtol=0.0, atol=atol)
 
