@@ -9,6 +9,9 @@ from ..flume.measures import half_peak, pressure_ratio
 REACH = 34.0
 """Distance between the stations at 32 and 66 m, over which the speed of the front is taken [m]."""
 
+FOOT = 0.01
+"""Thickness with which the foot of a front arrives [m]."""
+
 LEAST_SCOUR = 0.01
 """Eroded depth from which a scour rate is read, normal to the bed [m]."""
 
@@ -24,6 +27,8 @@ THRESHOLD = (0.22, 0.23)
 MEASURES = {
     "wet speed": Measure("speed, wet over control", "{:.3f}"),
     "dry speed": Measure("speed, dry over control", "{:.3f}"),
+    "wet foot": Measure("speed of the first cm, wet over control", "{:.3f}"),
+    "dry foot": Measure("speed of the first cm, dry over control", "{:.3f}"),
     "wet momentum": Measure("momentum, wet over control"),
     "dry momentum": Measure("momentum, dry over control"),
     "scour ratio": Measure("scour, dry over wet", "{:.0%}"),
@@ -52,6 +57,7 @@ def score(result: xr.Dataset) -> dict[str, float]:
     """Return the measures of the three beds, and the water content at the switch if it was run."""
     control, wet, dry = (result.sel(run=name) for name in ("control", "wet bed", "dry bed"))
     speeds = [front_speed(result.time.values, each.thickness) for each in (control, wet, dry)]
+    feet = [front_speed(result.time.values, each.thickness, FOOT) for each in (control, wet, dry)]
     momenta = [float(each.momentum.max()) for each in (control, wet, dry)]
     scours = [float(each.eroded_volume[-1]) for each in (control, wet, dry)]
     pressures = [
@@ -61,6 +67,7 @@ def score(result: xr.Dataset) -> dict[str, float]:
     ]  # fmt: skip
     return {
         "control speed": speeds[0], "wet speed": speeds[1] / speeds[0], "dry speed": speeds[2] / speeds[0],
+        "wet foot": feet[1] / feet[0], "dry foot": feet[2] / feet[0],
         "wet momentum": momenta[1] / momenta[0], "dry momentum": momenta[2] / momenta[0],
         "wet scour": scours[1], "dry scour": scours[2], "scour ratio": scours[2] / scours[1],
         "scour rate": 100.0 * float(np.median(scour_rates(result.time.values, wet.eroded.values))),
@@ -70,9 +77,15 @@ def score(result: xr.Dataset) -> dict[str, float]:
     }  # fmt: skip
 
 
-def front_speed(time: np.ndarray, thickness: xr.DataArray) -> float:
-    """Return the speed of the front between 32 and 66 m, from the arrival of half of the peak at both [m/s]."""
-    arrivals = [half_peak(time, thickness.sel(station=station).values) for station in ("32 m", "66 m")]
+def front_speed(time: np.ndarray, thickness: xr.DataArray, foot: float | None = None) -> float:
+    """Return the speed of the front between 32 and 66 m, from its arrival at both [m/s].
+
+    It arrives with half of its peak, or with the thickness `foot` [m].
+    """
+    arrivals = []
+    for station in ("32 m", "66 m"):
+        series = thickness.sel(station=station).values
+        arrivals.append(half_peak(time, series if foot is None else np.minimum(series, 2.0 * foot)))
     return REACH / (arrivals[1] - arrivals[0])
 
 

@@ -77,7 +77,7 @@ def _draw_switch(axes: Axes, result: xr.Dataset) -> None:
     axes.plot(contents, result.scour_by_content, color=BLUE, marker="o", markersize=4, label="eroded volume")
     axes.set(xlabel="water content of the bed by volume [-]", ylim=(0.0, None))
     axes.set_ylabel("eroded volume [m³]")
-    axes.set_title("a bed that liquefies as far as it has water", fontsize=TITLE)
+    axes.set_title("beds whose pore pressure follows from the water content alone", fontsize=TITLE)
     right = axes.twinx()
     right.plot(contents, speeds, color=RED, marker="s", markersize=4, linestyle="--", label="speed over control")
     right.set_ylabel("speed of the front over that of the control [-]", fontsize=LABEL)

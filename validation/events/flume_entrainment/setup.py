@@ -51,10 +51,11 @@ def run(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
     xarray.Dataset
         By ``run``: ``thickness`` [m] and ``pressure`` [Pa] over ``time`` [s] and ``station``; ``momentum`` [kg m/s] and
         ``eroded_volume`` [m3] over ``time``; ``eroded`` [m], normal to the bed, on the axis over ``time`` and distance
-        along the bed ``s``; ``outflow`` [m3]. By ``water_content``: ``front_time`` [s] over ``station``, and
-        ``scour`` [m3].
+        along the bed ``s``; ``outflow`` [m3]. With the default set and its number of particles, by ``water_content``:
+        ``thickness_by_content`` [m] and ``scour_by_content`` [m3].
     """
-    runs = {words: _run_one(parameters, particle_count, bed) for words, bed in _beds(parameters)}
+    beds = _beds(parameters, with_contents=particle_count == PARTICLE_COUNT)
+    runs = {words: _run_one(parameters, particle_count, bed) for words, bed in beds}
     found = xr.concat([runs[words] for words in KINDS], xr.DataArray(list(KINDS), dims="run", name="run"))
     others = [words for words in runs if words not in KINDS]
     if not others:
@@ -66,13 +67,13 @@ def run(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
     )
 
 
-def _beds(parameters: ParameterSet) -> Iterator[tuple[str, BedWater]]:
+def _beds(parameters: ParameterSet, with_contents: bool) -> Iterator[tuple[str, BedWater]]:
     """Yield the words of each run and the water of its bed."""
     site = parameters.plain("site")
     yield "control", BedWater(None)
     yield "wet bed", BedWater(site["wet_degree_of_saturation"], site["wet_pressure_ratio"])
     yield "dry bed", BedWater(site["dry_degree_of_saturation"], site["dry_pressure_ratio"], site["dry_bed_drains"] > 0)
-    if parameters.name == DEFAULT and not parameters.change:
+    if with_contents and parameters.name == DEFAULT and not parameters.change:
         for content in WATER_CONTENTS:
             yield f"{content}", BedWater(content / site["saturated_water_content"], site["wet_pressure_ratio"])
 
