@@ -108,8 +108,7 @@ def shearing_of(material, rate, load) -> Shearing:
 
 def present_profiles(p, which: slice, columns: ColumnPhysics):
     """Return the excess pore pressure of the columns of `p[which]` at levels now, (n, levels) [Pa]; change nothing."""
-    state = column_state(p, which)
-    state = ColumnState(*(None if values is None else values.copy() for values in state))
+    state = column_state(p, which).copy()
     none = np.zeros(state.clipped.size)
     columns.law.synchronise(state, column_forcing(p, which, columns, none, none))
     return state.profile

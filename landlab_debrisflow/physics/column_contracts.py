@@ -55,6 +55,10 @@ class ColumnState(NamedTuple):
     clipped: Array
     solid_fraction: Array | None = None
 
+    def copy(self) -> "ColumnState":
+        """Return a copy with arrays of its own."""
+        return ColumnState(*(None if array is None else array.copy() for array in self))
+
 
 class DilatantBase(NamedTuple):
     """Debris at the base of n columns of a law with dilatancy; arrays of shape (n,).
