@@ -11,8 +11,8 @@ from landlab_debrisflow import __version__
 
 ROOT = Path(__file__).parents[1]
 CODE = ("landlab_debrisflow", "validation", ":(exclude)validation/events/*/scores.json",
-        ":(exclude)validation/events/*/sets")  # fmt: skip
-"""Paths whose changes make a commit dirty: not scores, and not sets, which have commits of their own."""
+        ":(exclude)validation/events/*/sets", ":(exclude)validation/events/*/result.nc")  # fmt: skip
+"""Paths whose changes make a commit dirty: not records, and not sets, which have commits of their own."""
 
 
 def provenance(command: str) -> dict[str, Any]:

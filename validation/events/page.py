@@ -90,6 +90,20 @@ def scan(name: str) -> str:
     return _table(["set", "changed", *(event.measures[key].words for key in columns)], rows)
 
 
+def effects(name: str) -> str:
+    """Return how the scores move from each set to the one that changes one law of it: before → after."""
+    event = find_event(name)
+    kept = record.read_scores(event.folder)
+    columns = [key for key, measure in event.measures.items() if measure.tabulated]
+    rows = []
+    for after in map(event.read_set, set_names(event.read_set().paths[0].parent)):
+        found = [record.latest(kept, set_name, event.particle_count) for set_name in (after.base, after.name)]
+        if after.base and all(found):
+            cells = zip(*(_cells(event, row["scores"], columns) for row in found), strict=True)
+            rows.append((f"`{after.base}` to `{after.name}`", *(" → ".join(pair) for pair in cells)))
+    return _table(["sets", *(event.measures[key].words for key in columns)], rows)
+
+
 def summary(name: str) -> str:
     """Return a table of events and sets: how many targets each set meets, and the values of the measures aimed at."""
     rows = []
@@ -106,7 +120,10 @@ def summary(name: str) -> str:
     return _table(["event", "set", "targets met", "values"], rows, "---")
 
 
-KINDS = {"values": values, "chosen": chosen, "targets": targets, "scores": scores, "scan": scan, "summary": summary}
+KINDS = {
+    "values": values, "chosen": chosen, "targets": targets, "scores": scores, "scan": scan, "effects": effects,
+    "summary": summary,
+}  # fmt: skip
 """Functions by the kind of table."""
 
 

@@ -22,12 +22,13 @@ CHOICES = (
     "published simulation",
     "measured",
     "published value",
+    "derived",
     "earlier set",
     "fitted",
     "numerics",
 )
-"""Ways to choose a value. Centres are recomputed from the range; ``fitted`` is to this event, and no forecast;
-``numerics`` is no physics."""
+"""Ways to choose a value. Centres are recomputed from the range; a ``derived`` value follows from others of the set;
+``fitted`` is to this event, and no forecast; ``numerics`` is no physics."""
 ROUNDING = 0.06
 """Relative distance from the centre of a range that rounding of a value may cause, such as .39 to .4."""
 
@@ -66,6 +67,8 @@ class ParameterSet:
         Names of laws are words without a source.
     paths : tuple of Path
         Its file, and those of the sets that it is based on.
+    base : str
+        Name of the set that it is based on, or an empty text.
     change : str
         What differs from the file, in a scan; empty otherwise.
     """
@@ -75,6 +78,7 @@ class ParameterSet:
     known_when_chosen: str
     values: Mapping[str, Mapping[str, Any]]
     paths: tuple[Path, ...]
+    base: str = ""
     change: str = ""
 
     def plain(self, section: str) -> dict[str, Any]:
@@ -160,11 +164,11 @@ def read_set(folder: Path, name: str) -> ParameterSet:
     for key in ("title", "known_when_chosen"):
         if not isinstance(content.get(key), str):
             raise InputError(f"{path}: {key} must be a text, got {content.get(key)!r}")
-    paths = (path,)
-    if "based_on" in content:
-        base = read_set(folder, content["based_on"])
+    paths, base_name = (path,), content.get("based_on", "")
+    if base_name:
+        base = read_set(folder, base_name)
         values, paths = _merged(base.values, values), (path, *base.paths)
-    return ParameterSet(name, content["title"], content["known_when_chosen"], values, paths)
+    return ParameterSet(name, content["title"], content["known_when_chosen"], values, paths, base_name)
 
 
 def set_names(folder: Path) -> list[str]:
