@@ -13,6 +13,7 @@ from .core.variables import Variable
 from .physics.bed_state import BedState
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from .physics.column_contracts import BaseContact, ColumnForcing, ColumnLaw, ColumnState
+from .physics.consolidation import Consolidation
 from .physics.contracts import BasalState, ErosionLaw, FlowLaw, FlowState, FrictionLaw
 from .physics.erosion import ExcessTraction, Growth, LiquefiedBed, NoErosion, ShearExcess
 from .physics.flow import OnePhase, TwoPhase
@@ -30,6 +31,7 @@ __all__ = [
     "ColumnForcing",
     "ColumnLaw",
     "ColumnState",
+    "Consolidation",
     "ConstantRatio",
     "Coulomb",
     "ErosionLaw",

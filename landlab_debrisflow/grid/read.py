@@ -115,7 +115,7 @@ class GridReader:
     """
 
     def __init__(self, grid, setup):
-        self._grid = grid
+        self._grid, self._setup = grid, setup
         self._loaded = setup.material.bed_loading_coefficient > 0.0
         if self._loaded and BED_PRESSURE not in grid.at_node:
             grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
@@ -209,12 +209,13 @@ class GridReader:
         """Log doubts about the release that were not logged before; return the kinds of doubt logged.
 
         `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
-        logged before, "depth", "velocity" and "nothing".
+        logged before, "depth", "velocity", "consolidation" and "nothing".
         """
         logged = ()
         found = {
             "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
             "velocity": doubts.velocity_doubts(release.velocity),
+            "consolidation": doubts.consolidation_doubts(self._grid, self._setup, release),
         }
         for kind, sentences in found.items():
             for doubt in () if kind in warned else sentences:
