@@ -48,10 +48,9 @@ def cases():
     """Yield valley, loading source, coefficient of consolidation [m2 s-1] and resistance of every pair of runs."""
     slow, fast = tsing_shan.CONSOLIDATION
     for valley, loading, c_v in (
-        ("plain of 2°", "overburden", slow), ("plain of 2°", "proportional", slow), ("plain of 2°", "overburden", fast),
-        ("plain of 2°", "none", slow), ("moved by half a node", "overburden", slow),
-        ("plain of 2°", "proportional", fast), ("plain of 10°", "overburden", slow),
-        ("moved by half a node", "proportional", slow), ("plain of 2°", "none", fast),
+        ("plain of 2°", "overburden", slow), ("plain of 2°", "overburden", fast), ("plain of 2°", "proportional", slow),
+        ("moved by half a node", "overburden", slow), ("plain of 10°", "overburden", slow),
+        ("plain of 2°", "proportional", fast), ("plain of 2°", "none", slow),
     ):  # fmt: skip
         yield from ((valley, loading, c_v, resistance) for resistance in RESISTANCES)
 
@@ -92,7 +91,7 @@ def compare(valley, loading, c_v, resistance, particles):
         "speed": speed, "thickness": thickness, "passing": one["passing"], "Pe_b": one["peclet"],
         "apart": record.first_difference(ale, classical), "ALE": one["beyond"], "classical": other["beyond"],
         "farther": one["run-out"] - other["run-out"], "deposit ALE": one["mean deposit"],
-        "deposit classical": other["mean deposit"], "eroded": one["eroded"],
+        "deposit classical": other["mean deposit"], "angle": one["angle"], "eroded": one["eroded"],
         "eroded apart": one["eroded"] - other["eroded"], "outflow": max(one["outflow"], other["outflow"]),
         "still": max(one["still"], other["still"]),
     }  # fmt: skip
@@ -101,7 +100,7 @@ def compare(valley, loading, c_v, resistance, particles):
 HEADS = {
     "speed": ("m/s", "{:.1f}"), "thickness": ("m", "{:.2f}"), "passing": ("s", "{:.1f}"), "Pe_b": ("-", "{:.3g}"),
     "apart": ("s", "{:.1f}"), "ALE": ("m", "{:.0f}"), "classical": ("m", "{:.0f}"), "farther": ("m", "{:.1f}"),
-    "deposit ALE": ("m", "{:.2f}"), "deposit classical": ("m", "{:.2f}"), "eroded": ("m3", "{:.0f}"),
+    "deposit ALE": ("m", "{:.2f}"), "deposit classical": ("m", "{:.2f}"), "angle": ("deg", "{:.1f}"), "eroded": ("m3", "{:.0f}"),
     "eroded apart": ("m3", "{:.1f}"), "outflow": ("m3", "{:.0f}"), "still": ("s", "{:.0f}"),
 }  # fmt: skip
 NAMES = {"valley": 22, "loading": 14, "c_v": 8, "resistance": 20}
@@ -115,7 +114,7 @@ def report() -> str:
         "what erodes as the front leaves erodible ground,",
         "at the time passing; apart: first difference of the models in any bit; ALE, classical: run-out of the front "
         "beyond erodible ground, farther:",
-        f"their difference; deposit: mean depth there; still: at rest since; nan: creeping at {DURATION:.0f} s",
+        f"their difference; deposit: mean depth there; angle: travel angle of ALE; still: at rest since; nan: creeping at {DURATION:.0f} s",
         "".join(f"{name:<{width}}" for name, width in NAMES.items())
         + "".join(f"{f'{name} [{unit}]':>{len(name) + len(unit) + 5}}" for name, (unit, _) in HEADS.items()),
     ]
