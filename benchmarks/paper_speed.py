@@ -100,8 +100,8 @@ def compare(valley, loading, c_v, resistance, particles):
 HEADS = {
     "speed": ("m/s", "{:.1f}"), "thickness": ("m", "{:.2f}"), "passing": ("s", "{:.1f}"), "Pe_b": ("-", "{:.3g}"),
     "apart": ("s", "{:.1f}"), "ALE": ("m", "{:.0f}"), "classical": ("m", "{:.0f}"), "farther": ("m", "{:.1f}"),
-    "deposit ALE": ("m", "{:.2f}"), "deposit classical": ("m", "{:.2f}"), "angle": ("deg", "{:.1f}"), "eroded": ("m3", "{:.0f}"),
-    "eroded apart": ("m3", "{:.1f}"), "outflow": ("m3", "{:.0f}"), "still": ("s", "{:.0f}"),
+    "deposit ALE": ("m", "{:.2f}"), "deposit classical": ("m", "{:.2f}"), "angle": ("deg", "{:.1f}"),
+    "eroded": ("m3", "{:.0f}"), "eroded apart": ("m3", "{:.1f}"), "outflow": ("m3", "{:.0f}"), "still": ("s", "{:.0f}"),
 }  # fmt: skip
 NAMES = {"valley": 22, "loading": 14, "c_v": 8, "resistance": 20}
 
@@ -114,7 +114,8 @@ def report() -> str:
         "what erodes as the front leaves erodible ground,",
         "at the time passing; apart: first difference of the models in any bit; ALE, classical: run-out of the front "
         "beyond erodible ground, farther:",
-        f"their difference; deposit: mean depth there; angle: travel angle of ALE; still: at rest since; nan: creeping at {DURATION:.0f} s",
+        "their difference; deposit: mean depth there; angle: travel angle of ALE; still: at rest since; nan: creeping "
+        f"at {DURATION:.0f} s",
         "".join(f"{name:<{width}}" for name, width in NAMES.items())
         + "".join(f"{f'{name} [{unit}]':>{len(name) + len(unit) + 5}}" for name, (unit, _) in HEADS.items()),
     ]
