@@ -47,6 +47,9 @@ class Material:
     bed_pressure_ratio: float = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
     )
+    bed_degree_of_saturation: float = parameter(
+        "-", "water over pores of the bed; below 1 its pore pressure counts by this part only", 1.0, (0.0, 1.0)
+    )
     bed_loading_coefficient: float = parameter(
         "-", "part of the flow's weight that pore water of the bed takes up at once; above 0 the pressure of the bed "
         "follows from this, not from a ratio", 0.0, (0.0, 1.0),

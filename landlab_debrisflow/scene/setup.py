@@ -107,6 +107,12 @@ class Setup:
             object.__setattr__(self, name, value)
         if self.has_dilatancy:
             check_dilatancy(self.material, self.two_phases)
+        if getattr(self.erosion, "is_jump_condition", False) and getattr(self.column, "scheme", "") == "lax_wendroff":
+            raise ParameterError(
+                f"erosion: {law_name('erosion', self.erosion)} needs a column whose base keeps a pressure of its own, "
+                "got the scheme 'lax_wendroff', whose base has the pressure of the bed while soil comes in; choose the "
+                "scheme 'default' or 'upwind', or another law of erosion"
+            )
 
     @property
     def two_phases(self) -> bool:
