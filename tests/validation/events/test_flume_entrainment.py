@@ -18,7 +18,7 @@ def surge(time, arrival, peak):
     return np.interp(time, [arrival, arrival + 0.2, arrival + 6.2], [0.0, peak, 0.0])
 
 
-def beds(speeds=(10.0, 12.5, 8.0), scours=(0.0, 8.0, 1.0)):
+def beds(speeds=(10.0, 12.5, 8.0, 9.0), scours=(0.0, 8.0, 1.0, 0.0)):
     """Return series of a control, a wet and a dry bed whose fronts reach 32 m at 4 s."""
     time = setup.TIMES
     thickness = [
@@ -34,7 +34,7 @@ def beds(speeds=(10.0, 12.5, 8.0), scours=(0.0, 8.0, 1.0)):
             "thickness": (("run", "station", "time"), thickness),
             "pressure": (("run", "station", "time"), 1e4 * np.array(thickness)),
             "momentum": (("run", "time"), momentum), "eroded_volume": (("run", "time"), volume),
-            "eroded": (("run", "time", "s"), np.array(eroded)), "outflow": ("run", [0.0, 0.0, 0.5]),
+            "eroded": (("run", "time", "s"), np.array(eroded)), "outflow": ("run", [0.0, 0.0, 0.5, 0.0]),
         },
         {"run": list(setup.KINDS), "station": ["2 m", "32 m", "66 m"], "time": time, "s": [10.0, 20.0, 30.0]},
     )  # fmt: skip
@@ -46,6 +46,7 @@ def test_speeds_momenta_and_scour_of_series_made_by_hand():
     for word in ("speed", "foot"):
         assert found[f"wet {word}"] == pytest.approx(1.25, rel=0.01)  # series have steps of .05 s
         assert found[f"dry {word}"] == pytest.approx(0.8, rel=0.01)
+    assert found["shape speed"] == pytest.approx(0.9, rel=0.01)
     assert (found["wet momentum"], found["dry momentum"]) == pytest.approx((1.25, 0.8))
     assert found["scour ratio"] == pytest.approx(1.0 / 8.0) and found["wet scour"] == 8.0
     assert found["scour rate"] == pytest.approx(5.0, rel=1e-6)  # cm/s, of the one place that counts
@@ -55,7 +56,7 @@ def test_speeds_momenta_and_scour_of_series_made_by_hand():
 
 
 def test_signs_the_other_way_meet_no_target_but_the_rate():
-    found = EVENT.score(beds(speeds=(10.0, 9.0, 11.0), scours=(0.0, 2.0, 1.0)))
+    found = EVENT.score(beds(speeds=(10.0, 9.0, 11.0, 10.0), scours=(0.0, 2.0, 1.0, 0.0)))
     assert [target.measure for target in EVENT.targets if target.met(found[target.measure])] == ["scour rate"]
 
 
@@ -74,7 +75,7 @@ def test_sets_differ_in_what_they_say():
     assert sets["water_content"].plain("site")["wet_degree_of_saturation"] == 0.64
     assert [words for words, _ in setup._beds(sets["slip"], with_contents=True)] == list(setup.KINDS)
     beds = dict(setup._beds(sets["measured_pressure"], with_contents=True))
-    assert len(beds) == 10 and beds["0.28"].degree_of_saturation == pytest.approx(0.7)
+    assert len(beds) == 11 and beds["0.28"].degree_of_saturation == pytest.approx(0.7)
     assert beds["control"].degree_of_saturation is None and beds["dry bed"].is_drain and not beds["wet bed"].is_drain
 
 

@@ -5,6 +5,7 @@ import xarray as xr
 
 from ..event import Measure, Target
 from ..flume.measures import half_peak, pressure_ratio
+from .setup import KINDS
 
 REACH = 34.0
 """Distance between the stations at 32 and 66 m, over which the speed of the front is taken [m]."""
@@ -29,6 +30,7 @@ MEASURES = {
     "dry speed": Measure("speed, dry over control", "{:.3f}"),
     "wet foot": Measure("speed of the first cm, wet over control", "{:.3f}"),
     "dry foot": Measure("speed of the first cm, dry over control", "{:.3f}"),
+    "shape speed": Measure("speed, rigid bed of this shape over control", "{:.3f}"),
     "wet momentum": Measure("momentum, wet over control"),
     "dry momentum": Measure("momentum, dry over control"),
     "scour ratio": Measure("scour, dry over wet", "{:.0%}"),
@@ -55,8 +57,8 @@ TARGETS = (
 
 def score(result: xr.Dataset) -> dict[str, float]:
     """Return the measures of the three beds, and the water content at the switch if it was run."""
-    control, wet, dry = (result.sel(run=name) for name in ("control", "wet bed", "dry bed"))
-    speeds = [front_speed(result.time.values, each.thickness) for each in (control, wet, dry)]
+    control, wet, dry, rigid = (result.sel(run=name) for name in KINDS)
+    speeds = [front_speed(result.time.values, each.thickness) for each in (control, wet, dry, rigid)]
     feet = [front_speed(result.time.values, each.thickness, FOOT) for each in (control, wet, dry)]
     momenta = [float(each.momentum.max()) for each in (control, wet, dry)]
     scours = [float(each.eroded_volume[-1]) for each in (control, wet, dry)]
@@ -67,6 +69,7 @@ def score(result: xr.Dataset) -> dict[str, float]:
     ]  # fmt: skip
     return {
         "control speed": speeds[0], "wet speed": speeds[1] / speeds[0], "dry speed": speeds[2] / speeds[0],
+        "shape speed": speeds[3] / speeds[0],
         "wet foot": feet[1] / feet[0], "dry foot": feet[2] / feet[0],
         "wet momentum": momenta[1] / momenta[0], "dry momentum": momenta[2] / momenta[0],
         "wet scour": scours[1], "dry scour": scours[2], "scour ratio": scours[2] / scours[1],

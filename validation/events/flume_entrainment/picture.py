@@ -5,13 +5,14 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from landlab_debrisflow.plots.style import LABEL, LINES, NOTE, TICK, TITLE
+from landlab_debrisflow.plots.style import LABEL, LINES, MUTED, NOTE, TICK, TITLE
 
 from .measures import MEASURED_RATE, THRESHOLD, front_speed, scour_rates
 
 BLUE, RED, _, _, _, ORANGE, BLACK = LINES
-STYLES = {"control": (BLACK, "-", "control, rigid bed"), "wet bed": (BLUE, "-", "wet bed"),
-          "dry bed": (ORANGE, "--", "dry bed")}  # fmt: skip
+STYLES = {"control": (BLACK, "-", "control, no bed"), "wet bed": (BLUE, "-", "wet bed"),
+          "dry bed": (ORANGE, "--", "dry bed"),
+          "rigid bed of the same shape": (MUTED, ":", "rigid bed of the same shape")}  # fmt: skip
 BAND = "0.85"
 STEPS = {"thickness": 1e-4, "pressure": 1.0, "eroded": 1e-5, "thickness_by_content": 1e-4}
 
@@ -30,7 +31,7 @@ def draw(result: xr.Dataset) -> Figure:
         run, line = result.sel(run=name), {"color": colour, "linestyle": dashes, "linewidth": 1.8, "label": words}
         axes["surge"].plot(time, run.thickness.sel(station="66 m"), **line)
         axes["momentum"].plot(time, 1e-3 * run.momentum, **line)
-        if name != "control":
+        if name in ("wet bed", "dry bed"):
             axes["scour"].plot(result.s, 100.0 * run.eroded.isel(time=-1), **line)
     axes["surge"].set(xlim=(3.0, 16.0), ylim=(0.0, None), xlabel="time since the gate began to open [s]")
     axes["surge"].set_ylabel("thickness [m]")
@@ -77,7 +78,7 @@ def _draw_switch(axes: Axes, result: xr.Dataset) -> None:
     axes.plot(contents, result.scour_by_content, color=BLUE, marker="o", markersize=4, label="eroded volume")
     axes.set(xlabel="water content of the bed by volume [-]", ylim=(0.0, None))
     axes.set_ylabel("eroded volume [m³]")
-    axes.set_title("beds whose pore pressure follows from the water content alone", fontsize=TITLE)
+    axes.set_title("pore pressure of the bed by its water content alone", fontsize=TITLE)
     right = axes.twinx()
     right.plot(contents, speeds, color=RED, marker="s", markersize=4, linestyle="--", label="speed over control")
     right.set_ylabel("speed of the front over that of the control [-]", fontsize=LABEL)

@@ -20,7 +20,7 @@ DEFAULT, PARTICLE_COUNT = "measured_pressure", 1000
 LONGEST = 30.0
 """Time at which a flow that still moves is left: behind the deposit a tail creeps [s]."""
 
-KINDS = ("control", "wet bed", "dry bed")
+KINDS = ("control", "wet bed", "dry bed", "rigid bed of the same shape")
 WATER_CONTENTS = (0.15, 0.17, 0.19, 0.21, 0.23, 0.25, 0.28)
 """Of beds by volume, over the range of the experiments, with which the default set is run, too [-]."""
 
@@ -35,16 +35,19 @@ class BedWater(NamedTuple):
     pressure_ratio : float
         Excess pore pressure over its liquefaction value [-].
     is_drain : bool
-        Whether pore air keeps the excess pressure at the base of the flow at 0.
+        Whether the bed takes the excess pressure out of the base of the flow.
+    erodes : bool
+        Whether the law of erosion of the set holds; else nothing erodes.
     """
 
     degree_of_saturation: float | None
     pressure_ratio: float = 0.0
     is_drain: bool = False
+    erodes: bool = True
 
 
 def run(parameters: ParameterSet, particle_count: int) -> xr.Dataset:
-    """Compute the release over rigid ground, over a wet and a dry bed; with the default set over other water contents.
+    """Compute the release without a bed, and over a wet, a dry and a rigid one; with the default set over more beds.
 
     Returns
     -------
@@ -73,6 +76,7 @@ def _beds(parameters: ParameterSet, with_contents: bool) -> Iterator[tuple[str, 
     yield "control", BedWater(None)
     yield "wet bed", BedWater(site["wet_degree_of_saturation"], site["wet_pressure_ratio"])
     yield "dry bed", BedWater(site["dry_degree_of_saturation"], site["dry_pressure_ratio"], site["dry_bed_drains"] > 0)
+    yield KINDS[3], BedWater(1.0, erodes=False)
     if with_contents and parameters.name == DEFAULT and not parameters.change:
         for content in WATER_CONTENTS:
             yield f"{content}", BedWater(content / site["saturated_water_content"], site["wet_pressure_ratio"])
@@ -84,6 +88,8 @@ def _run_one(parameters: ParameterSet, particle_count: int, bed: BedWater) -> xr
     along = distance_along_bed(grid.x_of_node[: grid.shape[1]])
     sensors, meter, keywords = Sensors(along, grid.shape[0]), Meter(), parameters.keywords()
     numerics = keywords.pop("numerics", {}) | {"particle_count": particle_count}
+    if not bed.erodes:
+        keywords["erosion"] = "none"
     flow = DebrisFlow(grid, **keywords, numerics=numerics, observers=[sensors, meter])
     flow.run_until_rest(LONGEST)
     delay = parameters.plain("site")["gate_delay"]
