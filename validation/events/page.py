@@ -114,6 +114,24 @@ def effects(name: str) -> str:
     return _table(["sets", *(event.measures[key].words for key in columns)], rows)
 
 
+def best(name: str) -> str:
+    """Return the best value of each target over all sets and scans ever scored, with the values of the others there."""
+    event = find_event(name)
+    runs = dict.fromkeys((row["set"], row["change"]) for row in record.read_scores(event.folder))
+    found = {run: [_mean(target, event, *run) for target in event.targets] for run in runs}
+    rows = []
+    for place, target in enumerate(event.targets):
+        known = [run for run, numbers in found.items() if not any(map(math.isnan, numbers))]
+        if known and math.isinf(target.high):
+            run = max(known, key=lambda run, place=place: found[run][place])
+            cells = [
+                event.measures[each.measure].form.format(n) for each, n in zip(event.targets, found[run], strict=True)
+            ]
+            rows.append((target.words, f"`{run[0]}`{', ' if run[1] else ''}{run[1]}", *cells))
+    words = [f"{'mean ' if each.events else ''}{event.measures[each.measure].words}" for each in event.targets]
+    return _table(["best in", "run", *words], rows)
+
+
 def summary(name: str) -> str:
     """Return a table of events and sets: how many targets each set meets, and the values of the measures aimed at."""
     rows = []
@@ -132,17 +150,16 @@ def summary(name: str) -> str:
 
 KINDS = {
     "values": values, "chosen": chosen, "targets": targets, "scores": scores, "scan": scan, "effects": effects,
-    "refinement": refinement,
-    "summary": summary,
+    "refinement": refinement, "best": best, "summary": summary,
 }  # fmt: skip
 """Functions by the kind of table."""
 
 
-def _mean(target: Target, event: Event, set_name: str) -> float:
+def _mean(target: Target, event: Event, set_name: str, change: str = "") -> float:
     """Return the measure of a target, the mean over its events; NaN if one was not scored with the set."""
     found = []
     for each in map(find_event, target.events or (event.name,)):
-        row = record.latest(record.read_scores(each.folder), set_name, each.particle_count)
+        row = record.latest(record.read_scores(each.folder), set_name, each.particle_count, change)
         found.append(row["scores"].get(target.measure, math.nan) if row else math.nan)
     return sum(found) / len(found)
 
