@@ -80,9 +80,10 @@ def test_an_event_is_complete(name):
     event = find_event(name)
     assert event.name == name and {target.measure for target in event.targets} <= set(event.measures)
     rows = record.read_scores(event.folder)
-    assert record.latest(rows, event.default_set, event.particle_count) is not None
+    shown = record.latest(rows, event.default_set, event.particle_count)
+    assert "dirty" not in shown["code"]
     for row in rows:
-        assert set(row["scores"]) <= set(event.measures) and "dirty" not in row["code"]
+        assert set(row["scores"]) <= set(event.measures)
     result = record.read_result(event)
     assert result.attrs["set"] == event.default_set and "dirty" not in result.attrs["measured_commit"]
     assert (event.folder / "result.nc").stat().st_size < 130_000
