@@ -45,11 +45,14 @@ def chosen(name: str) -> str:
     """Return the commit of the set that is shown, and what was known of the event when it was chosen."""
     event = find_event(name)
     parameters = event.read_set()
-    rows = record.read_scores(event.folder)
-    shown = record.latest(rows, parameters.name, event.particle_count)
-    known = re.sub(r"\s+", " ", parameters.known_when_chosen.strip())
+    shown = record.latest(record.read_scores(event.folder), parameters.name, event.particle_count)
     commit = f"commit {shown['commit']} of {shown['committed']}" if shown else "not yet scored"
-    return f"Set `{parameters.name}` ({parameters.title}), {commit}. Known when it was chosen: {known}\n"
+    lines = [f"Shown is the set `{parameters.name}`: {parameters.title} ({commit}). Known when it was chosen:", ""]
+    while parameters is not None:
+        known = re.sub(r"\s+", " ", parameters.known_when_chosen.strip())
+        lines.append(f"* `{parameters.name}`: {known}")
+        parameters = event.read_set(parameters.base) if parameters.base else None
+    return "\n".join(lines) + "\n"
 
 
 def targets(name: str) -> str:
