@@ -52,14 +52,13 @@ def run_event(event: Event, options: argparse.Namespace, console: Console) -> No
 def table(event: Event, rows: dict[str, dict[str, float]]) -> Table:
     """Return the scores that are tabulated, one run in a row; scores.json has all of them."""
     shown = Table(title=event.title, title_justify="left")
-    shown.add_column("")
+    shown.add_column("", no_wrap=True)
     measures = {key: measure for key, measure in event.measures.items() if measure.tabulated}
     for measure in measures.values():
         shown.add_column(Text(measure.words), justify="right")
     for words, values in rows.items():
-        numbers = [values.get(key, math.nan) for key in measures]
-        cells = [each.form.format(n) for n, each in zip(numbers, measures.values(), strict=True)]
-        shown.add_row(Text(words), *("" if math.isnan(n) else cell for n, cell in zip(numbers, cells, strict=True)))
+        cells = (measure.text(values.get(key, math.nan)) for key, measure in measures.items())
+        shown.add_row(Text(words), *cells)
     return shown
 
 

@@ -107,7 +107,7 @@ class ParameterSet:
         """Return the set with one value changed, which `change` tells."""
         before = self.values[section][key]
         values = {**self.values, section: {**self.values[section], key: before._replace(value=value)}}
-        return replace(self, values=values, change=f"{key} = {value:.3g} {before.unit}".removesuffix(" -"))
+        return replace(self, values=values, change=f"{key} = {value:g} {before.unit}".removesuffix(" -"))
 
     def scan(self) -> Iterator["ParameterSet"]:
         """Yield the sets with one value at either end of its published range."""
