@@ -93,6 +93,16 @@ def scan(name: str) -> str:
     return _table(["set", "changed", *(event.measures[key].words for key in columns)], rows)
 
 
+def refinement(name: str) -> str:
+    """Return the scores of the set that is shown, by the number of particles."""
+    event = find_event(name)
+    kept = [row for row in record.read_scores(event.folder) if row["set"] == event.default_set and not row["change"]]
+    columns = [key for key, measure in event.measures.items() if measure.tabulated]
+    last = {row["particles"]: row["scores"] for row in kept}
+    rows = [(str(count), *_cells(event, last[count], columns)) for count in sorted(last)]
+    return _table(["particles", *(event.measures[key].words for key in columns)], rows)
+
+
 def effects(name: str) -> str:
     """Return how the measures of the targets move from each set to the one that changes it: before → after."""
     event = find_event(name)
@@ -147,7 +157,7 @@ def summary(name: str) -> str:
 
 KINDS = {
     "values": values, "chosen": chosen, "targets": targets, "scores": scores, "scan": scan, "effects": effects,
-    "best": best, "summary": summary,
+    "refinement": refinement, "best": best, "summary": summary,
 }  # fmt: skip
 """Functions by the kind of table."""
 

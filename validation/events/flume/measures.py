@@ -118,15 +118,14 @@ def of_deposit(deposit: np.ndarray, result: xr.Dataset, leave_out: int | None = 
 
 def references(result: xr.Dataset) -> dict[str, dict[str, float]]:
     """Return the measures of a series of zeros, of the edges of the band, and of each mapped deposit."""
-    nothing = xr.zeros_like(result.isel(run=0))
-    zeros = {key: value for key, value in of_series(nothing, result).items() if key.startswith(("within", "rms"))}
-    found = {"series of zeros": zeros}
-    for bound, words in (("mean", "mean of the eight runs"), ("lower", "mean − 1 sd"), ("upper", "mean + 1 sd")):
+    zeros = of_series(xr.zeros_like(result.isel(run=0)), result)
+    found = {"series of zeros": {key: value for key, value in zeros.items() if key.startswith("within")}}
+    for bound, words in (("lower", "measured, mean − 1 sd"), ("upper", "measured, mean + 1 sd")):
         edge = xr.Dataset({name: result[f"measured_{name}"].sel(bound=bound).fillna(0.0) for name in SERIES})
-        found[words] = of_series(edge, result)
+        found[words] = {key: value for key, value in of_series(edge, result).items() if not key.startswith("within")}
     for index, date in enumerate(result.experiment.values):
         deposit = result.mapped_deposit.values[index] == 1
-        found[f"deposit of {date}, against the other three"] = of_deposit(deposit, result, index)
+        found[f"deposit of {date} beside the other three"] = of_deposit(deposit, result, index)
     return found
 
 
