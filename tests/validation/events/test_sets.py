@@ -50,7 +50,7 @@ def test_a_set_that_is_based_on_another_has_its_values(folder):
         ("value: 20.0", "value: 24.0", r"basal_friction_angle is 24, but the centre of \[15.0, 25.0\] is 20"),
         ("source: a book", "source: ''", r"basal_friction_angle needs a source"),
         ("unit: deg, ", "", r"basal_friction_angle needs a unit"),
-        ("choice: measured", "choice: fitted", r"choice of site.soil_depth must be one of centre, .*got 'fitted'"),
+        ("choice: measured", "choice: guessed", r"choice of site.soil_depth must be one of centre, .*got 'guessed'"),
         ("range: [15.0, 25.0]", "range: [25.0, 15.0]", r"must be two increasing numbers"),
         ("range: [15.0, 25.0], ", "", r"is the centre of a range; give range"),
         ("friction:", "fricton:", r"unknown key 'fricton' \(did you mean 'friction'\?\)"),

@@ -32,8 +32,8 @@ MEASURES = {
     "outflow": Measure("left the map [m³]", "{:.0f}", tabulated=False),
     "duration": Measure("at rest after [s]", "{:.0f}", tabulated=False),
 }
-"""All outside of the source, unless the words say otherwise. Toe: distance of the farthest changed cell from the highest
-cell of the source in plan, less the observed one."""
+"""All outside of the source, unless the words say otherwise. Toe: distance of the farthest changed cell from the
+highest cell of the source in plan, less the observed one."""
 
 
 def score(result: xr.Dataset) -> dict[str, float]:
