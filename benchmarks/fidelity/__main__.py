@@ -26,7 +26,7 @@ if not __package__:  # run as a file: the package that is installed goes before 
 
 from benchmarks.fidelity.campaign import SETS, campaign
 from benchmarks.fidelity.runs import RESULTS, Run, read, run_all
-from benchmarks.fidelity.seeds import FIT, HELD_OUT, TABLE, take_draws
+from benchmarks.fidelity.seeds import DILATANT, FIT, HELD_OUT, TABLE, take_draws
 
 
 def parse(arguments) -> argparse.Namespace:
@@ -45,8 +45,8 @@ def parse(arguments) -> argparse.Namespace:
         ("run", "run scenes"), ("campaign", "make all runs that score, fit and chart need"),
     ):  # fmt: skip
         found = command(name, words)
-        most = "nine" if name == "run" else "nine,fit,held-out"
-        found.add_argument("--scenes", default=most, help="nine, fit, held-out, or names with commas between them")
+        most = "nine" if name == "run" else "nine,fit,held-out,dilatant"
+        found.add_argument("--scenes", default=most, help="nine, fit, held-out, dilatant, or names with commas between them")
         found.add_argument("--processes", type=int, default=1, help="runs at a time")
         if name == "campaign":
             found.add_argument("--short", action="store_true", help="default steps only, of an engine before a change")
@@ -66,7 +66,7 @@ def main(arguments=None) -> int:
     """Carry out a command; 1: unseen scenes miss what must be reached."""
     options = parse(arguments)
     if options.command == "seeds":
-        draws = take_draws([*FIT, *HELD_OUT], lambda line: print(line, flush=True))
+        draws = take_draws([*FIT, *HELD_OUT, *DILATANT], lambda line: print(line, flush=True))
         TABLE.write_text(json.dumps(draws, indent=0) + "\n")
         return 0
     path = options.results or RESULTS / f"{options.label}.jsonl"
@@ -87,7 +87,9 @@ def main(arguments=None) -> int:
 
         print_scores(scenes, SETS["nine"], "the nine")
         print_scores(scenes, SETS["fit"], "to fit")
-        return 0 if print_scores(scenes, SETS["held-out"], "unseen") else 1
+        good = print_scores(scenes, SETS["held-out"], "unseen")
+        print_scores(scenes, SETS["dilatant"], "with dilatancy, unseen")
+        return 0 if good else 1
     elif options.command == "presets":
         from benchmarks.fidelity.presets import print_presets
 

@@ -8,12 +8,13 @@ from landlab import RasterModelGrid
 
 from benchmarks.fidelity import fit, presets, replay, runs, score
 from benchmarks.fidelity.campaign import SETS, campaign, runs_of
+from benchmarks.fidelity.dilatant import dilatant_scene
 from benchmarks.fidelity.generator import random_scene
 from benchmarks.fidelity.measure import measure, quantities
-from benchmarks.fidelity.scenes import NINE, Scene, maker
-from benchmarks.fidelity.seeds import DRAWS, FIT, HELD_OUT, reason_against
+from benchmarks.fidelity.scenes import NAMED, NINE, Scene, maker
+from benchmarks.fidelity.seeds import DILATANT, DRAWS, FIT, HELD_OUT, reason_against
 from benchmarks.fidelity.variations import vary
-from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow import DebrisFlow, Setup
 
 
 def small_scene():
@@ -27,9 +28,9 @@ def small_scene():
 
 def test_sets_are_large_apart_and_drawn():
     assert len(FIT) >= 60 and len(HELD_OUT) >= 120 and not set(FIT) & set(HELD_OUT)
-    assert set(DRAWS) == {*FIT, *HELD_OUT}
+    assert set(DRAWS) == {*FIT, *HELD_OUT, *DILATANT}
     assert len(NINE) == 9
-    assert len(set(campaign("x", [name for names in SETS.values() for name in names]))) == 70 * 15 + 130 * 10 + 9 * 20
+    assert len(set(campaign("x", [name for names in SETS.values() for name in names]))) == 70 * 15 + 130 * 10 + 9 * 20 + 13 * 10
 
 
 def test_a_seed_makes_the_same_scene_again():
@@ -40,11 +41,18 @@ def test_a_seed_makes_the_same_scene_again():
         np.testing.assert_array_equal(one.grid.at_node[name], other.grid.at_node[name])
 
 
-@pytest.mark.parametrize("seed", [7, pytest.param(1007, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [7, 2002, pytest.param(1007, marks=pytest.mark.slow)])
 def test_scenes_are_accepted_and_release_what_lies_inside(seed):
     scene = maker(f"r{seed}")()
     DebrisFlow(scene.grid, **scene.keywords, numerics={"particle_count": 100})
     assert 30.0 <= scene.max_duration <= 400.0
+
+
+def test_scenes_with_dilatancy_say_so():
+    for scene in (dilatant_scene(2001), NAMED["loose debris"]()):
+        setup = Setup(**scene.keywords)
+        assert setup.has_dilatancy and not setup.two_phases and setup.material.water_table_ratio == 1.0
+    assert dilatant_scene(2001).keywords == dilatant_scene(2001).keywords != dilatant_scene(2001, draw=1).keywords
 
 
 def test_draws_are_refused_for_what_a_coarse_run_says():
