@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from benchmarks.fidelity import fit, presets, replay, runs, score
+from benchmarks.fidelity import fit, presets, repeat, replay, runs, score
 from benchmarks.fidelity.campaign import SETS, campaign, runs_of
 from benchmarks.fidelity.dilatant import dilatant_scene
 from benchmarks.fidelity.generator import random_scene
@@ -162,3 +162,14 @@ def test_presets_are_compared_with_standard_steps(capsys):
     presets.print_presets({"r1": made, "r2": {}}, ["r1", "r2"])
     shown = capsys.readouterr().out
     assert "1 scenes" in shown and "0.50" in shown and "0.25" in shown and "3.0 / 3.0 / 3.0" in shown
+
+
+def test_kept_runs_are_repeated_to_every_digit(capsys):
+    made = {runs.Run("x", "r1", count): {"area": 1.0, "steps": 9, "seconds": 3.0} for count in (500, 1000, 2000)}
+    drawn = repeat.draw_runs(made, ["r1"], 9, seed=1)
+    assert {run.particles for run in drawn} == {500, 1000}
+    assert repeat.print_repeated(made, drawn, lambda run: made[run] | {"seconds": 5.0})
+    assert not repeat.print_repeated(made, drawn[:1], lambda run: made[run] | {"area": 1.00001})
+    assert not repeat.print_repeated(made, drawn[:1], lambda run: {"failure": "broken"})
+    shown = capsys.readouterr().out
+    assert "2 of 2 runs are equal" in shown and "area 1.0 now 1.00001" in shown and "failure None now broken" in shown
