@@ -100,7 +100,9 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     for name, argument in CHOICES.items():
         given[name] = checked("solve_column", name, argument, given[name])
     for name in ("initial_layer_fraction", "step", "soil_solid_fraction", "solid_density"):
-        if given[name] is not None and checked_numbers(name, SINGLE_NUMBERS[name], given[name]).ndim:
+        declared = SINGLE_NUMBERS[name]
+        usual = given[name] is None and declared.default is None
+        if not usual and checked_numbers(name, declared, given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
     usual, unused = ("coefficient_of_consolidation", "solid_fraction")[:: -1 if given["dilatancy"] else 1]
     if given[usual] is None:

@@ -81,8 +81,8 @@ def test_soil_brings_its_solid_fraction():
 
 @pytest.mark.parametrize("base", ["prescribed", "impermeable", "drained"])
 def test_bases(base):
-    column = solve_column(**GIVEN | {"dilatancy": {"permeability": 1e-10}}, solid_fraction=0.6, shear_rate=5.0, base=base,
-                          basal_pressure=1000.0)  # fmt: skip
+    given = GIVEN | {"dilatancy": {"permeability": 1e-10}, "solid_fraction": 0.6, "shear_rate": 5.0}
+    column = solve_column(**given, base=base, basal_pressure=1000.0)
     pressure = column.basal_excess_pore_pressure.values[1, 0]
     if base == "impermeable":
         assert pressure > 3000.0
@@ -119,7 +119,7 @@ def test_a_law_object_is_as_good_as_a_mapping():
         ({"solid_fraction": "loose"}, "solid_fraction must be one number or one per column, got 'loose'"),
         ({"soil_solid_fraction": 0.9}, "soil_solid_fraction must lie in [0.3, 0.74], got 0.9"),
         ({"soil_solid_fraction": [0.6, 0.6]}, "soil_solid_fraction must be one number"),
-        ({"solid_fraction": [0.6, 0.62], "entrainment_rate": 0.1}, "soil_solid_fraction must be given where columns of"),
+        ({"solid_fraction": [0.6, 0.62], "entrainment_rate": 0.1}, "soil_solid_fraction must be given where columns"),
         ({"solid_density": 0.0}, "solid_density must lie in [1, 100000] kg m-3, got 0"),
         ({"solid_density": None}, "solid_density must be one number, got None"),
         ({"dilatancy": {"permeabilty": 1e-9}}, "did you mean"),
