@@ -104,7 +104,9 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
         usual = given[name] is None and declared.default is None
         if not usual and checked_numbers(name, declared, given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
-    usual, unused = ("coefficient_of_consolidation", "solid_fraction")[:: -1 if given["dilatancy"] else 1]
+    usual, unused = "coefficient_of_consolidation", "solid_fraction"
+    if given["dilatancy"] is not None:
+        usual, unused = unused, usual
     if given[usual] is None:
         given[usual] = NUMBERS[usual].default
     absent = [name for name in ("initial_pressure", "basal_pressure_ratio", unused) if given[name] is None]

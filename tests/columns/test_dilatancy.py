@@ -121,7 +121,7 @@ def test_a_law_object_is_as_good_as_a_mapping():
         ({"soil_solid_fraction": [0.6, 0.6]}, "soil_solid_fraction must be one number"),
         ({"solid_fraction": [0.6, 0.62], "entrainment_rate": 0.1}, "soil_solid_fraction must be given where columns"),
         ({"solid_density": 0.0}, "solid_density must lie in [1, 100000] kg m-3, got 0"),
-        ({"solid_density": None}, "solid_density must be one number, got None"),
+        ({"solid_density": None}, "solid_density must be one number or one per column, got None"),
         ({"dilatancy": {"permeabilty": 1e-9}}, "did you mean"),
         ({"dilatancy": {"permeability": -1.0}}, "permeability must lie in [0, 0.001] m2"),
         ({"dilatancy": 0.64}, "dilatancy must be a mapping with some of critical_solid_fraction"),
