@@ -1,9 +1,8 @@
 """Where the columns with dilatancy are stable: python -m benchmarks.dilatancy_stability
 
 Maps over the shear rate, the thickness and the step. Every point of a map is the worst of all combinations of the
-permeability, the viscosity of the pore fluid, the compressibility, the reference stress, the diameter of the grains and
-the critical solid fraction at their declared bounds and at their defaults, of eight solid fractions from the loosest to
-the densest, and of a hydrostatic and a nearly liquefied start: 11 levels, six steps in which the load swings by a third.
+parameters of dilatancy at their declared bounds and at their defaults, of eight solid fractions from the loosest to the
+densest, and of a hydrostatic and a nearly liquefied start: 11 levels, six steps in which the load swings by a third.
 Counted are the iterations of a step, whether they ended before `ITERATIONS`, stresses beyond their bounds, and what is
 not a number.
 
@@ -57,7 +56,7 @@ def laws():
 
 @kernel
 def run(block, rates, law, dt, fractions, ratios, load, counted):
-    """Take steps of one block from its start; add to `counted`: iterations, unfinished, beyond a bound, not a number."""
+    """Take steps of one block from its start; add what is `counted`, in the order of `MEASURED`."""
     stress, fraction, _, _, _, _, _ = block
     _, loads, _, mosts, _ = rates
     cells, lanes = stress.shape[0] - 1, stress.shape[1]
@@ -118,7 +117,8 @@ def report() -> str:
     found = result_files.read_dataset("dilatancy_stability")
     return "\n".join([
         f"blocks of {LANES} columns, {STEPS} steps each: {found.attrs['blocks']}",
-        f"most iterations of a step: {int(found.iterations.max())} of {ITERATIONS} allowed; with the default parameters {found.attrs['usual']}",
+        f"most iterations of a step: {int(found.iterations.max())} of {ITERATIONS} allowed",
+        f"with the default parameters: {found.attrs['usual']}",
         f"steps that did not converge: {int(found.unfinished.sum())}",
         f"largest excess of a stress over its bounds, over bound + sigma_0: {float(found.beyond.max()):.1e}",
         f"not a number: {int(found.missing.sum())}",
