@@ -292,7 +292,7 @@ def dilatant_block(
         found = solve_ivp(
             rates, (0.0, time.max()), start, "LSODA", dense_output=True, events=stops, rtol=1e-9, atol=1e-9
         )  # fmt: skip
-        velocity, moved = found.sol(np.minimum(time, found.t[-1]))
+        velocity, moved = found.sol(np.minimum(time, found.t[-1]).ravel()).reshape(2, *time.shape)
         if found.t_events[0].size:
             velocity = np.where(time < found.t[-1], velocity, 0.0)
     same = np.full(time.shape, load if drained else solid_fraction)
