@@ -79,6 +79,14 @@ def test_a_scan_changes_one_value(folder):
     assert all(each.plain("friction")["turbulent_coefficient"] == 500.0 for each in changed)
 
 
+def test_a_wide_range_is_scanned_between_its_ends(folder):
+    wide = SET.replace("value: 500.0, unit: m s-2,", "value: 1e-9, unit: m s-2, range: [1e-10, 1e-8],")
+    (folder / "wide.yaml").write_text(wide, encoding="utf-8")
+    changed = [each.plain("friction")["turbulent_coefficient"] for each in read_set(folder, "wide").scan("turbulent")]
+    assert changed == [1e-10, 3.16e-10, 3.16e-9, 1e-8]
+    assert list(read_set(folder, "wide").scan("nothing")) == []
+
+
 @pytest.mark.slow
 def test_changes_of_a_set_must_be_committed(folder):
     with pytest.raises(InputError, match="use a checkout"):
