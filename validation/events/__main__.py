@@ -1,7 +1,8 @@
 """Run and score measured events: ``python -m validation.events [EVENT ...]``, all of them by default.
 
-Prints the scores and the targets of the set that is shown, and appends them to scores.json of the event. With the set and the number of particles that are
-shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s figures`` draws the figures.
+Prints the scores and the targets of the set that is shown, and appends the scores to scores.json of the event. With the
+set and the number of particles that are shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s
+figures`` draws the figures.
 """
 
 import argparse
