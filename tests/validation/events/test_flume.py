@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from validation.events import data, find_event
+from validation.events import data, find_event, record
 from validation.events.flume import measured, measures, setup
 from validation.events.sets import set_names
 
@@ -148,3 +148,18 @@ def test_a_small_run():
     assert abs(scores["arrival error h 66 m"] - 0.2) < 1.0
     assert abs(scores["toe"] - 111.0) < 5.0
     assert scores["outflow"] == 0.0
+
+
+def test_the_stored_result_has_the_scores_that_were_recorded():
+    scores = EVENT.score(record.read_result(EVENT))
+    rows = record.read_scores(EVENT.folder)
+    recorded = record.latest(rows, EVENT.default_set, EVENT.particle_count)["scores"]
+    for key, measure in EVENT.measures.items():
+        # stored are steps of 0.1 mm and 1 Pa, which move a share by single times of 320
+        assert scores[key] == pytest.approx(recorded[key], rel=2e-3, abs=0.01), measure.words
+    assert EVENT.draw(record.read_result(EVENT)).axes
+
+
+def test_the_targets_are_met():
+    scores = EVENT.score(record.read_result(EVENT))
+    assert [target.words for target in EVENT.targets if not target.met(scores[target.measure])] == []
