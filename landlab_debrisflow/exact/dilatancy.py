@@ -182,7 +182,9 @@ def liquefaction_strain(stress: ArrayLike, solid_fraction: ArrayLike, debris: Di
     return np.divide(gain, contraction, out=np.where(gain > 0.0, np.inf, 0.0), where=contraction > 0.0)
 
 
-def drained_solid_fraction(strain: ArrayLike, solid_fraction: float, critical_solid_fraction: float = 0.64):
+def drained_solid_fraction(
+    strain: ArrayLike, solid_fraction: float, critical_solid_fraction: float = 0.64
+) -> np.ndarray:
     """Return the solid fraction of debris that drains freely, after slow shear [-].
 
     ``dm/dG = -m (m - m_crit)``, G being the shear strain.
