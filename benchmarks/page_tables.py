@@ -232,8 +232,8 @@ def s1000() -> str:
 
 
 SOURCES = (
-    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "flow_stability", "speed", "key_figures",
-    "s1000", "tsing_shan", "when_ale_matters",
+    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
+    "speed", "key_figures", "s1000", "tsing_shan", "when_ale_matters",
 )  # fmt: skip
 
 
