@@ -44,6 +44,8 @@ def bounds():
                 values = (False, True)
             elif meta["choices"]:
                 values = meta["choices"]
+            elif dataclasses.is_dataclass(meta["kind"]):
+                values = [{one.name: b} for one in dataclasses.fields(meta["kind"]) for b in one.metadata["bounds"]]
             else:
                 values = [meta["kind"](b if math.isfinite(b) else INFINITE) for b in meta["bounds"]]
             for value in values:
@@ -76,7 +78,7 @@ def test_at_its_bound(keyword, law, parameter, value):
     assert [name for name in FINITE if not np.isfinite(p[name].values).all()] == []
     undefined = [n for n in grid.at_node if not np.isfinite(grid.at_node[n]).all()]
     # without consolidation the Péclet number of what erodes is infinite
-    expected = parameter == "coefficient_of_consolidation" and value == 0.0
+    expected = (parameter, value) in (("coefficient_of_consolidation", 0.0), ("dilatancy", {"permeability": 0.0}))
     assert all(expected and name.endswith("basal_peclet_number") for name in undefined)
     # the fall from the top of the release, and twice the celerity of what is 1 m deep
     gravity = value if parameter == "gravity" else 9.81
