@@ -276,13 +276,11 @@ def dilatant_block(
         friction = stress * np.tan(min(friction_angle + np.arctan(dilation), STEEPEST))
         friction += 2.0 * debris.pore_fluid_viscosity * (1.0 - packing) * speed / thickness
         acceleration = gravity * np.sin(slope) - friction / (density * thickness)
-        change = packing * shear * dilation
         if drained:
-            change = -change
-        else:
-            change *= (stress + debris.reference_stress) / debris.compressibility
-            if (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0):
-                change = 0.0
+            return acceleration, -packing * shear * dilation
+        change = packing * shear * dilation * (stress + debris.reference_stress) / debris.compressibility
+        if (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0):
+            change = 0.0
         return acceleration, change
 
     stops: Any = lambda _, state: state[0]  # noqa: E731

@@ -33,13 +33,13 @@ def test_the_shear_of_a_history_counts_as_its_strain():
 
 @pytest.mark.slow
 def test_the_default_step_is_short_enough():
-    """Whether a step is given or not, where shear begins at once, and over long times."""
+    """Soon after shear begins, while debris liquefies within 0.1 s, and long after."""
     given = GIVEN | {"solid_fraction": 0.61, "dilatancy": {"permeability": 1e-10}, "shear_rate": 20.0}
-    for time in (0.05, 1.0, 50.0):
-        given["times"] = [time]
-        free, fine = solve_column(**given), solve_column(**given, step=min(time, 4.0) / 4000.0)
+    for times in ([0.02, 0.05, 0.2, 4.0], [0.05, 50.0]):
+        given["times"] = times
+        free, fine = solve_column(**given), solve_column(**given, step=times[-1] / 8000.0)
         error = np.abs(free.excess_pore_pressure - fine.excess_pore_pressure).max() / (LOADING * 0.5)
-        assert error < 1e-2
+        assert error < 2e-2
         assert np.abs(free.solid_fraction - fine.solid_fraction).max() < 2e-4
 
 
