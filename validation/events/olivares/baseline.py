@@ -1,0 +1,73 @@
+"""Extent of a flow without dynamics: the steepest path from the source point, widened."""
+
+import warnings
+
+import numpy as np
+from landlab import RasterModelGrid
+from landlab.components import FlowAccumulator, LakeMapperBarnes
+from scipy.ndimage import distance_transform_edt
+
+from .measures import farthest
+from .setup import FLOWS, Observed
+
+
+def steepest_paths(observed: Observed) -> dict[int, np.ndarray]:
+    """Return the steepest path from every source point to the edge of the map: nodes, shape (n, 2), row and column.
+
+    Every node passes to the lowest of its eight neighbours, pits of the DEM being filled first.
+    """
+    grid = RasterModelGrid(observed.elevation.shape, observed.spacing)
+    elevation = grid.add_field("topographic__elevation", observed.elevation.ravel().copy(), at="node")
+    FlowAccumulator(grid, flow_director="FlowDirectorD8").run_one_step()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        LakeMapperBarnes(grid, surface="topographic__elevation", method="D8", fill_flat=False, fill_surface=elevation,
+                         redirect_flow_steepest_descent=True, track_lakes=True, ignore_overfill=True).run_one_step()  # fmt: skip
+    receiver = grid.at_node["flow__receiver_node"]
+    paths = {}
+    for flow in FLOWS:
+        column, row = np.rint((np.array(observed.points[flow]) - observed.corner) / observed.spacing).astype(int)
+        nodes = [int(row * grid.shape[1] + column)]
+        while receiver[nodes[-1]] != nodes[-1]:
+            nodes.append(int(receiver[nodes[-1]]))
+        paths[flow] = np.column_stack(np.unravel_index(nodes, grid.shape))
+    return paths
+
+
+def outline_size(observed: Observed, flow: int) -> tuple[float, float, float]:
+    """Return the reach [m], the mean width [m] and the fall over reach [-] of a mapped flow, from the source point."""
+    mapped = observed.flow == flow
+    toe = farthest(mapped, observed, flow)
+    reach = float(np.hypot(*np.subtract(toe, observed.points[flow])))
+    column, row = np.rint((np.array([toe, observed.points[flow]]) - observed.corner) / observed.spacing).astype(int).T
+    bottom, top = observed.elevation[row, column]
+    return reach, float(mapped.sum()) * observed.spacing**2 / reach, float(top - bottom) / reach
+
+
+def widened_path(observed: Observed, flow: int, path: np.ndarray, *, others: bool) -> np.ndarray:
+    """Return the cells of the baseline, shape (rows, columns).
+
+    Parameters
+    ----------
+    observed : Observed
+    flow : int
+    path : ndarray, shape (n, 2)
+        Row and column of the nodes of its steepest path.
+    others : bool
+        True: the path ends where it meets the line that falls from the source point with the median fall over reach of
+        the five other flows, and has their median width; of this flow only the source is known, as by a model. False:
+        it ends at the reach of the flow itself and has its width, which no model knows.
+    """
+    column, row = ((np.array(observed.points[flow]) - observed.corner) / observed.spacing).T
+    distance = observed.spacing * np.hypot(path[:, 0] - row, path[:, 1] - column)
+    reach, width, _ = outline_size(observed, flow)
+    beyond = distance >= reach
+    if others:
+        sizes = np.array([outline_size(observed, each) for each in FLOWS if each != flow])
+        _, width, slope = np.median(sizes, axis=0)
+        fall = observed.elevation[path[0, 0], path[0, 1]] - observed.elevation[path[:, 0], path[:, 1]]
+        beyond = (fall < slope * distance) & (distance > width)  # the first steps may be flatter than the whole way
+    end = int(np.argmax(beyond)) if beyond.any() else len(path)
+    away = np.ones(observed.elevation.shape, bool)
+    away[path[: end + 1, 0], path[: end + 1, 1]] = False
+    return observed.spacing * distance_transform_edt(away) <= 0.5 * width
