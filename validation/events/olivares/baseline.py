@@ -21,8 +21,10 @@ def steepest_paths(observed: Observed) -> dict[int, np.ndarray]:
     FlowAccumulator(grid, flow_director="FlowDirectorD8").run_one_step()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        LakeMapperBarnes(grid, surface="topographic__elevation", method="D8", fill_flat=False, fill_surface=elevation,
-                         redirect_flow_steepest_descent=True, track_lakes=True, ignore_overfill=True).run_one_step()  # fmt: skip
+        LakeMapperBarnes(
+            grid, surface="topographic__elevation", fill_surface=elevation, method="D8", fill_flat=False,
+            redirect_flow_steepest_descent=True, track_lakes=True, ignore_overfill=True,
+        ).run_one_step()  # fmt: skip
     receiver = grid.at_node["flow__receiver_node"]
     paths = {}
     for flow in FLOWS:
