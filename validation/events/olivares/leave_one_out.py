@@ -1,19 +1,29 @@
 """Choice of one set from a small family on five flows, scored on the sixth: ``python -m validation.events.olivares``.
 
 The family was declared before the first score: low end, centre and high end of the published ranges of three values.
-For every flow the member with the largest mean IoU on the five others is taken.
+For every flow the member with the largest mean IoU on the five others is taken. All members are kept in family.json.
 """
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from landlab_debrisflow.record import write_atomically
+from validation.provenance import commit
+
 from ..sets import ParameterSet
-from .setup import FLOWS
+from .measures import measure_flow
+from .setup import FLOWS, Observed
 
 FAMILY = {"initial_pressure_ratio": "material", "turbulent_coefficient": "friction", "growth_rate": "erosion"}
 """Values that vary, and their sections. The bed has the pressure ratio of the release."""
+FILE = Path(__file__).parent / "family.json"
+DIGITS = 5
 
 
 def members(centre: ParameterSet) -> Iterator[tuple[dict[str, float], ParameterSet]]:
@@ -45,3 +55,67 @@ def choose(scores: Sequence[Mapping[int, float]]) -> dict[int, int]:
     """
     means = {flow: [np.mean([each[other] for other in FLOWS if other != flow]) for each in scores] for flow in FLOWS}
     return {flow: int(np.argmax(means[flow])) for flow in FLOWS}
+
+
+def run_family(
+    observed: Observed, centre: ParameterSet, particle_count: int, chosen_count: int, say: Callable[[str], object]
+) -> dict[str, Any]:
+    """Run all members that family.json does not have, and the chosen ones with more particles; return its content.
+
+    Parameters
+    ----------
+    observed : Observed
+    centre : ParameterSet
+        Committed.
+    particle_count, chosen_count : int
+        Numbers of particles of the members and of the members chosen, which are scored.
+    say : callable
+        Given one line for each member.
+    """
+    name = centre.commit().name
+    rows = [row for row in read()["members"] if (row["set_commit"], row["particles"]) == (name, particle_count)]
+    told = {"set_commit": name, "code": commit(), "date": datetime.now(UTC).date().isoformat()}
+    family = list(members(centre))
+    for varied, member in family:
+        if not any(row["values"] == varied for row in rows):
+            flows = {str(flow): measure_flow(observed, flow, member, particle_count) for flow in FLOWS}
+            rows.append({"values": varied, "particles": particle_count, **told, "flows": flows})
+            _write(rows, [])
+            say(f"{varied}: median IoU {np.median([each['iou'] for each in flows.values()]):.3f}")
+    order = [next(row for row in rows if row["values"] == varied) for varied, _ in family]
+    places = choose([{flow: row["flows"][str(flow)]["iou"] for flow in FLOWS} for row in order])
+    chosen = []
+    for flow, place in places.items():
+        varied, member = family[place]
+        found = measure_flow(observed, flow, member, chosen_count)
+        chosen.append({"flow": flow, "values": varied, "particles": chosen_count, **told, "measures": found})
+        say(f"flow {flow}: chosen on the others {varied}, IoU {found['iou']:.3f}")
+    _write(rows, chosen)
+    return read()
+
+
+def read() -> dict[str, Any]:
+    """Return the content of family.json: ``members`` and ``chosen``, empty before the first run."""
+    if not FILE.is_file():
+        return {"members": [], "chosen": []}
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def chosen_measures() -> dict[int, dict[str, float]]:
+    """Return the measures of every flow with the member that was chosen on the others; empty before the first run."""
+    return {row["flow"]: row["measures"] for row in read()["chosen"]}
+
+
+def _write(rows: list[dict], chosen: list[dict]) -> None:
+    lists = [
+        f'"{name}": [\n  ' + ",\n  ".join(json.dumps(_rounded(row)) for row in each) + "\n ]"
+        for name, each in (("members", rows), ("chosen", chosen))
+    ]
+    text = "{\n " + ",\n ".join(lists) + "\n}\n"
+    write_atomically(FILE, lambda path: path.write_text(text, encoding="utf-8"))
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _rounded(each) for key, each in value.items()}
+    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value

@@ -3,8 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.ndimage import binary_dilation, binary_erosion
 
-from .setup import FLOWS, Observed
+from ..event import Measure
+from ..scores import csi, precision, recall
+from ..sets import ParameterSet
+from .setup import FLOWS, Observed, run_flow
 
 WET = 0.1
 """Least peak depth of a cell that counts as reached [m]."""
@@ -12,6 +16,23 @@ NEAR = 300.0
 """Distance of the farthest wet cell from the mapped toe within which the reach counts as right [m]."""
 OFF_THALWEG = (1, 3)
 """Flows that leave the thalweg of the DEM near their fans, by the description of the data."""
+
+MEASURES = {
+    "median iou": Measure("median IoU"),
+    "median iou of 2, 4, 5, 6": Measure("median IoU without 1 and 3"),
+    **{f"iou {flow}": Measure(f"IoU {flow}") for flow in FLOWS},
+    "median precision": Measure("median precision"),
+    "median recall": Measure("median recall"),
+    "right reaches": Measure("toes within 300 m", "{:.0f}"),
+    **{
+        f"{name} {flow}": Measure(f"{words} {flow}", form, tabulated=False)
+        for name, words, form in (
+            ("precision", "precision", "{:.2f}"), ("recall", "recall", "{:.2f}"), ("toe", "from the toe [m]", "{:.0f}"),
+            ("reach", "reach less that of the toe [m]", "{:+.0f}"),
+        )
+        for flow in FLOWS
+    },
+}  # fmt: skip
 
 
 def compare(wet: np.ndarray, observed: Observed, flow: int) -> dict[str, float]:
@@ -32,14 +53,8 @@ def compare(wet: np.ndarray, observed: Observed, flow: int) -> dict[str, float]:
         plan; NaN if no cell is wet.
     """
     mapped = observed.flow == flow
-    both, either = np.sum(wet & mapped), np.sum(wet | mapped)
-    found = {
-        "iou": float(both / either),
-        "precision": float(both / wet.sum()) if wet.any() else np.nan,
-        "recall": float(both / mapped.sum()),
-        "toe": np.nan,
-        "reach": np.nan,
-    }
+    found = {"iou": csi(wet, mapped), "precision": precision(wet, mapped), "recall": recall(wet, mapped)}
+    found |= {"toe": np.nan, "reach": np.nan}
     if wet.any():
         end, toe = farthest(wet, observed, flow), farthest(mapped, observed, flow)
         start = observed.points[flow]
@@ -72,21 +87,29 @@ def summary(single: Mapping[int, Mapping[str, float]]) -> dict[str, float]:
     return found
 
 
-def ceilings(observed: Observed) -> dict[str, dict[int, float]]:
-    """Return the IoU of each outline with itself, one cell wider, narrower, and shifted by one cell [-].
+def measure_flow(
+    observed: Observed, flow: int, parameters: ParameterSet, particle_count: int, shift=(0.0, 0.0)
+) -> dict[str, float]:
+    """Return the measures of one flow, run with a set of parameters; `shift` is that of `setup.build_grid`."""
+    model = run_flow(observed, flow, parameters, particle_count, shift)
+    return compare(model.maps["debris_flow__max_depth"].values > WET, observed, flow)
+
+
+def ceilings(observed: Observed) -> dict[str, dict[int, dict[str, float]]]:
+    """Return the measures of every outline itself, one cell wider, narrower, and shifted by one cell, by their words.
 
     Outlines are known to 25 m, two cells, at their toes: a perfect model cannot be told from one with these scores.
     """
-    from scipy.ndimage import binary_dilation, binary_erosion
-
-    found: dict[str, dict[int, float]] = {"one cell wider": {}, "one cell narrower": {}, "shifted by one cell": {}}
+    found: dict[str, dict[int, dict[str, float]]] = {}
     for flow in FLOWS:
         mapped = observed.flow == flow
         changed = {
-            "one cell wider": [binary_dilation(mapped)],
-            "one cell narrower": [binary_erosion(mapped)],
-            "shifted by one cell": [np.roll(mapped, step, axis) for axis in (0, 1) for step in (-1, 1)],
+            "outline, one cell wider": [binary_dilation(mapped)],
+            "outline, one cell narrower": [binary_erosion(mapped)],
+            "outline, shifted by one cell": [np.roll(mapped, step, axis) for axis in (0, 1) for step in (-1, 1)],
         }
         for words, others in changed.items():
-            found[words][flow] = float(np.mean([np.sum(each & mapped) / np.sum(each | mapped) for each in others]))
+            measured = [compare(each, observed, flow) for each in others]
+            means = {name: float(np.mean([each[name] for each in measured])) for name in measured[0]}
+            found.setdefault(words, {})[flow] = means
     return found

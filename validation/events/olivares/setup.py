@@ -1,16 +1,18 @@
 """Terrain, releases and runs of six debris flows at the Rio Olivares, Chile, with one set of parameters."""
 
 from collections.abc import Mapping
-from pathlib import Path
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 from landlab import RasterModelGrid
 from landlab.io import esri_ascii
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.scene import failing_depth
 
+from ..data import find_file
 from ..sets import ParameterSet
 
 FLOWS = (1, 2, 3, 4, 5, 6)
@@ -35,18 +37,24 @@ class Observed(NamedTuple):
     """Map coordinates of the source points by flow [m]."""
 
 
-def read_observed(folder: Path) -> Observed:
-    """Read the DEM [m], the mapped flows and their sources."""
-    with open(folder / "dem.asc") as stream:
-        grid = esri_ascii.load(stream, at="node", name="elevation")
-    rasters = [grid.at_node["elevation"].astype(float)]
-    for name in ("runout_id", "source_id"):
-        with open(folder / f"{name}.asc") as stream:
-            rasters.append(esri_ascii.load(stream, at="node", name=name).at_node[name].astype(int))
-    rows = np.loadtxt(folder / "source_points.csv", delimiter=",", skiprows=1)
+@cache
+def read_observed() -> Observed:
+    """Read the DEM [m], the mapped flows and their sources.
+
+    Raises
+    ------
+    InputError
+        If the data is absent.
+    """
+    rasters = []
+    for name, kind in (("dem", float), ("runout_id", int), ("source_id", int)):
+        with open(find_file("olivares", f"{name}.asc"), encoding="utf-8") as stream:
+            grid = esri_ascii.load(stream, at="node", name=name)
+        rasters.append(grid.at_node[name].reshape(grid.shape).astype(kind))
+    rows = np.loadtxt(find_file("olivares", "source_points.csv"), delimiter=",", skiprows=1)
     points = {int(flow): (float(x), float(y)) for flow, x, y in rows}
     corner = float(grid.x_of_node[0]), float(grid.y_of_node[0])
-    return Observed(*(each.reshape(grid.shape) for each in rasters), corner, float(grid.dx), points)
+    return Observed(*rasters, corner, float(grid.dx), points)
 
 
 def release_volume(area: float, values: Mapping[str, float]) -> float:
@@ -90,3 +98,35 @@ def run_flow(observed: Observed, flow: int, values: ParameterSet, particles=2000
     model = DebrisFlow(grid, **values.keywords(), numerics={"particle_count": particles})
     model.run_until_rest(LONGEST)
     return model
+
+
+def run_flows(parameters: ParameterSet, particle_count: int, shift: tuple[float, float] = (0.0, 0.0)) -> xr.Dataset:
+    """Run the six flows, each alone on the terrain before; return the peak depth of each.
+
+    Parameters
+    ----------
+    parameters : ParameterSet
+    particle_count : int
+    shift : tuple of float
+        As in `build_grid`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``max_depth`` over ``flow``, ``y`` and ``x`` [m], released and eroded volume [m3] and duration [s] of each flow.
+    """
+    observed = read_observed()
+    models = [run_flow(observed, flow, parameters, particle_count, shift) for flow in FLOWS]
+    depth = np.stack([np.nan_to_num(model.maps["debris_flow__max_depth"].values) for model in models])
+    y, x = (at + observed.spacing * np.arange(n) for at, n in zip(observed.corner[::-1], depth.shape[1:], strict=True))
+    by_flow = {
+        "released": ([model.budget["released"] for model in models], "m3"),
+        "eroded": ([model.budget["eroded"] for model in models], "m3"),
+        "duration": ([model.elapsed_time for model in models], "s"),
+    }
+    return xr.Dataset(
+        {"max_depth": (("flow", "y", "x"), depth, {"units": "m"})}
+        | {name: ("flow", values, {"units": unit}) for name, (values, unit) in by_flow.items()},
+        {"flow": list(FLOWS), "y": ("y", y, {"units": "m"}), "x": ("x", x, {"units": "m"})},
+        {"particles": particle_count},
+    )
