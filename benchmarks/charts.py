@@ -24,6 +24,8 @@ from benchmarks import result_files, style
 from landlab_debrisflow.core.hints import did_you_mean
 from landlab_debrisflow.plots import save_figure
 from landlab_debrisflow.record import write_atomically
+from validation import events
+from validation.events import page
 
 FIGURES = result_files.ROOT / "docs" / "figures"
 TEXTS = Path(__file__).parent
@@ -50,6 +52,14 @@ class Chart(NamedTuple):
         return [result_files.ROOT / name if "/" in name else result_files.path_of(name) for name in self.results]
 
 
+class EventChart(Chart):
+    """The figure of a measured event, drawn from its result.nc; `module` is the name of the event."""
+
+    def draw(self):
+        """Return the figure."""
+        return events.chart(self.module)
+
+
 FIDELITY = ("benchmarks/fidelity/results/after.jsonl", "benchmarks/fidelity/results/before.jsonl")
 CAMPAIGN = "python -m benchmarks.fidelity campaign --label after --processes 2"
 
@@ -74,6 +84,9 @@ CHARTS = {
                              "chart_of_maps", 90),
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
+} | {
+    f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}")
+    for name in events.EVENTS
 }  # fmt: skip
 """Figures of docs/figures by name; beside them stand those of `RUNS`."""
 
@@ -105,7 +118,7 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
             say(f"Wrote {_short(path)}")
     from benchmarks import page_tables
 
-    for path in page_tables.fill():
+    for path in (*page_tables.fill(), *page.fill()):
         say(f"Wrote {_short(path)}")
 
 

@@ -14,7 +14,7 @@ from landlab_debrisflow.physics.column import ALE
 from landlab_debrisflow.physics.column.driver import Columns
 from landlab_debrisflow.physics.column.schemes.lazy.bookkeeping import GRADING, LOSS, MODES_FRACTION, STRIDE
 from landlab_debrisflow.physics.column.schemes.lazy.state import records
-from landlab_debrisflow.physics.contracts import BaseContact
+from landlab_debrisflow.physics.column_contracts import BaseContact
 
 DT, STEPS, LOAD, RATIO = 0.1, 900, 9712.0, 0.65  # [s], [-], [Pa m-1], of the bed [-]
 EROSION = ((0.0, 30.0), (60.0, 75.0))  # [s]

@@ -6,54 +6,20 @@ and on what machine they were measured. Charts are drawn from them by ``python -
 
 import json
 import math
-import os
-import platform
-import subprocess
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from landlab_debrisflow import __version__
 from landlab_debrisflow.record import write_atomically
+from validation.provenance import provenance
 
 ROOT = Path(__file__).parents[1]
 FOLDER = Path(__file__).parent / "results"
 DIGITS = 6
 """Of the numbers in a JSON file."""
-
-
-def provenance(command: str) -> dict[str, Any]:
-    """Return how a result came about: command, date, version, commit, machine and its load."""
-    return {
-        "command": command, "date": datetime.now(UTC).date().isoformat(), "version": __version__, "commit": commit(),
-        "cores": os.cpu_count(), "processor": processor(), "python": platform.python_version(),
-        "load": round(os.getloadavg()[0], 1),
-    }  # fmt: skip
-
-
-def commit() -> str:
-    """Return the short name of the commit, with ``-dirty`` if files of the package differ; empty without Git."""
-    git = ["git", "-C", str(ROOT)]
-    try:
-        name = subprocess.run([*git, "rev-parse", "--short", "HEAD"], check=True, capture_output=True, text=True)
-        differs = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "landlab_debrisflow", "validation"])
-    except (OSError, subprocess.CalledProcessError):
-        return ""
-    return name.stdout.strip() + ("-dirty" if differs.returncode else "")
-
-
-def processor() -> str:
-    """Return the name of the processor."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        lines = []
-    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    return names[0] if names else platform.processor() or platform.machine()
 
 
 def path_of(name: str) -> Path:

@@ -11,17 +11,8 @@ from .core.jit import inner, kernel
 from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
-from .physics.contracts import (
-    BasalState,
-    BaseContact,
-    ColumnForcing,
-    ColumnLaw,
-    ColumnState,
-    ErosionLaw,
-    FlowLaw,
-    FlowState,
-    FrictionLaw,
-)
+from .physics.column_contracts import BaseContact, ColumnForcing, ColumnLaw, ColumnState
+from .physics.contracts import BasalState, ErosionLaw, FlowLaw, FlowState, FrictionLaw
 from .physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
 from .physics.flow import OnePhase, TwoPhase
 from .physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy

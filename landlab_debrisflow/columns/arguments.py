@@ -12,7 +12,7 @@ from ..core.hints import did_you_mean, give_number
 from ..core.values import checked
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
-from ..physics.contracts import BaseContact
+from ..physics.column_contracts import BaseContact
 from .declarations import CHOICES, NUMBERS, SINGLE_NUMBERS
 
 ALLOWED = BaseContact.BY_EROSION, BaseContact.PRESCRIBED, BaseContact.IMPERMEABLE, BaseContact.DRAINED

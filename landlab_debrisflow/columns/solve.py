@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..physics.column.diagnostics import basal_peclet_number, consolidation_time, erosion_time
 from ..physics.column.driver import Columns
-from ..physics.contracts import BaseContact
+from ..physics.column_contracts import BaseContact
 from .arguments import History, Inputs, read_inputs, refuse
 from .dataset import dataset
 

@@ -1,5 +1,6 @@
 """Docstrings of declared classes: the section ``Parameters``, from the declarations."""
 
+import dataclasses
 import inspect
 import math
 import re
@@ -40,6 +41,8 @@ def allowed(meta) -> str:
         return ", ".join(meta["choices"])
     if meta["kind"] is bool:
         return "true, false"
+    if dataclasses.is_dataclass(meta["kind"]):
+        return "mapping"
     kind = {int: "integer, ", tuple: "list, "}.get(meta["kind"], "")
     return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *meta["words"]))
 
@@ -63,7 +66,7 @@ def default(value) -> str:
 
 def _entry(field) -> str:
     meta, value = field.metadata, field.default
-    number = not meta["choices"] and meta["kind"] is not bool
+    number = not meta["choices"] and meta["kind"] is not bool and not dataclasses.is_dataclass(meta["kind"])
     kind = {tuple: "float or list of float"}.get(meta["kind"], meta["kind"].__name__)
     if meta["choices"]:
         kind = "{" + ", ".join(f'"{word}"' for word in meta["choices"]) + "}"

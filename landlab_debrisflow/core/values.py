@@ -78,6 +78,8 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return _checked_file(name, value)
     if meta["coordinates"]:
         return checked_coordinates(name, value, meta["coordinates"], meta["named"])
+    if dataclasses.is_dataclass(kind):
+        return _checked_item(name, value, kind)
     if kind is dict:
         return _checked_mapping(name, value)
     if kind is tuple and meta["choices"] and meta["length"] is not None and isinstance(value, str):
@@ -129,6 +131,16 @@ def _checked_items(name: str, value: Any, cls: type):
         if not isinstance(one, Mapping | cls):
             raise ParameterError(f"{name}[{k}] must be a mapping, got {one!r}")
     return tuple(one if isinstance(one, cls) else _item(f"{name}[{k}]", cls, one) for k, one in enumerate(several))
+
+
+def _checked_item(name: str, value: Any, cls: type):
+    """Return an instance of a declared class from one, or from a mapping."""
+    if isinstance(value, cls):
+        return value
+    if not isinstance(value, Mapping):
+        names = ", ".join(keys_of(cls))
+        raise ParameterError(f"{name} must be a mapping with some of {names} (all have defaults), got {value!r:.60}")
+    return _item(name, cls, value)
 
 
 def _item(name: str, cls: type, mapping):
@@ -236,6 +248,22 @@ def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[st
 def keys_of(cls: Any) -> dict[str, dataclasses.Field]:
     """Return the declarations of a class by their keys in a mapping: the names, of `from_` without the underscore."""
     return {field.name.removesuffix("_"): field for field in dataclasses.fields(cls)}
+
+
+def flat_keys_of(cls: Any) -> dict[str, dataclasses.Field]:
+    """Return the declarations of a class by their keys, and with a dot those of a parameter that is declared itself."""
+    found: dict[str, dataclasses.Field] = {}
+    for key, field in keys_of(cls).items():
+        found[key] = field
+        if dataclasses.is_dataclass(kind := field.metadata["kind"]):
+            found |= {f"{key}.{inner}": one for inner, one in keys_of(kind).items()}
+    return found
+
+
+def with_inner(obj: Any) -> list[Any]:
+    """Return an object of a declared class, or another one, and the objects of declared classes that it holds."""
+    values = [getattr(obj, field.name) for field in dataclasses.fields(obj)] if dataclasses.is_dataclass(obj) else []
+    return [obj, *(value for value in values if dataclasses.is_dataclass(value) and not isinstance(value, type))]
 
 
 def name_of(cls: type) -> str:

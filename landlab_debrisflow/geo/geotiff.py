@@ -12,7 +12,7 @@ from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..core.version import __version__
 from ..grid.fields import OUTPUT_PREFIX
-from ..model.peak_maps import PEAKS
+from ..model.map_fields import PEAKS
 from ..record.files import check_directory, write_atomically
 from ..record.georeference import crs_of
 from ..record.written_maps import LEAST_DEPTH, mask_peaks

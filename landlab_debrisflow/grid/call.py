@@ -9,6 +9,7 @@ import numpy as np
 
 from . import checkpoint
 from .checkpoint_checks import check_contents
+from .fields import output_fields
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
@@ -50,10 +51,9 @@ class GridCall:
             self._listener.reports.continue_from(continues._listener.reports)
         # last, so that a component that is refused has changed nothing
         before = None if continues is None else continues._outputs
-        two_phases = self._simulation.setup.two_phases
         self.before_settling: Callable[[], None] | None = None
         self.cpu = 0.0
-        self._outputs = Outputs(grid, two_phases, self._writer.carried_volume, before)
+        self._outputs = Outputs(grid, output_fields(self._simulation.setup), self._writer.carried_volume, before)
         self.rollback = Rollback(grid, self._reader.laws, self._writer, self.interruption, self._outputs)
 
     def run(self, duration: float, stop_at_rest: bool) -> None:

@@ -8,7 +8,7 @@ from numbers import Real
 import numpy as np
 from scipy.ndimage import find_objects, label
 
-from ..core.values import NodeValues
+from ..core.values import NodeValues, with_inner
 from ..spatial.raster import CLOSED
 from .checks import where
 from .fields import NODE_FIELDS
@@ -21,6 +21,12 @@ LEAST_ANGLE = 2.0  # [deg]
 DENSITIES = 500.0, 8000.0  # [kg m-3]
 LARGEST_GROWTH = 1.0  # [m-1]
 FASTEST_RELEASE = 100.0  # speed of the fastest rock avalanches [m s-1]
+LARGEST_PERMEABILITY = 1e-7
+"""Permeability of gravel without fines [m2] (Bear, 1972, table 5.5.1)."""
+
+LARGEST_COLLIDING = 3e-3
+"""Grain diameter above which sheared columns lie at their lower bound of effective stress [m]."""
+
 FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
 
 
@@ -33,11 +39,11 @@ def parameter_doubts(grid, setup) -> Iterator[str]:
     `grid` is the RasterModelGrid, `setup` the `Setup`; a doubt is a sentence.
     """
     for kind in ("flow", "friction", "erosion", "column", "material"):
-        law = getattr(setup, kind)
-        for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
-            values = _nonzero_values(grid, law, field)
-            if values.size and (words := _parameter_doubt(field, values)):
-                yield f"{kind}: {field.name} {words}"
+        for part in with_inner(getattr(setup, kind)):
+            for field in dataclasses.fields(part) if dataclasses.is_dataclass(part) else ():
+                values = _nonzero_values(grid, part, field)
+                if values.size and (words := _parameter_doubt(field, values)):
+                    yield f"{kind}: {field.name} {words}"
 
 
 def _nonzero_values(grid, law, field):
@@ -68,6 +74,13 @@ def _parameter_doubt(field, values) -> str:
         return f"is {most:g} per metre of path: was it meant per km, or in %? Published rates lie around 1e-3 m-1"
     if field.name == "coefficient_of_consolidation" and most > FASTEST_CONSOLIDATION:
         return f"is {most:g} m2 s-1: was it meant per year? {most:g} m2 per year are {most / 3.156e7:.2g} m2 s-1"
+    if field.name == "permeability" and most > LARGEST_PERMEABILITY:
+        return f"is {most:g} m2, that of clean gravel or more: was it meant as a hydraulic conductivity in m s-1?"
+    if field.name == "grain_diameter" and most > LARGEST_COLLIDING:
+        return (
+            f"is {most:g} m: with grains above {LARGEST_COLLIDING:g} m collisions liquefy the whole column in ordinary "
+            "flows; give the size of the sand between larger grains"
+        )
     return ""
 
 

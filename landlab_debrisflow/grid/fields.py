@@ -3,6 +3,8 @@
 from contextlib import contextmanager
 from typing import NamedTuple
 
+from ..model.map_fields import PHASES, SOLID_FRACTION
+
 
 class NodeField(NamedTuple):
     """One field of the grid, at nodes; `_info` of the component is made of these.
@@ -79,6 +81,11 @@ NODE_FIELDS = (
     NodeField("debris_flow__solid_depth", "out", "m", "Volume of grains per map area, in a flow of two phases", True),
     NodeField("debris_flow__solid_speed", "out", "m/s", "Speed of the grains, in a flow of two phases", True),
     NodeField("debris_flow__water_speed", "out", "m/s", "Speed of the water, in a flow of two phases", True),
+    NodeField(
+        "debris_flow__solid_fraction", "out", "-",
+        "Volume of grains over that of the flow in columns with dilatancy; after settling, the last value",
+        True,
+    ),
     # peaks count from the depth of arrival on, since the component was built or new_event() was called
     NodeField("debris_flow__max_depth", "out", "m", "Largest depth so far"),
     NodeField("debris_flow__max_speed", "out", "m/s", "Largest speed so far"),
@@ -111,6 +118,13 @@ NODE_FIELDS = (
     ),
     NodeField("debris_flow__max_basal_peclet_number", "out", "-", "Largest basal Peclet number so far"),
 )  # fmt: skip
+
+
+def output_fields(setup) -> list[NodeField]:
+    """Return the declarations of the fields that a component with some `Setup` writes besides elevation and soil."""
+    lacking = set() if setup.two_phases else {OUTPUT_PREFIX + name for name in PHASES}
+    lacking |= set() if setup.has_dilatancy else {OUTPUT_PREFIX + SOLID_FRACTION}
+    return [field for field in NODE_FIELDS if field.intent == "out" and field.name not in lacking]
 
 
 def fields_in_use(grid, laws) -> dict:

@@ -11,8 +11,8 @@ from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from ..model.peak_maps import PEAKS
-from .fields import NODE_FIELDS, OUTPUT_PREFIX
+from ..model.map_fields import PEAKS
+from .fields import NODE_FIELDS, OUTPUT_PREFIX, NodeField
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -32,19 +32,19 @@ class Outputs:
     ----------
     grid : RasterModelGrid
         Gets the fields that it does not have.
-    two_phases : bool
-        Whether the flow has fields of its phases.
+    fields : list of NodeField
+        Declarations of the fields that the component writes.
     carried_volume : callable
         Returns the volume of debris that the component carries [m3].
     continues : Outputs, optional
         Outputs of an earlier component, from which these go on.
     """
 
-    def __init__(self, grid, two_phases: bool, carried_volume, continues=None):
-        self._grid, self._two_phases, self._carried_volume, self._warned = grid, two_phases, carried_volume, False
+    def __init__(self, grid, fields: list[NodeField], carried_volume, continues=None):
+        self._grid, self._fields, self._carried_volume, self._warned = grid, fields, carried_volume, False
         self._aside = {} if continues is None else continues._written()  # None while the fields hold the outputs
         self.show()
-        for field in self._fields():
+        for field in self._fields:
             if field.name not in grid.at_node:
                 # pages that are not written take no memory, unlike with grid.add_zeros
                 values = np.zeros(grid.number_of_nodes)
@@ -105,7 +105,7 @@ class Outputs:
         at, count = self._grid.at_node, self._grid.number_of_nodes
         shown = {name: at[name] for name in ("topographic__elevation", "soil__depth", "debris_flow__release_depth")
                  if name in self._grid.at_node}  # fmt: skip
-        for field in self._fields():
+        for field in self._fields:
             shown[field.name] = at[field.name] if self._aside is None else np.full(count, field.start)
         for name, (nodes, values) in (self._aside or {}).items():
             if name in shown:
@@ -115,13 +115,9 @@ class Outputs:
     def restart_peaks(self) -> None:
         """Put the fields of peaks back to 0 and that of the arrival time to -1 [s], in place."""
         self.show()
-        for field in self._fields():
+        for field in self._fields:
             if field.name.removeprefix(OUTPUT_PREFIX) in PEAKS:
                 self._grid.at_node[field.name][:] = field.start
-
-    def _fields(self):
-        """Return the declarations of the fields that the component writes."""
-        return [field for field in NODE_FIELDS if field.name in STARTS and (self._two_phases or not field.optional)]
 
     def _written(self):
         return _not_at_start(self._grid) if self._aside is None else self._aside

@@ -6,10 +6,10 @@ from copy import copy
 import numpy as np
 
 from ..model.deposit import extent
-from ..model.peak_maps import CURRENT, PEAKS, PHASES, PeakMaps
+from ..model.peak_maps import PeakMaps
 from ..spatial.transfer import REACH
 from .budget import ModelVolumes, VolumeBudget
-from .fields import NODE_FIELDS, OUTPUT_PREFIX
+from .fields import NODE_FIELDS, OUTPUT_PREFIX, output_fields
 from .grid_bed import GridBed
 from .interruption import Interruption
 from .outputs import DEPOSIT, ERODED
@@ -77,8 +77,8 @@ class FieldWriter:
     def new_peak_maps(self) -> PeakMaps:
         """Return peak maps that write into the fields of the grid, from now on."""
         sim, at = self.simulation, self._grid.at_node
-        names = CURRENT + PEAKS + (PHASES if sim.setup.two_phases else ())
-        fields = {name: np.asarray(at[OUTPUT_PREFIX + name]) for name in names}
+        names = [field.name for field in output_fields(sim.setup)]
+        fields = {name.removeprefix(OUTPUT_PREFIX): np.asarray(at[name]) for name in names}
         return PeakMaps(sim.bed.raster, fields, sim.setup.numerics.arrival_depth, sim.time)
 
     def keep_rows(self, *others: RowBackup) -> None:

@@ -9,7 +9,8 @@ behind the particles awake, so that the stages of a step work on one contiguous 
 
 import numpy as np
 
-from .basal import BasalLaw, ColumnPhysics, column_forcing, column_state, held_at_rest, present_profiles
+from .basal import BasalLaw, held_at_rest
+from .column_forcing import ColumnPhysics, column_forcing, column_state, present_profiles
 
 STEPS_BETWEEN_CHECKS = 16
 """Number of steps between two searches for particles that may fall asleep: a search costs little, but not nothing."""

@@ -1,4 +1,4 @@
-"""The base of the flow: its state as laws read it, and the forcing of the pore-pressure columns above."""
+"""The base of the flow: its state as laws read it, and the resistance there."""
 
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -7,13 +7,8 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..core.structs import struct
-from ..physics.contracts import BasalState, BasalStress, BaseContact, ColumnForcing, ColumnLaw, ColumnState, Phases
-
-BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
-"""Contact at the base of columns where nothing is drained."""
-
-NO_SOURCE = np.zeros(1)
-"""Pressure by a change of porosity [Pa s-1]: one phase has none."""
+from ..physics.contracts import BasalState, BasalStress, Phases
+from ..physics.friction.shear import THINNEST
 
 NOT_ASKED = np.zeros(1)
 """Eroded depth that friction laws are given [m]: none of them reads it, and finding it takes time."""
@@ -59,6 +54,16 @@ class Weighing(NamedTuple):
     least_radius: float
 
 
+def weighing_on(material, spacing: float):
+    """Return the `Weighing` of a material on a raster whose smaller node spacing is `spacing` [m]."""
+    return Weighing(gravity=material.gravity, bearing_density=material.bearing_density, least_radius=spacing)
+
+
+def shear_per_speed(thickness, material):
+    """Return the shear rate over the mean speed, 2 (1 - v_b/v)/h_n, for `thickness` h_n, shape (n,) [m-1]."""
+    return 2.0 * (1.0 - material.basal_slip_ratio) / np.maximum(thickness, THINNEST)
+
+
 class BasalLaw(NamedTuple):
     """A law of friction or erosion on the bed of a call.
 
@@ -76,6 +81,8 @@ class BasalLaw(NamedTuple):
         Variables per particle that the law brought.
     varies : bool
         Whether a parameter varies in space.
+    dilatant_column : ColumnLaw or None
+        Law of the columns above, if it has dilatancy.
     """
 
     law: Any
@@ -84,30 +91,7 @@ class BasalLaw(NamedTuple):
     spacing: float
     variables: tuple
     varies: bool
-
-
-class ColumnPhysics(NamedTuple):
-    """Law, material and boundary by which the columns under particles are advanced in a call.
-
-    Attributes
-    ----------
-    law : ColumnLaw
-        Law of the columns.
-    material : Material
-        Densities, porosity and gravity.
-    phases : Phases
-        Gives the coefficient of consolidation.
-    drained : ndarray of bool, shape (nodes,), or None
-        Where a drain holds the excess pore pressure at 0; None: nowhere.
-    water_to_buoyant : float
-        Density of water over buoyant density [-].
-    """
-
-    law: ColumnLaw
-    material: Any
-    phases: Phases
-    drained: Any
-    water_to_buoyant: float
+    dilatant_column: Any
 
 
 def basal_state(
@@ -134,9 +118,7 @@ def basal_state(
     depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
     load = BedLoad(thickness=thickness, density=density, pressure=pressure)
-    weighing = Weighing(
-        gravity=material.gravity, bearing_density=material.bearing_density, least_radius=basal.spacing
-    )  # fmt: skip
+    weighing = weighing_on(material, basal.spacing)
     first = which.start or 0
     speed, normal_gravity, effective = press_on_bed(
         first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
@@ -156,6 +138,9 @@ def basal_state(
         material=material,
         parameters=parameters,
         variables=_variables(p, which, basal, asking) if basal.variables else NO_VARIABLES,
+        dilatancy=None
+        if (column := basal.dilatant_column) is None
+        else column.at_base(p.column_memory[which]).dilatancy,
     )
 
 
@@ -224,6 +209,9 @@ def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking:
     state = basal_state(p, which, friction, pressure, asking=asking)
     yield_stress, drag = np.empty(state.depth.size), np.empty(state.depth.size)
     friction.law.basal_resistance(state, yield_stress, drag)
+    if friction.dilatant_column is not None:  # sheared pore fluid resists beside the grains, whatever their friction
+        viscosity = friction.dilatant_column.at_base(p.column_memory[which]).fluid_viscosity
+        drag += shear_per_speed(state.thickness, friction.material) * viscosity
     return yield_stress, drag
 
 
@@ -249,50 +237,3 @@ def held_at_rest(p, which: slice, pressure, friction: BasalLaw, phases: Phases, 
     """
     yield_stress, drag = basal_resistance(p, which, friction, pressure, asking=True)
     return phases.held_at_rest(p, exchange, which, yield_stress, drag, walls)
-
-
-# ---- columns ----
-
-
-def column_state(p, which: slice) -> ColumnState:
-    """Return the column arrays of the particles `p[which]` as a `ColumnState` of views: pressures in Pa."""
-    return ColumnState(p.excess_pore_pressure[which], p.column_memory[which], p.column_clipped[which])
-
-
-def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained_ratio) -> ColumnForcing:
-    """Return the forcing of some columns by one step of the flow.
-
-    Parameters
-    ----------
-    p : Particles
-    which : slice
-    columns : ColumnPhysics
-    entrained, entrained_ratio : ndarray, shape (n,)
-        Soil that came in [m3] and its excess pore pressure over the liquefaction value [-].
-    """
-    load = p.liquefaction_pressure[which]
-    bed_pressure, bases = entrained_ratio * load, BY_EROSION
-    if columns.drained is not None:
-        drained = columns.drained[p.nearest_node[which]]
-        bed_pressure[drained] = 0.0
-        bases = np.where(drained, BaseContact.PRESCRIBED, BaseContact.BY_EROSION).astype(np.int8)
-    return ColumnForcing(
-        volume=p.volume[which],
-        thickness=p.thickness[which],
-        liquefaction_pressure=load,
-        entrained=entrained,
-        bed_pressure=bed_pressure,
-        base=bases,
-        porosity_source=NO_SOURCE,
-        coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, which),
-        water_to_buoyant=columns.water_to_buoyant,
-        bounded=True,
-    )
-
-
-def present_profiles(p, which: slice, columns: ColumnPhysics):
-    """Return the excess pore pressure of the columns of `p[which]` at levels now, (n, levels) [Pa]; change nothing."""
-    state = ColumnState(*(values.copy() for values in column_state(p, which)))
-    none = np.zeros(state.clipped.size)
-    columns.law.synchronise(state, column_forcing(p, which, columns, none, none))
-    return state.profile

@@ -18,75 +18,20 @@ behind the bore that the wall reflects. A depth-integrated flow has no jet, whic
 pressure / (2 density g).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..core.jit import kernel
+from ..physics.column.driver import depth_mean
 from ..physics.contracts import WATER
 from ..spatial.raster import CLOSED, Raster
 from ..spatial.transfer import Footprints, scatter
+from .map_fields import CURRENT, PEAKS, PHASES, SOLID_FRACTION, Base, CurrentFields, Matter, PeakFields
 from .particles import Particles
 
 UPDATE_FRACTION = 0.5
 """Fraction of a node spacing that matter or waves may cross between two updates of the maps, so that no node is passed
 over."""
 
-
-class CurrentFields(NamedTuple):
-    """Fields of the flow now, each of shape (nodes,): means over the particles at a node, weighted by volume.
-
-    Vertical depth [m], speed along the bed [m s-1], excess pore pressure at the base [Pa], basal Péclet number [-].
-    """
-
-    depth: np.ndarray
-    speed: np.ndarray
-    basal_excess_pore_pressure: np.ndarray
-    basal_peclet_number: np.ndarray
-
-
-class PeakFields(NamedTuple):
-    """Fields of the peaks of the flow so far, each of shape (nodes,).
-
-    Largest vertical depth [m], speed [m s-1], pressure ratio at the base [-], basal Péclet number [-]; elapsed time of
-    the first arrival [s], -1 where nothing came; largest impact pressure [Pa] and run-up [m].
-    """
-
-    max_depth: np.ndarray
-    max_speed: np.ndarray
-    max_basal_pressure_ratio: np.ndarray
-    max_basal_peclet_number: np.ndarray
-    arrival_time: np.ndarray
-    max_impact_pressure: np.ndarray
-    max_run_up: np.ndarray
-
-
-class Matter(NamedTuple):
-    """Matter of n particles, and its motion; arrays of shape (n,), except the velocity, (3, n).
-
-    Volume [m3], density [kg m-3], phase (MIXTURE or WATER), velocity tangent to the bed [m s-1], and height of the
-    surface above the lowest bed that the particle has come over [m].
-    """
-
-    volume: np.ndarray
-    density: np.ndarray
-    phase: np.ndarray
-    velocity: np.ndarray
-    run_up: np.ndarray
-
-
-class Base(NamedTuple):
-    """Base of n particles: excess pore pressure [Pa], liquefaction pressure [Pa] and Péclet number [-], each (n,)."""
-
-    pressure: np.ndarray
-    liquefaction_pressure: np.ndarray
-    peclet_number: np.ndarray
-
-
-CURRENT, PEAKS = CurrentFields._fields, PeakFields._fields
-
-PHASES = ("solid_depth", "solid_speed", "water_speed")
-"""Further fields of a flow of two phases, of grains and water."""
 
 VOLUME, WAY, PRESSURE, LIQUEFACTION, PECLET, IMPACT, SURFACE, GRAINS, GRAIN_WAY, TOWARDS = range(10)
 """Places of the sums at every node, each times volume: speed, quantities of the columns (of grains), impact pressure,
@@ -118,7 +63,9 @@ class PeakMaps:
         self._current = CurrentFields(**{name: fields[name] for name in CURRENT})
         self._peaks = PeakFields(**{name: fields[name] for name in PEAKS})
         self._phases = [fields[name] for name in PHASES if name in fields]
-        self._sums = np.zeros((raster.status.size, TOWARDS + FACES * self._walled))
+        self._solid_fraction = fields.get(SOLID_FRACTION)
+        further = FACES * self._walled + (self._solid_fraction is not None)
+        self._sums = np.zeros((raster.status.size, TOWARDS + further))
         self._scratch = np.empty(raster.status.size, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last update
         # way of the fastest particle since then [m]; time up to which this way is counted [s]
@@ -162,11 +109,15 @@ class PeakMaps:
         )  # fmt: skip
         values = np.empty((p.count, self._sums.shape[1]))
         _weight_by_volume(matter, base, self._walled, values)
+        if self._solid_fraction is not None:
+            values[:, -1] = p.volume * depth_mean(p.solid_fraction)
         self._under = scatter(footprints, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._raster.area
             _record_walls(self._under, self._sums, least, self._raster, self._peaks)
         self._show_phases(self._under)
+        if self._solid_fraction is not None:
+            self._solid_fraction[self._under] = self._sums[self._under, -1] / self._sums[self._under, VOLUME]
         area = self._raster.area
         _record(self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 

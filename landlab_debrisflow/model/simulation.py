@@ -6,8 +6,9 @@ from ..core.errors import SimulationError
 from ..physics.column.initial import initial_profile
 from ..terrain.bed import Bed
 from . import activity, step
-from .basal import held_at_rest, present_profiles
+from .basal import held_at_rest
 from .bed_load import load_bed
+from .column_forcing import present_profiles
 from .deposit import resting_depth
 from .diagnostics import Diagnostics
 from .inflow.inflow import Inflow
@@ -48,7 +49,7 @@ class Simulation:
 
     def __init__(self, setup, inflow: Inflow | None = None):
         self.setup, flow, column = setup, setup.flow, setup.column
-        self.phases = OnePhaseDynamics(setup.material)
+        self.phases = OnePhaseDynamics(setup.material, column)
         if setup.two_phases:
             self.phases = TwoPhaseDynamics(flow, setup.material, column.stores_pressure)
         laws = (flow, setup.friction, setup.erosion, column, self.phases)
@@ -284,8 +285,7 @@ class Simulation:
 
     def columns_now(self):
         """Return the excess pore pressure at all levels, brought to the present, shape (n, levels) [Pa]."""
-        p = self.particles
-        if p.count == 0:  # the flow may have no bed yet
+        if (p := self.particles).count == 0:  # the flow may have no bed yet
             return p.excess_pore_pressure
         return present_profiles(p, slice(p.count), self.surroundings.columns)
 

@@ -13,8 +13,9 @@ from ..spatial.cells import sort_into_cells
 from ..spatial.raster import Raster
 from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import activity
-from .basal import BasalLaw, ColumnPhysics, basal_resistance, column_forcing, column_state, present_profiles
+from .basal import BasalLaw, basal_resistance
 from .bed_load import load_bed
+from .column_forcing import ColumnPhysics, column_forcing, column_state, present_profiles
 from .entrainment import entrain
 from .kinematics import NOWHERE, count_still_steps, disturb, drift, follow_bed, stop_at_walls
 from .time_step import StepLimits, StepRule, reduce_particles

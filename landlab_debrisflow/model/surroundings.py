@@ -5,9 +5,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..physics.column_contracts import is_dilatant
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
-from .basal import BasalLaw, ColumnPhysics
+from .basal import BasalLaw
+from .column_forcing import ColumnPhysics
 from .time_step import StepRule, viscous_share
 
 
@@ -61,6 +63,7 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
             spacing=raster.spacing,
             variables=getattr(law, "variables", ()),
             varies=any(values.size > 1 for values in parameters[kind]),
+            dilatant_column=setup.column if is_dilatant(setup.column) else None,
         )
         for kind, law in (("friction", setup.friction), ("erosion", setup.erosion))
     )
@@ -70,7 +73,7 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         walls=raster if np.any(raster.status == CLOSED) else None,
         friction=friction,
         erosion=erosion,
-        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant),
+        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing),
         step_rule=StepRule(
             courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
             way=numerics.advective_courant_number * raster.spacing,

@@ -5,12 +5,12 @@ arrays it is given, writes only those named ``out`` (or named in the docstring),
 the laws of other kinds in Python: no law knows another.
 """
 
-from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from numpy import ndarray as Array
 
 from ..spatial.packing import Position
+from .column_contracts import ColumnForcing
 
 
 class BasalStress(NamedTuple):
@@ -44,6 +44,8 @@ class BasalState(NamedTuple):
     material : Material; densities [kg m-3], porosity [-], gravity [m s-2]
     parameters : object; the law's parameters as attributes, each (n,) or (1,), in SI units (angles in rad)
     variables : object; the law's own variables as attributes, (n,), written in place for the next step
+    dilatancy : ndarray, shape (n,), tan(psi) at the base, whose angle psi adds to the friction angle [-]; or None if
+    the column law has no dilatancy
     """
 
     depth: Array
@@ -56,82 +58,7 @@ class BasalState(NamedTuple):
     material: Any
     parameters: Any
     variables: Any
-
-
-class BaseContact(IntEnum):
-    """Condition at the base of a column; a step is given one of the first three.
-
-    ================ ==================== ============================ ===========================
-    contact          base of the column   pressure of incoming soil    stands for
-    ================ ==================== ============================ ===========================
-    BY_EROSION       as soil comes in     that of the bed              ERODING (INFLOW if the law's
-                                                                       ``bed_contact`` is "flux") while
-                                                                       soil comes in, IMPERMEABLE else
-    IMPERMEABLE      dp/dy = 0            that of the base: SEALED     itself
-    PRESCRIBED       p of the bed         that of the bed              itself
-    ERODING          p of the bed         that of the bed              itself
-    INFLOW           nothing diffuses in  that of the bed              itself
-    SEALED           nothing diffuses in  that of the column's base    itself
-    DRAINED          p = 0                0                            PRESCRIBED with 0 Pa
-    ================ ==================== ============================ ===========================
-    """
-
-    BY_EROSION = 0
-    IMPERMEABLE = 1
-    PRESCRIBED = 2
-    ERODING = 3
-    INFLOW = 4
-    SEALED = 5
-    DRAINED = 6
-
-
-class ColumnState(NamedTuple):
-    """The pore-pressure columns of n particles, written by the column law.
-
-    ``profile`` and ``memory`` are in a form of the law's own, so that it may skip updates of a column, or keep another
-    representation; a law's ``synchronise`` turns them into pressures. A new column has its pressure at equally spaced
-    levels in ``profile``, index 0 at the base and the last at the surface, and zeros in ``memory``; its first
-    ``advance``, of 0 seconds, tells it its load.
-
-    Attributes
-    ----------
-    profile : ndarray, shape (n, levels); excess pore pressure, or the law's own form of it [Pa]
-    memory : ndarray, shape (n, memory_size of the law); the law's own numbers
-    clipped : ndarray, shape (n,); pressure above liquefaction taken off, times thickness, so far [Pa m]
-    """
-
-    profile: Array
-    memory: Array
-    clipped: Array
-
-
-class ColumnForcing(NamedTuple):
-    """Change of n columns in one step of the flow.
-
-    Attributes
-    ----------
-    volume : ndarray, shape (n,); after the step [m3]
-    thickness : ndarray, shape (n,); after the step, slope-normal [m]
-    liquefaction_pressure : ndarray, shape (n,); after the step [Pa]
-    entrained : ndarray, shape (n,); volume granted by the bed in the step [m3]; > 0 means eroding
-    bed_pressure : ndarray, shape (n,) or (1,); of the soil that came in, or of the bed below [Pa]
-    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE or PRESCRIBED
-    porosity_source : ndarray, shape (n,) or (1,); pressure made by a change of porosity, at all levels [Pa s-1]
-    coefficient_of_consolidation : ndarray, shape (n,) or (1,); c_v [m2 s-1]
-    water_to_buoyant : float; density of water over buoyant density: lower bound of the pressure ratio [-]
-    bounded : bool; whether pressure above liquefaction is taken off, and seen as no less than suction
-    """
-
-    volume: Array
-    thickness: Array
-    liquefaction_pressure: Array
-    entrained: Array
-    bed_pressure: Array
-    base: Array
-    porosity_source: Array
-    coefficient_of_consolidation: Array
-    water_to_buoyant: float
-    bounded: bool
+    dilatancy: Array | None = None
 
 
 class FrictionLaw(Protocol):
@@ -152,26 +79,6 @@ class ErosionLaw(Protocol):
 
         The rate is >= 0, and 0 at rest; `state` is the base of the flow under n particles.
         """
-
-
-class ColumnLaw(Protocol):
-    """Excess pore pressure under a particle."""
-
-    stores_pressure: ClassVar[bool]  # whether a source of pressure raises the pressure in the column
-
-    @property
-    def levels(self) -> int:
-        """Number of levels of a column, at least 2."""
-
-    @property
-    def memory_size(self) -> int:
-        """Number of floats of a column in `ColumnState.memory`."""
-
-    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure: Array) -> None:
-        """Advance the `columns` by `dt` [s] in place under a `forcing`; write `basal_pressure`, shape (n,) [Pa]."""
-
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Turn every profile of `columns` into the pressures at levels now [Pa], in place; `forcing` is the last."""
 
 
 MIXTURE, WATER = 0, 1

@@ -102,7 +102,13 @@ def parameters_of(obj: Any) -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
     An object that declares none, a law from outside perhaps, has its public attributes.
     """
     if dataclasses.is_dataclass(obj):
-        yield from ((f.name, getattr(obj, f.name, None), f.metadata) for f in dataclasses.fields(obj))
+        for field in dataclasses.fields(obj):
+            value = getattr(obj, field.name, None)
+            if dataclasses.is_dataclass(value):
+                inner = parameters_of(value)
+                yield from ((f"{field.name}_{name}", one, declaration) for name, one, declaration in inner)
+            else:
+                yield field.name, value, field.metadata
     else:
         public = {name: value for name, value in getattr(obj, "__dict__", {}).items() if not name.startswith("_")}
         yield from ((name, value, {}) for name, value in public.items())

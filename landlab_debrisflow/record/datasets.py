@@ -80,8 +80,12 @@ def columns_dataset(
     words = variable_attributes("-", "height above the base over thickness, 0 at the base, 1 at the surface")
     level = xr.Variable("level", np.linspace(0.0, 1.0, levels), words, NO_FILL)
     words = variable_attributes("Pa", "excess pore pressure")
+    at_levels = {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
+    if hasattr(p, "solid_fraction"):
+        words = variable_attributes("-", "volume fraction of the grains")
+        at_levels["solid_fraction"] = (("particle", "level"), p.solid_fraction[order], words)
     return xr.Dataset(
-        {"excess_pore_pressure": (("particle", "level"), profile[order], words)}
+        at_levels
         | {
             name: ("particle", values[order], variable_attributes(unit, text))
             for name, (values, unit, text) in data.items()

@@ -11,7 +11,8 @@ import numpy as np
 
 from ..core.errors import InputError
 from ..core.hints import did_you_mean
-from ..grid.fields import OUTPUT_PREFIX
+from ..grid.fields import OUTPUT_PREFIX, output_fields
+from ..model.map_fields import SOLID_FRACTION
 from ..spatial.transfer import WIDEST
 from .attributes import axis_attributes, date_created, file_attributes, quantity_attributes, variable_attributes
 from .classic import classic_file
@@ -104,10 +105,12 @@ class MapSeries:
         Raises
         ------
         InputError
-            If a variable is one that only a flow of two phases has.
+            If a variable is one that only a flow of two phases has, or one with dilatancy.
         """
-        if lacking := [name for name in self.variables if FIELDS[name].optional and not setup.two_phases]:
-            raise InputError(f"MapSeries: {lacking[0]} is in flows of two phases only; leave it out of variables")
+        written = {field.name.removeprefix(OUTPUT_PREFIX) for field in output_fields(setup)}
+        if lacking := [name for name in self.variables if FIELDS[name].optional and name not in written]:
+            kind = "columns with dilatancy" if lacking[0] == SOLID_FRACTION else "flows of two phases"
+            raise InputError(f"MapSeries: {lacking[0]} is in {kind} only; leave it out of variables")
         self._attributes = file_attributes() | setup.to_attributes()
         self._grid, self._window = grid, None
 

@@ -11,7 +11,7 @@ import xarray as xr
 from ..core.checks import in_range
 from ..core.errors import InputError
 from ..grid.fields import OUTPUT_PREFIX
-from ..model.peak_maps import PEAKS
+from ..model.map_fields import PEAKS
 from .attributes import quantity_attributes
 from .datasets import ON_WALLS
 from .files import write_dataset

@@ -2,12 +2,11 @@
 
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
 from typing import Any
 
 import xarray as xr
 
-from ..core.values import keys_of
+from ..core.values import flat_keys_of, keys_of
 from ..physics.registry import LAWS
 from ..plots.style import unit_text
 from ..run.record import RunRecord
@@ -90,13 +89,14 @@ def _block(
 
     `ran` are the values of the run, `asked` the values of the scene; `path` are the keys above.
     """
-    declared = {field.name: field for field in fields(entry.cls)} if entry else {}
+    declared = flat_keys_of(entry.cls) if entry else {}
     note = ""
     if entry is not None:
         source = f" Source: {entry.source}" if entry.source else ""
         note = f"{': '.join(filter(None, (entry.formula, entry.summary)))}{source}".replace("``", "")
     rows = []
-    for name, value in ran.items():
+    asked = dict(_flat(asked))
+    for name, value in _flat(ran):
         field = declared.get(name)
         meta = field.metadata if field is not None else {}
         origin = _origin(record, f"{path}.{name}", value, asked.get(name, value), field)
@@ -124,6 +124,15 @@ def _value_words(value: Any, meta: Mapping[str, Any]) -> str:
     unit = str(meta.get("unit", "-"))
     words = isinstance(value, str | bool | dict) or (isinstance(value, list) and not isinstance(value[0], float | int))
     return plain(value) if words or unit == "-" else f"{plain(value)}{SPACE}{unit_text(unit)}".replace(f"{SPACE}°", "°")
+
+
+def _flat(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield names and values, with a dot in the names of values inside a mapping."""
+    for name, value in values.items():
+        if isinstance(value, Mapping):
+            yield from ((f"{name}.{inner}", one) for inner, one in value.items())
+        else:
+            yield name, value
 
 
 def _mapping(value: Any) -> dict[str, Any]:

@@ -4,12 +4,12 @@ The docstring of a law has a form (CONTRIBUTING.md): its first line is the formu
 a section ``References`` is its source.
 """
 
-import dataclasses
 import inspect
 import re
 import typing
 
 from ..core.docstrings import allowed, default
+from ..core.values import flat_keys_of
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.material import Material
@@ -64,7 +64,7 @@ def _entry(title: str, cls: type, has_formula: bool) -> Entry:
     formula, _, summary = first.partition(": ") if has_formula else ("", "", first)
     formula = formula if summary else formula.removesuffix(".")
     details, source = _split_off_references(details)
-    rows = [_row(parameter) for parameter in dataclasses.fields(cls)]
+    rows = [_row(name, parameter) for name, parameter in flat_keys_of(cls).items()]
     return Entry(title, cls, formula, summary, "\n\n".join(details), source, rows)
 
 
@@ -81,7 +81,7 @@ def _split_off_references(paragraphs):
     return paragraphs[: sections[0]] if sections else paragraphs, source
 
 
-def _row(parameter) -> tuple[str, ...]:
+def _row(name: str, parameter) -> tuple[str, ...]:
     meta = parameter.metadata
     in_space = "yes" if meta["varies"] else ""
-    return (parameter.name, meta["unit"], default(parameter.default), allowed(meta), in_space, meta["meaning"])
+    return (name, meta["unit"], default(parameter.default), allowed(meta), in_space, meta["meaning"])

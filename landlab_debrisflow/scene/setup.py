@@ -14,7 +14,9 @@ from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
-from ..physics.contracts import ColumnLaw, ErosionLaw, FlowLaw, FrictionLaw
+from ..physics.column.dilatancy import check_dilatancy
+from ..physics.column_contracts import ColumnLaw, is_dilatant
+from ..physics.contracts import ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
 from ..physics.registry import LAWS, build_declared, build_law, law_name
 from .digest import digest, state_of, text_of
@@ -102,11 +104,18 @@ class Setup:
         built["inflow"] = _hydrographs(self.inflow)
         for name, value in built.items():
             object.__setattr__(self, name, value)
+        if self.has_dilatancy:
+            check_dilatancy(self.material, self.two_phases)
 
     @property
     def two_phases(self) -> bool:
         """Whether grains and water move as two phases: then the flow law has a `drag_coefficient` between them."""
         return hasattr(self.flow, "drag_coefficient")
+
+    @property
+    def has_dilatancy(self) -> bool:
+        """Whether debris of the columns contracts or dilates as it is sheared."""
+        return is_dilatant(self.column)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Setup":
@@ -153,6 +162,7 @@ class Setup:
         def values_of(kind, obj):
             values = {field.name: getattr(obj, field.name) for field in dataclasses.fields(obj)}
             plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+            plain = {name: values_of(kind, value) if is_declared(value) else value for name, value in plain.items()}
             return {
                 name: array_of(kind, name, value) if isinstance(value, NodeValues) else value
                 for name, value in plain.items() if value is not None
@@ -247,7 +257,7 @@ def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
         )
     for kind in LAWS:
         for key, value in mapping[kind].items():
-            if not isinstance(value, Mapping):
+            if not isinstance(value, Mapping) or list(value) != ["variable"]:
                 continue
             if (name := value.get("variable")) not in dataset:
                 raise ParameterError(f"{kind}: {key} is in the variable {name!r}, which the Dataset does not have")

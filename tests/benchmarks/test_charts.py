@@ -11,6 +11,7 @@ import xarray as xr
 
 from benchmarks import charts, page_tables, result_files
 from benchmarks.fidelity import runs
+from validation.events import EVENTS
 
 ROOT = Path(__file__).parents[2]
 FAST = ("flow_stability", "lazy_scheme", "speed", "two_phase")
@@ -30,6 +31,9 @@ def test_every_figure_of_the_pages_has_a_chart():
 def test_a_chart_has_its_files_and_its_function(name):
     chart = charts.CHARTS[name]
     assert [path for path in chart.files() if not path.is_file()] == []
+    if isinstance(chart, charts.EventChart):
+        assert chart.command == f"python -m validation.events {chart.module}" and chart.module in EVENTS
+        return
     module = importlib.import_module(f"benchmarks.{chart.module}")
     assert callable(getattr(module, chart.function))
     command = re.fullmatch(r"python -m (benchmarks\.\w+)( .*)?", chart.command)

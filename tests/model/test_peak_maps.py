@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from landlab_debrisflow.model.map_fields import CURRENT, PEAKS
 from landlab_debrisflow.model.particles import Particles
-from landlab_debrisflow.model.peak_maps import CURRENT, PEAKS, PeakMaps
+from landlab_debrisflow.model.peak_maps import PeakMaps
 from landlab_debrisflow.spatial.raster import CLOSED, Raster
 from landlab_debrisflow.spatial.transfer import Cover
 

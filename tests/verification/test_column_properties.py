@@ -16,7 +16,7 @@ from scipy.integrate import trapezoid
 from landlab_debrisflow import solve_column
 from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.column.driver import Columns
-from landlab_debrisflow.physics.contracts import BaseContact
+from landlab_debrisflow.physics.column_contracts import BaseContact
 
 WATER_TO_BUOYANT = 1000.0 / 990.0
 LOAD_PER_METRE = 990.0 * 9.81

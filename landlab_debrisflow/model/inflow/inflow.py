@@ -13,9 +13,10 @@ import numpy as np
 
 from ...physics.column.driver import forcing_at_rest
 from ...physics.column.initial import initial_profile
-from ...physics.contracts import MIXTURE, BaseContact
+from ...physics.column_contracts import BaseContact, is_dilatant
+from ...physics.contracts import MIXTURE
 from ...spatial.summation import SMOOTHING_RATIO
-from ..basal import ColumnPhysics, column_state
+from ..column_forcing import ColumnPhysics, column_state, shearing_of
 from ..release.placing import THICKNESS_RANGE
 from .source import Source
 
@@ -209,6 +210,8 @@ def _start_columns(p, new: slice, load, columns: ColumnPhysics) -> None:
         coefficient_of_consolidation=columns.phases.coefficient_of_consolidation(p, new),
         water_to_buoyant=columns.water_to_buoyant,
     )
+    if is_dilatant(columns.law):
+        forcing = forcing._replace(shearing=shearing_of(columns.material, np.zeros_like(load), load))
     columns.law.advance(column_state(p, new), forcing, 0.0, p.basal_excess_pore_pressure[new])
 
 

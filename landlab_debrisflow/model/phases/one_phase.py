@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...physics.column_contracts import is_dilatant
 from ...physics.contracts import MIXTURE
 from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
@@ -15,6 +16,8 @@ class OnePhaseDynamics:
     ----------
     material : Material
         Densities, porosity, gravity.
+    column : ColumnLaw
+        Law of the columns; one with dilatancy knows its coefficient of consolidation.
     """
 
     variables = ()
@@ -22,8 +25,8 @@ class OnePhaseDynamics:
     solid_fraction = 1.0
     sleeps = True
 
-    def __init__(self, material):
-        self.material = material
+    def __init__(self, material, column):
+        self.material, self._column = material, column if is_dilatant(column) else None
         self._coefficient = np.array([material.coefficient_of_consolidation])
 
     def density(self, p):
@@ -35,10 +38,12 @@ class OnePhaseDynamics:
         return p.volume * (1.0 - p.porosity)
 
     def coefficient_of_consolidation(self, p, which: slice):
-        """Return the coefficient of consolidation of the material, shape (1,) [m2 s-1].
+        """Return the coefficient of consolidation, shape (1,); of debris with dilatancy at the base, (n,) [m2 s-1].
 
-        `p` and `which`, places of particles, matter with two phases only.
+        `p` are all particles and `which` places of n.
         """
+        if self._column is not None:
+            return self._column.at_base(p.column_memory[which]).coefficient_of_consolidation
         return self._coefficient
 
     def after_summation(self, p, exchange, cells) -> None:

@@ -4,7 +4,7 @@ import functools
 from typing import ClassVar
 
 from ...core.parameters import declared, parameter
-from ..contracts import ColumnForcing, ColumnState
+from ..column_contracts import ColumnForcing, ColumnState
 from .schemes.choices import BED_CONTACT, LOADING, Scheme, scheme_of
 from .schemes.registry import MEMORY_SIZE, advance, check_scheme, synchronise
 

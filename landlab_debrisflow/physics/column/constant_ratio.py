@@ -5,7 +5,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ..contracts import ColumnForcing, ColumnState
+from ..column_contracts import ColumnForcing, ColumnState
 
 
 @declared

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..contracts import BaseContact, ColumnForcing, ColumnState
+from ..column_contracts import BaseContact, ColumnForcing, ColumnState
 from ..material import Material
 
 WATER_TO_BUOYANT = Material().water_density / Material().buoyant_density

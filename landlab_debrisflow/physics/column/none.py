@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from ...core.parameters import declared
-from ..contracts import ColumnForcing, ColumnState
+from ..column_contracts import ColumnForcing, ColumnState
 
 
 @declared

@@ -5,7 +5,7 @@ import numpy as np
 from ...core.errors import ParameterError
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
-from .shear import THINNEST
+from .shear import THINNEST, friction_coefficient
 
 TINY = 1e-300
 """Added to a divisor, so that 0/0, without effective stress and speed, becomes 0."""
@@ -66,9 +66,9 @@ class MuI:
             Written: other resistance over speed, >= 0 [Pa s m-1].
         """
         here, stress = state.parameters, state.stress.effective_normal
-        static = np.tan(here.static_friction_angle)
+        static = friction_coefficient(here.static_friction_angle, state)
         np.multiply(static, stress, out=yield_stress)
-        more = np.maximum(np.tan(here.limiting_friction_angle) - static, 0.0)
+        more = np.maximum(friction_coefficient(here.limiting_friction_angle, state) - static, 0.0)
         # with I = c v/(h sigma'^(1/2)), sigma' (mu - mu_s)/v is multiplied by h sigma'^(1/2), which may be 0
         c = 2.5 * (1.0 - state.material.basal_slip_ratio) * np.sqrt(here.grain_density) * here.grain_diameter
         denominator = np.sqrt(stress)

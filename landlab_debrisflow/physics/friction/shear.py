@@ -4,6 +4,8 @@ With a basal slip ratio s the flow slides at v_b = s v, as a block does; the res
 shear.
 """
 
+import math
+
 import numpy as np
 
 from ..contracts import BasalState
@@ -13,6 +15,9 @@ SLOWEST = 1e-9
 stress, or of one that thins under shear, goes to infinity at rest; with this bound a body that starts reaches its speed
 in a few kicks."""
 
+STEEPEST = math.tan(math.radians(89.0))
+"""Largest coefficient of friction [-]."""
+
 THINNEST = 1e-6
 """Least thickness in a rate of shear, a grain of clay [m]: no rate divides by 0."""
 
@@ -20,10 +25,23 @@ THINNEST = 1e-6
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:
     """Write c + sigma' tan(phi) [Pa] into `out`, shape (n,) (Coulomb; Terzaghi's effective stress).
 
-    `cohesion` is c [Pa], `friction_angle` is phi [rad], each (n,) or (1,); sigma' is that of `state` [Pa].
+    `cohesion` is c [Pa], `friction_angle` is phi [rad], each (n,) or (1,); sigma' is that of `state` [Pa]. The angle of
+    dilatancy of `state`, if there is one, is added to phi.
     """
-    np.multiply(np.tan(friction_angle), state.stress.effective_normal, out=out)
+    np.multiply(friction_coefficient(friction_angle, state), state.stress.effective_normal, out=out)
     out += cohesion
+
+
+def friction_coefficient(friction_angle, state: BasalState):
+    """Return tan(phi), or tan(phi + psi) of debris that dilates by the angle psi (Iverson & George, 2014, eq. 4.16).
+
+    `friction_angle` is phi [rad], (n,) or (1,); `state` may have tan(psi), of shape (n,) [-].
+    """
+    grains, dilatancy = np.tan(friction_angle), state.dilatancy
+    if dilatancy is None:
+        return grains
+    whole = 1.0 - grains * dilatancy  # of the tangent of a sum
+    return np.clip((grains + dilatancy) / np.maximum(whole, 1.0 / STEEPEST), 0.0, STEEPEST)
 
 
 def shearing(state: BasalState):

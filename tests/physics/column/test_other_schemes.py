@@ -8,7 +8,7 @@ from scipy.special import erfc
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.exact.columns import consolidation, growing_column
 from landlab_debrisflow.physics.column import ALE, Classical
-from landlab_debrisflow.physics.contracts import BaseContact
+from landlab_debrisflow.physics.column_contracts import BaseContact
 
 from .driver import LOAD_PER_METRE, WATER_TO_BUOYANT, Columns, eta
 

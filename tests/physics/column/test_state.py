@@ -8,7 +8,7 @@ import pytest
 from landlab_debrisflow.physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from landlab_debrisflow.physics.column.driver import Columns
 from landlab_debrisflow.physics.column.schemes.lazy import state
-from landlab_debrisflow.physics.contracts import BaseContact
+from landlab_debrisflow.physics.column_contracts import BaseContact
 
 
 def test_every_member_stands_in_the_table_once_with_its_unit():

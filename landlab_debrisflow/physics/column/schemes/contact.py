@@ -1,7 +1,7 @@
 """Condition at the base of a column in one step, and its values as kernels read them."""
 
 from ....core.jit import inner
-from ...contracts import BaseContact
+from ...column_contracts import BaseContact
 
 # numba does not convert members of an enumeration to floats
 BY_EROSION = int(BaseContact.BY_EROSION)

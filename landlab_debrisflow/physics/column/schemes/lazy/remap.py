@@ -11,14 +11,11 @@ from .....core.jit import inner
 
 
 @inner
-def interpolate(values, ratios, cells, position):
+def cubic_between(values, cells, position):
     """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
 
-    `values`, shape (levels,), are effective stresses from the surface downwards [Pa], `ratios` the same over their
-    depth in cells; `cells` is the number of levels less 1; `position` is the depth below the surface in cells [-].
-
-    The ratio of the result to the position is clipped, too, to the ratios of the two (beside the surface, to those of
-    the next two).
+    `values`, shape (levels,), are at levels from the surface downwards; `cells` is the number of levels less 1;
+    `position` is the depth below the surface in cells [-].
     """
     low = min(int(position), cells - 1)
     if cells < 3:
@@ -30,7 +27,21 @@ def interpolate(values, ratios, cells, position):
             (x - 2.0) * (x - 3.0) * (x * values[first + 1] - (x - 1.0) / 3.0 * values[first])
             + x * (x - 1.0) * ((x - 2.0) / 3.0 * values[first + 3] - (x - 3.0) * values[first + 2])
         )
-    cubic = min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+    return min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+
+
+@inner
+def interpolate(values, ratios, cells, position):
+    """Return the value of `cubic_between` at ``position``, clipped between lines through the surface, too.
+
+    `values`, shape (levels,), are effective stresses from the surface downwards [Pa], `ratios` the same over their
+    depth in cells; `cells` is the number of levels less 1; `position` is the depth below the surface in cells [-].
+
+    The ratio of the result to the position is clipped, too, to the ratios of the two (beside the surface, to those of
+    the next two).
+    """
+    low = min(int(position), cells - 1)
+    cubic = cubic_between(values, cells, position)
     one, other = ratios[max(low, 1)], ratios[low + 1 if low > 0 else 2]
     return min(max(cubic, min(one, other) * position), max(one, other) * position)
 
