@@ -47,4 +47,5 @@ EVENT = Event(
     shown=picture.shown,
     draw=picture.draw,
     steps=picture.STEPS,
+    drawn_with="dem.asc",
 )
