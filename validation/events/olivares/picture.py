@@ -25,7 +25,7 @@ def shown(result: xr.Dataset) -> xr.Dataset:
 def draw(result: xr.Dataset) -> Figure:
     """Return the figure from the stored depths, and terrain and outlines from the data; InputError without the data."""
     observed = read_observed()
-    figure = Figure(figsize=(15.0, 11.0), layout="constrained")
+    figure = Figure(figsize=(11.0, 8.4), layout="constrained")
     for axes, flow in zip(figure.subplots(3, 2).T.ravel(), FLOWS, strict=True):
         depth = result.max_depth.sel(flow=flow, drop=True)
         maps = xr.Dataset(
@@ -36,7 +36,7 @@ def draw(result: xr.Dataset) -> Figure:
         )
         mapped = depth.copy(data=observed.flow == flow)
         found = compare(depth.values > WET, observed, flow)
-        title = f"flow {flow}: IoU {found['iou']:.2f}, farthest wet cell {found['toe']:.0f} m from the mapped toe"
+        title = f"flow {flow}: IoU {found['iou']:.2f}, farthest wet cell {found['toe']:.0f} m from the toe"
         draw_map(
             maps, "max_depth", axes=axes, title=title, limits=(0.0, DEEPEST), least_depth=WET,
             extent=_extent(depth, mapped), outline=depth.copy(data=observed.source == flow),
