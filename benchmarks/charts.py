@@ -99,8 +99,11 @@ CHARTS = {
 """Figures of docs/figures by name; beside them stand those of `RUNS`."""
 
 REPORTS = {
-    name: name for name in ("column", "flow", "flow_stability", "speed", "tsing_shan", "two_phase", "when_ale_matters")
-}
+    name: name
+    for name in (
+        "column", "flow", "flow_stability", "paper_speed", "speed", "tsing_shan", "two_phase", "when_ale_matters",
+    )
+}  # fmt: skip
 """Texts of benchmarks/, and the module whose `report` makes them of a result file."""
 
 

@@ -10,10 +10,12 @@ Examples
 from .core.jit import inner, kernel
 from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
+from .physics.bed_state import BedState
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
 from .physics.column_contracts import BaseContact, ColumnForcing, ColumnLaw, ColumnState
+from .physics.consolidation import Consolidation
 from .physics.contracts import BasalState, ErosionLaw, FlowLaw, FlowState, FrictionLaw
-from .physics.erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
+from .physics.erosion import ExcessTraction, Growth, LiquefiedBed, NoErosion, ShearExcess
 from .physics.flow import OnePhase, TwoPhase
 from .physics.friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 from .physics.registry import LAWS
@@ -23,14 +25,17 @@ __all__ = [
     "LAWS",
     "BasalState",
     "BaseContact",
+    "BedState",
     "Bingham",
     "Classical",
     "ColumnForcing",
     "ColumnLaw",
     "ColumnState",
+    "Consolidation",
     "ConstantRatio",
     "Coulomb",
     "ErosionLaw",
+    "ExcessTraction",
     "FlowLaw",
     "FlowState",
     "FrictionLaw",

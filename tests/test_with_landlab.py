@@ -189,12 +189,12 @@ def test_every_input_can_be_set_through_bmi():
         kind = "int" if name == "mass__wasting_id" else "float"
         return f"          {name}: {{constant: [{{value: 0, dtype: {kind}}}]}}\n"
 
-    given = ("mass__wasting_id", "bed__excess_pore_pressure_ratio", "bed__drained")
+    given = ("mass__wasting_id", "bed__excess_pore_pressure_ratio", "bed__drained", "bed__degree_of_saturation")
     model = wrap_as_bmi(DebrisFlow)()
     model.initialize(CONFIG + "".join(map(described, given)))
     ids, ratio = np.zeros(800, int), np.full(800, 0.25)
     ids[10 * 40 + 8] = 7
-    for name, values in zip(given, (ids, ratio, np.ones(800)), strict=True):
+    for name, values in zip(given, (ids, ratio, np.ones(800), ratio), strict=True):
         assert name in model.get_input_var_names()
         model.set_value(name, values)
         assert model.get_value(name, values.copy()).tolist() == values.tolist()

@@ -46,6 +46,14 @@ def with_loaded_bed():
     return grid
 
 
+def half_wet():
+    """Wetter to one side."""
+    grid = valley()
+    wetness = (grid.y_of_node - grid.y_of_node.min()) / np.ptp(grid.y_of_node)
+    grid.add_field("bed__degree_of_saturation", wetness, at="node")
+    return grid
+
+
 def with_friction():
     grid = valley()
     grid.add_full("friction__angle", 30.0, at="node")
@@ -62,6 +70,7 @@ SCENES = {
     "sleeping": (with_sleepers, {"material": WET, "numerics": {"particle_count": 200}}),
     "walls": (with_walls, {}),
     "loaded bed": (with_loaded_bed, {"material": {"bed_loading_coefficient": 0.6, "bed_drainage_time": 20.0}}),
+    "half-wet bed": (half_wet, {"erosion": "excess_traction", "material": WET | {"bed_pressure_ratio": 1.0}}),
     "friction from a field": (
         with_friction, {"friction": {"law": "coulomb", "basal_friction_angle": "friction__angle"}},
     ),

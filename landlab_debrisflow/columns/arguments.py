@@ -9,7 +9,7 @@ import numpy as np
 from ..core.checks import in_range
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, give_number
-from ..core.values import checked
+from ..core.values import checked, derived
 from ..physics.column import ALE, Classical, ConstantRatio
 from ..physics.column.initial import initial_profile
 from ..physics.column_contracts import BaseContact
@@ -60,7 +60,7 @@ def checked_numbers(
 
     `argument` declares the argument `name`: unit, bounds, remedy. `when` is text on the time, for the message.
     """
-    array, meta = _float_array(value), argument.metadata
+    array = _float_array(derived(f"solve_column: {name}", value, meta := argument.metadata))
     if array is None or array.ndim > 1 or array.size == 0:
         got = f"{value!r}{give_number(value)}" if array is None else f"shape {array.shape}"
         refuse(f"{name} must be one number or one per {each}, got {got}{when}; {meta['remedy']}")

@@ -1,6 +1,7 @@
 """The arguments of `solve_column`, declared as the parameters of laws are."""
 
 from ..core.parameters import parameter
+from ..physics.consolidation import Consolidation
 
 HYDROSTATIC = "give a finite pressure over the hydrostatic one, negative for suction"
 NUMBERS = {
@@ -13,7 +14,8 @@ NUMBERS = {
         remedy="a column that gets thinner without losing soil has a divergence_rate > 0",
     ),
     "coefficient_of_consolidation": parameter(
-        "m2 s-1", "diffusivity of excess pore pressure", 1e-3, (0.0, None), remedy="give 0 for no diffusion"
+        "m2 s-1", "diffusivity of excess pore pressure", 1e-3, (0.0, None), remedy="give 0 for no diffusion",
+        derivation=Consolidation,
     ),
     "basal_pressure": parameter("Pa", "excess pore pressure of the bed", 1.0, timed=True, remedy=HYDROSTATIC),
     "initial_pressure": parameter("Pa", "at the base at time 0", None, remedy=HYDROSTATIC),

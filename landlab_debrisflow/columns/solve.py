@@ -1,7 +1,7 @@
 """Columns by themselves: the excess pore pressure below a thickness that is given, without a flow."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,7 +24,7 @@ BOUNDS = 1e-100, 1e100  # thickness [m] whose square is neither 0 nor infinite
 def solve_column(
     thickness: ArrayLike = 1.0,
     entrainment_rate: ArrayLike | Callable[[float], ArrayLike] = 0.01,
-    coefficient_of_consolidation: ArrayLike = 1e-3,
+    coefficient_of_consolidation: ArrayLike | Mapping[str, float] = 1e-3,
     basal_pressure: ArrayLike | Callable[[float], ArrayLike] = 1.0,
     times: ArrayLike | None = None,
     initial: str | ArrayLike = "zero",
@@ -58,8 +58,9 @@ def solve_column(
         h at time 0, > 0 [m].
     entrainment_rate : float, array_like or function of time
         e_R >= 0, per column [m s-1]. A function gets the time [s] and returns one number or one per column.
-    coefficient_of_consolidation : float or array_like
-        c_v >= 0, per column [m2 s-1].
+    coefficient_of_consolidation : float, array_like or mapping
+        c_v >= 0, per column [m2 s-1]; or what it follows from, ``{"permeability": ..., "pore_fluid_viscosity": ...,
+        "stiffness": ...}`` [m2, Pa s, Pa], for all columns.
     basal_pressure : float, array_like or function of time
         Excess pore pressure of the bed, per column [Pa].
     times : array_like, shape (time,)

@@ -44,7 +44,13 @@ def allowed(meta) -> str:
     if dataclasses.is_dataclass(meta["kind"]):
         return "mapping"
     kind = {int: "integer, ", tuple: "list, "}.get(meta["kind"], "")
-    return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *meta["words"]))
+    others = [*meta["words"], *([f"mapping of {', '.join(_names(meta))}"] if meta["derivation"] else [])]
+    return "; ".join((kind + _interval(*meta["bounds"], meta["open_below"]), *others))
+
+
+def _names(meta) -> list[str]:
+    """Return the names of the parameters from which a number may be derived."""
+    return [field.name for field in dataclasses.fields(meta["derivation"])]
 
 
 def _interval(low, high, open_below) -> str:
@@ -71,6 +77,8 @@ def _entry(field) -> str:
     if meta["choices"]:
         kind = "{" + ", ".join(f'"{word}"' for word in meta["choices"]) + "}"
     kind += "".join(f' or "{word}"' for word in meta["words"])
+    if meta["derivation"]:
+        kind += f" or mapping of {', '.join(_names(meta))}"
     if meta["varies"]:
         kind += ", array over nodes or name of a field"
     words = default(value) if number else f'"{value}"' if meta["choices"] else str(value)

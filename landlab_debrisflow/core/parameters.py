@@ -37,6 +37,7 @@ def parameter(
     choices: Collection[str] | None = None, kind: type = float, varies: bool = False, *,
     open_below: bool = False, timed: bool = False, remedy: str = "", file: bool = False, items: type | None = None,
     coordinates: str | None = None, named: bool = False, length: int | None = None, words: Collection[str] = (),
+    derivation: type | None = None,
 ) -> Any:  # fmt: skip
     """Declare one parameter of a class decorated with `declared`, or one argument of a function.
 
@@ -76,6 +77,9 @@ def parameter(
         `length`, a list with `choices` holds words, any number of them.
     words : tuple of str
         Words that will do for a number.
+    derivation : type, optional
+        Declared class with an attribute ``value`` that follows from its parameters: then a mapping of these will do for
+        a number, and the value is kept.
 
     Returns
     -------
@@ -90,7 +94,7 @@ def parameter(
         "numbers": choices if isinstance(choices, Mapping) else None, "varies": varies, "timed": timed,
         "bounds": (-math.inf if low is None else low, math.inf if high is None else high),
         "open_below": open_below, "remedy": remedy, "file": file, "items": items, "coordinates": coordinates,
-        "named": named, "length": length, "words": tuple(words),
+        "named": named, "length": length, "words": tuple(words), "derivation": derivation,
     }  # fmt: skip
     return dataclasses.field(default=default, metadata=metadata)
 

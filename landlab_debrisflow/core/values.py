@@ -10,6 +10,7 @@ import numpy as np
 
 from .checks import in_range
 from .coordinates import checked_coordinates
+from .derived_number import DerivedNumber
 from .errors import ParameterError
 from .hints import did_you_mean, give_number, number_in, number_with_unit, python_value, same_word
 
@@ -98,7 +99,7 @@ def checked(owner: str, name: str, field: dataclasses.Field, value: Any) -> Any:
         return _checked_on_nodes(name, value, meta)
     if (word := same_word(value, meta["words"])) is not None:
         return word
-    return _checked_number(name, value, meta)
+    return _checked_number(name, derived(name, value, meta), meta)
 
 
 def _checked_on_nodes(name: str, value: Any, meta):
@@ -131,6 +132,20 @@ def _checked_items(name: str, value: Any, cls: type):
         if not isinstance(one, Mapping | cls):
             raise ParameterError(f"{name}[{k}] must be a mapping, got {one!r}")
     return tuple(one if isinstance(one, cls) else _item(f"{name}[{k}]", cls, one) for k, one in enumerate(several))
+
+
+def derived(name: str, value: Any, meta: Mapping[str, Any]) -> Any:
+    """Return the number that follows from parameters, an object or a mapping of a class in `meta`; else `value`.
+
+    `name` is that of the number, for the message of a ParameterError.
+    """
+    cls = meta["derivation"]
+    if cls is None or not isinstance(value, Mapping | cls):
+        return value
+    source = value if isinstance(value, cls) else _item(name, cls, value)
+    return DerivedNumber(
+        source.value, {field.name: getattr(source, field.name) for field in dataclasses.fields(source)}
+    )
 
 
 def _checked_item(name: str, value: Any, cls: type):
@@ -202,6 +217,8 @@ def _checked_number(name: str, value: Any, meta):
     if isinstance(value, bool) or not isinstance(value, expected):
         word, hint = "an integer" if kind is int else "a number", give_number(value, kind is int)
         others = "".join(f" or {other!r}" for other in meta["words"])
+        if meta["derivation"] is not None:
+            others += f", or a mapping of {', '.join(keys_of(meta['derivation']))}"
         hint = hint or did_you_mean(value, meta["words"])
         raise ParameterError(f"{name} must be {word} [{unit}]{others}, got {value!r}{hint}")
     try:
@@ -213,7 +230,7 @@ def _checked_number(name: str, value: Any, meta):
     if kind is int and told is number:  # numpy's arrays of integers hold no larger one
         low, high = max(low, -MOST_WHOLE), min(high, MOST_WHOLE)
     in_range(name, told, low, high, unit, remedy=meta["remedy"], open_ends=(meta["open_below"], False))
-    return int(value) if kind is int else number
+    return int(value) if kind is int else value if isinstance(value, DerivedNumber) else number
 
 
 def from_mapping(cls: type[T], mapping: Mapping[str, Any], relatives: Mapping[str, type] | None = None) -> T:

@@ -51,13 +51,18 @@ def check_boundaries(grid) -> None:
             )
 
 
-def check_bed(grid, soil, ratio, drained) -> None:
-    """Refuse soil depths [m], pressure ratios [-] and drains (0 or 1) of a bed; each is of shape (nodes,), or None."""
+def check_bed(grid, soil, ratio, drained, saturation) -> None:
+    """Refuse soil depths [m], pressure ratios [-], drains (0 or 1) and degrees of saturation [-] of a bed.
+
+    Each is of shape (nodes,), or None.
+    """
     if soil is not None:
         check_finite(grid, "soil__depth", soil, "close the node or set a depth >= 0")
         _check_range(grid, "soil__depth", soil, 0.0, np.inf, "m")
     if ratio is not None:
         _check_range(grid, "bed__excess_pore_pressure_ratio", ratio, 0.0, 1.0, "-")
+    if saturation is not None:
+        _check_range(grid, "bed__degree_of_saturation", saturation, 0.0, 1.0, "-")
     if drained is not None:
         bad = np.flatnonzero((drained != 0.0) & (drained != 1.0) & (grid.status_at_node != CLOSED))
         if bad.size:

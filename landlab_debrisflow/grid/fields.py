@@ -70,6 +70,9 @@ NODE_FIELDS = (
         "Excess pore pressure of the bed over its liquefaction value", True,
     ),
     NodeField(
+        "bed__degree_of_saturation", "in", "-", "Volume of water over volume of pores of the bed", True
+    ),
+    NodeField(
         "bed__excess_pore_pressure", "inout", "Pa",
         "Excess pore pressure of the bed, raised by the weight of the flow, drained in time", True,
     ),

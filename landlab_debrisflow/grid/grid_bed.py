@@ -152,9 +152,10 @@ class GridBed:
             ratio = np.array([material.bed_pressure_ratio])
         else:
             ratio = np.array(soil.pressure_ratio, float)
+        saturation = np.array(material.bed_degree_of_saturation if soil.saturation is None else soil.saturation, float)
         return Bed(
             raster, self.surface, terrain.elevation, soil.depth, self.eroded, ratio, soil.drained, pore_pressure,
-            self.event_eroded,
+            self.event_eroded, np.atleast_1d(saturation) if np.any(saturation < 1.0) else None,
         )  # fmt: skip
 
     def note_end(self, bed: Bed, nodes: slice) -> None:

@@ -65,12 +65,15 @@ class Soil(NamedTuple):
         Excess pore pressure that follows the load [Pa].
     drained : ndarray of bool, shape (nodes,), or None
         Where a drain holds the excess pore pressure at 0.
+    saturation : ndarray, shape (nodes,), or None
+        Degree of saturation of the pores with water [-].
     """
 
     depth: np.ndarray | None
     pressure_ratio: np.ndarray | None
     pressure: np.ndarray | None
     drained: np.ndarray | None
+    saturation: np.ndarray | None
 
 
 class GridInput(NamedTuple):
@@ -112,7 +115,7 @@ class GridReader:
     """
 
     def __init__(self, grid, setup):
-        self._grid = grid
+        self._grid, self._setup = grid, setup
         self._loaded = setup.material.bed_loading_coefficient > 0.0
         if self._loaded and BED_PRESSURE not in grid.at_node:
             grid.add_zeros(BED_PRESSURE, at="node", units="Pa")
@@ -187,7 +190,7 @@ class GridReader:
 
     def _read_soil(self) -> Soil:
         soil = self._soil()
-        checks.check_bed(self._grid, soil.depth, soil.pressure_ratio, soil.drained)
+        checks.check_bed(self._grid, soil.depth, soil.pressure_ratio, soil.drained, soil.saturation)
         if self._loaded:
             checks.check_loaded_bed(self._grid, soil.pressure_ratio, soil.pressure)
         return soil._replace(drained=None if soil.drained is None else soil.drained > 0.0)
@@ -196,7 +199,7 @@ class GridReader:
         """Return the fields of the ground, unchecked; `drained` as numbers."""
         pressure = self._field(BED_PRESSURE) if self._loaded else None
         ratio, drained = self._field("bed__excess_pore_pressure_ratio"), self._field("bed__drained")
-        return Soil(self._field("soil__depth"), ratio, pressure, drained)
+        return Soil(self._field("soil__depth"), ratio, pressure, drained, self._field("bed__degree_of_saturation"))
 
     def _field(self, name):
         """Return the values of a field, sharing its memory, or None if the grid lacks the field."""
@@ -206,12 +209,13 @@ class GridReader:
         """Log doubts about the release that were not logged before; return the kinds of doubt logged.
 
         `release` is a `Release`, `soil` a `Soil`; `new_event` tells whether nothing moves; `warned` are the kinds
-        logged before, "depth", "velocity" and "nothing".
+        logged before, "depth", "velocity", "consolidation" and "nothing".
         """
         logged = ()
         found = {
             "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
             "velocity": doubts.velocity_doubts(release.velocity),
+            "consolidation": doubts.consolidation_doubts(self._grid, self._setup, release),
         }
         for kind, sentences in found.items():
             for doubt in () if kind in warned else sentences:

@@ -7,11 +7,8 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..core.structs import struct
-from ..physics.contracts import BasalState, BasalStress, Phases
+from ..physics.contracts import NOT_ASKED, BasalState, BasalStress, Phases
 from ..physics.friction.shear import THINNEST
-
-NOT_ASKED = np.zeros(1)
-"""Eroded depth that friction laws are given [m]: none of them reads it, and finding it takes time."""
 
 NO_VARIABLES = SimpleNamespace()
 

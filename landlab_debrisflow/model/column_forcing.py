@@ -11,6 +11,9 @@ from .basal import BedLoad, press_on_bed, shear_per_speed, weighing_on
 BY_EROSION = np.array([BaseContact.BY_EROSION], np.int8)
 """Contact at the base of columns where nothing is drained."""
 
+SOIL_ALONE = np.array([BaseContact.INFLOW], np.int8)
+"""The same over a bed whose stress is not that of the flow: soil brings its own pressure, and nothing else comes in."""
+
 NO_SOURCE = np.zeros(1)
 """Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
@@ -32,6 +35,8 @@ class ColumnPhysics(NamedTuple):
         Density of water over buoyant density [-].
     spacing : float
         Smaller node spacing of the raster [m].
+    contact : ndarray of int8, shape (1,)
+        Contact at the base of columns where nothing is drained, `BY_EROSION` or `SOIL_ALONE`.
     """
 
     law: ColumnLaw
@@ -40,6 +45,7 @@ class ColumnPhysics(NamedTuple):
     drained: Any
     water_to_buoyant: float
     spacing: float
+    contact: np.ndarray
 
 
 def column_state(p, which: slice) -> ColumnState:
@@ -61,11 +67,11 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
         Soil that came in [m3] and its excess pore pressure over the liquefaction value [-].
     """
     load = p.liquefaction_pressure[which]
-    bed_pressure, bases = entrained_ratio * load, BY_EROSION
+    bed_pressure, bases = entrained_ratio * load, columns.contact
     if columns.drained is not None:
         drained = columns.drained[p.nearest_node[which]]
         bed_pressure[drained] = 0.0
-        bases = np.where(drained, BaseContact.PRESCRIBED, BaseContact.BY_EROSION).astype(np.int8)
+        bases = np.where(drained, BaseContact.PRESCRIBED, columns.contact).astype(np.int8)
     return ColumnForcing(
         volume=p.volume[which],
         thickness=p.thickness[which],
@@ -102,8 +108,7 @@ def shearing_of(material, rate, load) -> Shearing:
 
 def present_profiles(p, which: slice, columns: ColumnPhysics):
     """Return the excess pore pressure of the columns of `p[which]` at levels now, (n, levels) [Pa]; change nothing."""
-    state = column_state(p, which)
-    state = ColumnState(*(None if values is None else values.copy() for values in state))
+    state = column_state(p, which).copy()
     none = np.zeros(state.clipped.size)
     columns.law.synchronise(state, column_forcing(p, which, columns, none, none))
     return state.profile

@@ -7,6 +7,7 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import kernel
 from ..core.structs import struct
+from ..physics.bed_state import SATURATED_BED, BedState
 from .basal import BasalLaw, basal_state
 
 
@@ -98,7 +99,7 @@ class Erosion(NamedTuple):
     peclet_number: np.ndarray
 
 
-def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float, dt: float):
+def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance, time: float, dt: float):
     """Take soil from the bed into the particles that are awake.
 
     Parameters
@@ -115,6 +116,8 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
         Stages of a step that depend on the number of phases.
     prescribed : ndarray of int
         Particles whose motion is prescribed: these take no soil.
+    resistance : tuple of ndarray, shape (awake,)
+        Yield stress [Pa] and drag [Pa s m-1] of the friction law in this step.
     time, dt : float
         Beginning and length of the step [s].
 
@@ -125,8 +128,7 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     """
     awake, material = slice(p.awake), erosion.material
     rate, demanded = np.zeros(p.awake), np.empty(p.awake)
-    eroded_depth = bed.eroded_in_event(p.nearest_node[awake])
-    erosion.law.entrainment_rate(basal_state(p, awake, erosion, eroded_depth=eroded_depth), rate)
+    erosion.law.entrainment_rate(_erosion_state(p, bed, erosion, resistance), rate)
     rate[prescribed] = 0.0
     phases.limit_entrainment(exchange, rate)
     np.divide(rate * p.volume[awake], p.depth[awake] * p.share[awake], out=demanded)
@@ -135,8 +137,12 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     if bed.soil is not None and demanded.any():
         footprints = bed.footprints(p)
         p.entrained_volume[awake], p.entrained_ratio[awake] = bed.erode(footprints, demanded)
+        if bed.saturation is not None:
+            dry_pores(p, bed, material)
+    # the friction of the flow already contains the momentum of soil that a jump condition gives: as if it slipped along
+    slip_ratio = 1.0 if getattr(erosion.law, "is_jump_condition", False) else material.basal_slip_ratio
     soil = Soil(
-        solid_fraction=phases.solid_fraction, slip_ratio=material.basal_slip_ratio, porosity=material.soil_porosity,
+        solid_fraction=phases.solid_fraction, slip_ratio=slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,
     )  # fmt: skip
     layer = Layer(
@@ -150,6 +156,42 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, time: float
     velocity_ratio = _mix(p.entrained_volume[awake], soil, layer, mixture, erosion_record, time, dt)
     phases.share_entrained(p, exchange)
     return velocity_ratio
+
+
+def _erosion_state(p, bed, erosion: BasalLaw, resistance):
+    """Return the base under particles awake as a law of erosion reads it, a `BasalState`; arguments as in `entrain`."""
+    awake, (yield_stress, drag) = slice(p.awake), resistance
+    nodes = p.nearest_node[awake]
+    state = basal_state(p, awake, erosion, eroded_depth=bed.eroded_in_event(nodes))
+    shear = yield_stress + drag * state.speed
+    return state._replace(stress=state.stress._replace(shear=shear), bed=_bed_state(bed, nodes))
+
+
+def _bed_state(bed, nodes) -> BedState:
+    """Return the pore water of the bed at `nodes`, an array of int of shape (n,), for laws of erosion."""
+    saturations = SATURATED_BED.saturations if bed.saturation is None else bed.saturation
+    return BedState(bed.pressure_ratio, saturations, bed.drained, nodes)
+
+
+def dry_pores(p, bed, material) -> None:
+    """Lower the pressure ratio of entrained soil by the part of its pores that holds air.
+
+    Of hydrostatic and excess pressure of the pore water a bed bears the part S, its degree of saturation (Bishop,
+    1959). Above the hydrostatic pressure of the flow this is S r_b p_liq - (1 - S) rho_w g h_n cos(theta).
+
+    Parameters
+    ----------
+    p : Particles
+        All particles; the ratio of the soil that those awake have entrained is changed [-].
+    bed : Bed
+        Ground below the flow, with a degree of saturation.
+    material : Material
+        Densities.
+    """
+    taken = np.flatnonzero(p.entrained_volume[: p.awake])
+    saturation = _bed_state(bed, p.nearest_node[taken]).degree_of_saturation
+    suction = material.bearing_density / material.buoyant_density
+    p.entrained_ratio[taken] = saturation * p.entrained_ratio[taken] - (1.0 - saturation) * suction
 
 
 @kernel

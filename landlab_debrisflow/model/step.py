@@ -25,6 +25,9 @@ STEPS_TO_SLEEP = 4
 """Number of steps without change (`kinematics.STILL`) after which a particle is left out of the sums over neighbours:
 its smoothing length has then converged."""
 
+NO_RESISTANCE = np.empty(0), np.empty(0)
+"""Yield stress and drag of no particles."""
+
 KICK, ENTRAINMENT, DRIFT, SUMMATION, COLUMNS, LIMITS = range(6)
 """Places of the stages in `diagnostics.STAGES`."""
 
@@ -36,11 +39,11 @@ def advance(simulation, dt: float) -> None:
     bed, walls, friction, erosion, columns, rule = simulation.surroundings
     material = setup.material
     clock = state.counters.clock()
-    friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
+    resistance = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, state.time + 0.5 * dt)
     clock.lap(KICK)
     prescribed = inflow.prescribed(p)
-    velocity_ratio = entrain(p, exchange, bed, erosion, phases, prescribed, state.time, dt)
+    velocity_ratio = entrain(p, exchange, bed, erosion, phases, prescribed, resistance, state.time, dt)
     clock.lap(ENTRAINMENT)
     move(p, bed, velocity_ratio, state.outflow, phases, state.time, dt)
     inflow.enter(p, bed.surface, columns, end)
@@ -61,18 +64,21 @@ def advance(simulation, dt: float) -> None:
     clock.lap(LIMITS)
 
 
-def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float) -> None:
+def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float):
     """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time).
+
+    Returned are yield stress [Pa] and drag [Pa s m-1] of the friction law, each of shape (awake,).
 
     `p` are the particles, whose velocities of the awake ones are changed [m s-1]; `exchange` is the state of the
     exchange between phases; `walls` is None where no node is closed; `dt` is in s.
     """
     if p.count == 0:  # all particles have left in this step, and the partners are still those of before
-        return
+        return NO_RESISTANCE
     yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
         stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
+    return yield_stress, drag
 
 
 def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> None:

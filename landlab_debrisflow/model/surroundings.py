@@ -9,7 +9,7 @@ from ..physics.column_contracts import is_dilatant
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
 from .basal import BasalLaw
-from .column_forcing import ColumnPhysics
+from .column_forcing import BY_EROSION, SOIL_ALONE, ColumnPhysics
 from .time_step import StepRule, viscous_share
 
 
@@ -67,13 +67,14 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         )
         for kind, law in (("friction", setup.friction), ("erosion", setup.erosion))
     )
+    contact = SOIL_ALONE if getattr(erosion.law, "is_jump_condition", False) else BY_EROSION
     water_to_buoyant = material.bearing_density / material.buoyant_density
     return Surroundings(
         bed=bed,
         walls=raster if np.any(raster.status == CLOSED) else None,
         friction=friction,
         erosion=erosion,
-        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing),
+        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing, contact),
         step_rule=StepRule(
             courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
             way=numerics.advective_courant_number * raster.spacing,

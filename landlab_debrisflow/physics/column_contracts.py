@@ -7,7 +7,7 @@ from numpy import ndarray as Array
 
 
 class BaseContact(IntEnum):
-    """Condition at the base of a column; a step is given one of the first three.
+    """Condition at the base of a column; a step is given one of the first three, or INFLOW.
 
     ================ ==================== ============================ ===========================
     contact          base of the column   pressure of incoming soil    stands for
@@ -18,7 +18,8 @@ class BaseContact(IntEnum):
     IMPERMEABLE      dp/dy = 0            that of the base: SEALED     itself
     PRESCRIBED       p of the bed         that of the bed              itself
     ERODING          p of the bed         that of the bed              itself
-    INFLOW           nothing diffuses in  that of the bed              itself
+    INFLOW           nothing diffuses in  that of the bed              itself while soil comes in,
+                                                                       IMPERMEABLE else
     SEALED           nothing diffuses in  that of the column's base    itself
     DRAINED          p = 0                0                            PRESCRIBED with 0 Pa
     ================ ==================== ============================ ===========================
@@ -53,6 +54,10 @@ class ColumnState(NamedTuple):
     memory: Array
     clipped: Array
     solid_fraction: Array | None = None
+
+    def copy(self) -> "ColumnState":
+        """Return a copy with arrays of its own."""
+        return ColumnState(*(None if array is None else array.copy() for array in self))
 
 
 class DilatantBase(NamedTuple):
@@ -99,7 +104,7 @@ class ColumnForcing(NamedTuple):
     liquefaction_pressure : ndarray, shape (n,); after the step [Pa]
     entrained : ndarray, shape (n,); volume granted by the bed in the step [m3]; > 0 means eroding
     bed_pressure : ndarray, shape (n,) or (1,); of the soil that came in, or of the bed below [Pa]
-    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE or PRESCRIBED
+    base : ndarray, shape (n,) or (1,); BaseContact (int8): BY_EROSION, IMPERMEABLE, PRESCRIBED or INFLOW
     porosity_source : ndarray, shape (n,) or (1,); pressure made by a change of porosity, at all levels [Pa s-1]
     coefficient_of_consolidation : ndarray, shape (n,) or (1,); c_v [m2 s-1]
     water_to_buoyant : float; density of water over buoyant density: lower bound of the pressure ratio [-]

@@ -7,10 +7,15 @@ the laws of other kinds in Python: no law knows another.
 
 from typing import Any, ClassVar, NamedTuple, Protocol
 
+import numpy as np
 from numpy import ndarray as Array
 
 from ..spatial.packing import Position
+from .bed_state import SATURATED_BED, BedState
 from .column_contracts import ColumnForcing
+
+NOT_ASKED = np.zeros(1)
+"""Value of a state that no law of the kind reads: finding it takes time."""
 
 
 class BasalStress(NamedTuple):
@@ -22,11 +27,13 @@ class BasalStress(NamedTuple):
     [Pa]
     liquefaction : ndarray, shape (n,); rho' g h_n cos(theta), of static gravity g [Pa]
     excess_pore_pressure : ndarray, shape (n,); p_b, above hydrostatic, at the base [Pa]
+    shear : ndarray, shape (n,); tau_b, yield stress and drag of the friction law; (1,) for friction laws [Pa]
     """
 
     effective_normal: Array
     liquefaction: Array
     excess_pore_pressure: Array
+    shear: Array = NOT_ASKED
 
 
 class BasalState(NamedTuple):
@@ -46,6 +53,7 @@ class BasalState(NamedTuple):
     variables : object; the law's own variables as attributes, (n,), written in place for the next step
     dilatancy : ndarray, shape (n,), tan(psi) at the base, whose angle psi adds to the friction angle [-]; or None if
     the column law has no dilatancy
+    bed : BedState; pore water of the bed, for erosion laws
     """
 
     depth: Array
@@ -59,6 +67,7 @@ class BasalState(NamedTuple):
     parameters: Any
     variables: Any
     dilatancy: Array | None = None
+    bed: BedState = SATURATED_BED
 
 
 class FrictionLaw(Protocol):
@@ -72,7 +81,13 @@ class FrictionLaw(Protocol):
 
 
 class ErosionLaw(Protocol):
-    """Rate at which the flow erodes the bed."""
+    """Rate at which the flow erodes the bed.
+
+    The rate of a law with ``is_jump_condition = True`` is the jump of shear stress across the base, so flow and bed
+    have a stress of their own there. The shear stress of the friction law then contains the momentum of the soil that
+    comes in, which is not taken from the flow again; and soil brings its own pressure to the column and no more
+    (INFLOW). Without that attribute it is False.
+    """
 
     def entrainment_rate(self, state: BasalState, out: Array) -> None:
         """Write the demanded erosion rate into `out`, shape (n,): bed volume per map area and time [m s-1].

@@ -7,6 +7,7 @@ import numpy as np
 from ..core.constants import GRAVITY
 from ..core.errors import ParameterError
 from ..core.parameters import declared, parameter
+from .consolidation import Consolidation
 
 
 @declared
@@ -22,6 +23,12 @@ class Material:
     (1990.0, 990.0)
     >>> Material(water_density=0.0).buoyant_density, Material(water_table_ratio=0.0).buoyant_density
     (1590.0, 1590.0)
+
+    The coefficient of consolidation may follow from permeability and stiffness; the number is kept:
+
+    >>> sand = {"permeability": 1e-10, "pore_fluid_viscosity": 0.001, "stiffness": 2.5e5}
+    >>> Material(coefficient_of_consolidation=sand).coefficient_of_consolidation  # doctest: +ELLIPSIS
+    0.025...
     """
 
     solid_density: float = parameter("kg m-3", "density of the grains", 2650.0, (1.0, 1e5))
@@ -34,9 +41,14 @@ class Material:
     basal_slip_ratio: float = parameter(
         "-", "velocity at the base over the mean; soil that comes in is sped up to the rest of it", 0.0, (0.0, 1.0)
     )
-    coefficient_of_consolidation: float = parameter("m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6))
+    coefficient_of_consolidation: float = parameter(
+        "m2 s-1", "diffusivity of excess pore pressure", 4e-4, (0.0, 1e6), derivation=Consolidation
+    )
     bed_pressure_ratio: float = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value", 0.65, (0.0, 1.0)
+    )
+    bed_degree_of_saturation: float = parameter(
+        "-", "water over pores of the bed; below 1 its pore pressure counts by this part only", 1.0, (0.0, 1.0)
     )
     bed_loading_coefficient: float = parameter(
         "-", "part of the flow's weight that pore water of the bed takes up at once; above 0 the pressure of the bed "

@@ -7,7 +7,7 @@ from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, python_value, same_word
 from ..core.values import from_mapping
 from .column import ALE, Classical, ConstantRatio, NoExcessPressure
-from .erosion import Growth, LiquefiedBed, NoErosion, ShearExcess
+from .erosion import ExcessTraction, Growth, LiquefiedBed, NoErosion, ShearExcess
 from .flow import OnePhase, TwoPhase
 from .friction import Bingham, Coulomb, HerschelBulkley, MuI, Voellmy
 
@@ -20,7 +20,13 @@ LAWS = {
         "herschel_bulkley": HerschelBulkley,
         "mu_i": MuI,
     },
-    "erosion": {"growth": Growth, "shear_excess": ShearExcess, "liquefied_bed": LiquefiedBed, "none": NoErosion},
+    "erosion": {
+        "growth": Growth,
+        "shear_excess": ShearExcess,
+        "liquefied_bed": LiquefiedBed,
+        "excess_traction": ExcessTraction,
+        "none": NoErosion,
+    },
     "column": {"ale": ALE, "classical": Classical, "constant_ratio": ConstantRatio, "none": NoExcessPressure},
 }
 """Every law by kind and name; the first of a kind is the default."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import xarray as xr
 
-from ..core.values import flat_keys_of, keys_of
+from ..core.values import flat_keys_of, from_mapping, keys_of
 from ..physics.registry import LAWS
 from ..plots.style import unit_text
 from ..run.record import RunRecord
@@ -95,8 +95,8 @@ def _block(
         source = f" Source: {entry.source}" if entry.source else ""
         note = f"{': '.join(filter(None, (entry.formula, entry.summary)))}{source}".replace("``", "")
     rows = []
-    asked = dict(_flat(asked))
-    for name, value in _flat(ran):
+    asked = dict(_flat(asked, declared))
+    for name, value in _flat(ran, declared):
         field = declared.get(name)
         meta = field.metadata if field is not None else {}
         origin = _origin(record, f"{path}.{name}", value, asked.get(name, value), field)
@@ -121,15 +121,25 @@ def _origin(record: RunRecord, key: str, value: Any, asked: Any, field: Any) -> 
 
 def _value_words(value: Any, meta: Mapping[str, Any]) -> str:
     """Return a value with its unit, if the value is a number or a list of numbers."""
+    if meta.get("derivation") and isinstance(value, Mapping):
+        return _derivation_words(value, meta)
     unit = str(meta.get("unit", "-"))
     words = isinstance(value, str | bool | dict) or (isinstance(value, list) and not isinstance(value[0], float | int))
     return plain(value) if words or unit == "-" else f"{plain(value)}{SPACE}{unit_text(unit)}".replace(f"{SPACE}°", "°")
 
 
-def _flat(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield names and values, with a dot in the names of values inside a mapping."""
+def _derivation_words(values: Mapping[str, Any], meta: Mapping[str, Any]) -> str:
+    """Return a number with the parameters that it was derived from, all with their units."""
+    declared = keys_of(meta["derivation"])
+    source = ", ".join(f"{key} {_value_words(value, declared[key].metadata)}" for key, value in values.items())
+    return f"{_value_words(from_mapping(meta['derivation'], values).value, meta)}, from {source}"
+
+
+def _flat(values: Mapping[str, Any], declared: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield names and values, with a dot in the names of values inside a mapping that stands for no number."""
     for name, value in values.items():
-        if isinstance(value, Mapping):
+        derived = name in declared and declared[name].metadata["derivation"]
+        if isinstance(value, Mapping) and not derived:
             yield from ((f"{name}.{inner}", one) for inner, one in value.items())
         else:
             yield name, value

@@ -102,7 +102,9 @@ class Forecast:
     def _outcome(self) -> list[tuple[str, str]]:
         at_least = "" if self.complete else "more than "
         end = "" if not self.complete else " until rest" if self.at_rest else " (max_duration), still moving"
-        rows = [("consolidation time T_c", _long(self.consolidation_time))]
+        ratio = self.consolidation_time / self.duration if self.duration > 0.0 else math.nan
+        times = f", {ratio:.2g} times the duration" if self.complete and math.isfinite(ratio) else ""
+        rows = [("consolidation time T_c", _long(self.consolidation_time) + times)]
         if math.isfinite(self.erosion_time):
             rows += [
                 ("erosion time T_e", _long(self.erosion_time)),

@@ -174,7 +174,7 @@ class Scene:
                 self.release_keys,
                 self._content.setup.inflow,
                 self._varying,
-                self._content.setup.material.bed_pressure_ratio,
+                self._content.setup.material,
             )
 
     @property

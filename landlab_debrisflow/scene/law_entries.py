@@ -12,6 +12,7 @@ from ..core.docstrings import allowed, default
 from ..core.values import flat_keys_of
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
+from ..physics.consolidation import Consolidation
 from ..physics.material import Material
 from ..physics.registry import LAWS
 
@@ -54,9 +55,13 @@ def law_entries(kind: str) -> list[Entry]:
 
 
 def other_entries() -> list[Entry]:
-    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow."""
+    """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow.
+
+    A parameter of the material that may be given by the parameters it follows from is among them, with a formula.
+    """
     classes = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
-    return [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
+    entries = [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
+    return [*entries, _entry("coefficient_of_consolidation", Consolidation, has_formula=True)]
 
 
 def _entry(title: str, cls: type, has_formula: bool) -> Entry:

@@ -187,6 +187,8 @@ def _forms(meta: Mapping[str, Any]) -> list[dict[str, Any]]:
     forms.insert(0, _number(meta))
     if meta["words"]:
         forms.append({"enum": list(meta["words"])})
+    if meta["derivation"]:
+        forms.append(_declared(meta["derivation"]) | {"required": list(keys_of(meta["derivation"]))})
     if meta["varies"]:
         forms += [
             {"type": "string", "pattern": NO_NUMBER},

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..core.derived_number import DerivedNumber
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean
 from ..core.names import legal_name
@@ -106,6 +107,12 @@ class Setup:
             object.__setattr__(self, name, value)
         if self.has_dilatancy:
             check_dilatancy(self.material, self.two_phases)
+        if getattr(self.erosion, "is_jump_condition", False) and getattr(self.column, "scheme", "") == "lax_wendroff":
+            raise ParameterError(
+                f"erosion: {law_name('erosion', self.erosion)} needs a column whose base keeps a pressure of its own, "
+                "got the scheme 'lax_wendroff', whose base has the pressure of the bed while soil comes in; choose the "
+                "scheme 'default' or 'upwind', or another law of erosion"
+            )
 
     @property
     def two_phases(self) -> bool:
@@ -161,7 +168,7 @@ class Setup:
 
         def values_of(kind, obj):
             values = {field.name: getattr(obj, field.name) for field in dataclasses.fields(obj)}
-            plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+            plain = {name: _plain(value) for name, value in values.items()}
             plain = {name: values_of(kind, value) if is_declared(value) else value for name, value in plain.items()}
             return {
                 name: array_of(kind, name, value) if isinstance(value, NodeValues) else value
@@ -268,6 +275,13 @@ def written_mapping(dataset: xr.Dataset) -> dict[str, Any]:
 def is_declared(obj: Any) -> bool:
     """Return whether the parameters of an object are all declared."""
     return dataclasses.is_dataclass(obj) and all("meaning" in field.metadata for field in dataclasses.fields(obj))
+
+
+def _plain(value: Any) -> Any:
+    """Return a tuple as a list, and a number that followed from other parameters as the mapping of these."""
+    if isinstance(value, DerivedNumber):
+        return dict(value.parameters)
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _variable(kind: str, name: str) -> str:

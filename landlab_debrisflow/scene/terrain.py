@@ -20,6 +20,7 @@ from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
 from ..grid.elevation_checks import HOLE, SUSPECT
 from ..model.inflow.hydrograph import Hydrograph
+from ..physics.material import Material
 from .edits import Ground, edit_ground
 from .gully import gully
 from .reach import reachable_window, starting_shapes
@@ -27,7 +28,12 @@ from .release_keys import ReleaseKeys
 from .terrain_keys import TerrainKeys
 from .zones import VECTORS, VaryingParameter, has_suffix, parameter_fields, polygons_of, zone_nodes
 
-ELEVATION, SOIL, RATIO = "topographic__elevation", "soil__depth", "bed__excess_pore_pressure_ratio"
+ELEVATION, SOIL = "topographic__elevation", "soil__depth"
+BED_FIELDS = {
+    "bed_pressure_ratio": "bed__excess_pore_pressure_ratio",
+    "bed_degree_of_saturation": "bed__degree_of_saturation",
+}
+"""Keys of the pore water of the bed, alike in the terrain, its zones and the material, and the fields for them."""
 FEW_NODES = 250_000
 """Largest number of nodes of a DEM that is taken as a whole if no window is given: a part of it would save nothing."""
 SMALLEST = 5
@@ -36,7 +42,7 @@ SMALLEST = 5
 
 def build_terrain(
     keys: TerrainKeys, folder: Path, releases: Sequence[ReleaseKeys] = (), inflow: Sequence[Hydrograph] = (),
-    parameters: Sequence[VaryingParameter] = (), bed_pressure_ratio: float = 0.0,
+    parameters: Sequence[VaryingParameter] = (), material: Material | None = None,
 ) -> xr.Dataset:  # fmt: skip
     """Return elevation, soil and varying parameters over ``y`` and ``x``, named as fields of the grid.
 
@@ -51,17 +57,17 @@ def build_terrain(
         Inflow, from which ``window: reach`` starts, too.
     parameters : sequence of VaryingParameter
         As `varying_parameters` returns them.
-
-    bed_pressure_ratio : float
-        Ratio of the material [-]: it holds outside the zones with a ratio of their own, unless the terrain gives one.
+    material : Material, optional
+        Its pore water of the bed holds outside the zones with another one, unless the terrain gives one.
 
     Returns
     -------
     xarray.Dataset
         With ``topographic__elevation`` [m], NaN where there are no data; ``soil__depth`` [m] if there is erodible soil;
-        ``bed__excess_pore_pressure_ratio`` [-] if given; a field for each of the `parameters`; and ``closed``, bool, if
-        buildings close nodes. Attributes: ``crs_wkt``, the coordinate reference system, "" if it is not known; ``dem``
-        and ``dem_sha256``, name and checksum of the file; ``notes``, remarks and doubts for the user.
+        ``bed__excess_pore_pressure_ratio`` and ``bed__degree_of_saturation`` [-] if given; a field for each of the
+        `parameters`; and ``closed``, bool, if buildings close nodes. Attributes: ``crs_wkt``, the coordinate reference
+        system, "" if it is not known; ``dem`` and ``dem_sha256``, name and checksum of the file; ``notes``, remarks and
+        doubts for the user.
 
     Raises
     ------
@@ -75,10 +81,11 @@ def build_terrain(
     _note_missing(elevation, notes)
     zones = zone_nodes(keys.zones, lattice, source.lattice, folder, notes)
     soil = _soil(keys, lattice, source, folder, zones, notes)
-    ratio = _pressure_ratio(keys, lattice, folder, zones, bed_pressure_ratio, notes)
     ground = Ground(elevation, soil, np.zeros(lattice.shape, bool), lattice)
     edit_ground(keys.edits, ground, source.lattice, folder, notes)
-    fields: dict[str, Any] = {ELEVATION: elevation, SOIL: soil, RATIO: ratio}
+    fields: dict[str, Any] = {ELEVATION: elevation, SOIL: soil}
+    for key, field in BED_FIELDS.items():
+        fields[field] = _bed_water(key, keys, lattice, folder, zones, getattr(material or Material(), key), notes)
     fields |= parameter_fields(parameters, zones, lattice, folder, notes)
     if ground.closed.any():
         fields["closed"] = ground.closed
@@ -234,20 +241,21 @@ def _soil(keys: TerrainKeys, lattice: Lattice, source: RasterSource, folder: Pat
     return soil
 
 
-def _pressure_ratio(keys: TerrainKeys, lattice: Lattice, folder: Path, zones, elsewhere: float, notes: list[str]):
-    """Return the excess pore pressure of the bed over its liquefaction value, or None if it is not given.
+def _bed_water(
+    key: str, keys: TerrainKeys, lattice: Lattice, folder: Path, zones, elsewhere: float, notes: list[str]
+):  # fmt: skip
+    """Return the values at all nodes of a `key` of `BED_FIELDS` [-], or None if neither terrain nor zone gives it.
 
     `elsewhere` is that of the material, which holds outside the zones if the terrain gives none [-].
     """
-    ratio = None
-    if keys.bed_pressure_ratio is not None:
-        value = keys.bed_pressure_ratio
-        ratio = _number_or_raster("bed_pressure_ratio", value, lattice, folder, keys.crs, notes, (0.0, 1.0), "-")
+    values, value = None, getattr(keys, key)
+    if value is not None:
+        values = _number_or_raster(key, value, lattice, folder, keys.crs, notes, (0.0, 1.0), "-")
     for zone, nodes in zip(keys.zones, zones, strict=True):
-        if zone.bed_pressure_ratio is not None:
-            ratio = np.full(lattice.shape, elsewhere) if ratio is None else ratio
-            ratio.reshape(-1)[nodes] = zone.bed_pressure_ratio
-    return ratio
+        if getattr(zone, key) is not None:
+            values = np.full(lattice.shape, elsewhere) if values is None else values
+            values.reshape(-1)[nodes] = getattr(zone, key)
+    return values
 
 
 def _number_or_raster(name: str, value, lattice: Lattice, folder: Path, crs, notes: list[str], bounds, unit: str):

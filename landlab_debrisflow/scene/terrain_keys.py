@@ -28,14 +28,19 @@ class Zone:
     bed_pressure_ratio: float | None = parameter(
         "-", "excess pore pressure of the bed over its liquefaction value, inside", None, (0.0, 1.0)
     )
+    bed_degree_of_saturation: float | None = parameter("-", "water over pores of the bed, inside", None, (0.0, 1.0))
     friction: Any = parameter("-", "parameters of the friction law inside, by name", None, kind=dict)
     erosion: Any = parameter("-", "parameters of the erosion law inside, by name", None, kind=dict)
 
     def _agree(self):
         if self.polygons is None:
             raise ParameterError("zone: polygons is missing; give a file, such as polygons: forest.gpkg")
-        if all(one is None for one in (self.soil_depth, self.bed_pressure_ratio, self.friction, self.erosion)):
-            raise ParameterError("zone: give soil_depth, bed_pressure_ratio, friction or erosion inside the polygons")
+        bed = self.soil_depth, self.bed_pressure_ratio, self.bed_degree_of_saturation
+        if all(one is None for one in (*bed, self.friction, self.erosion)):
+            raise ParameterError(
+                "zone: give soil_depth, bed_pressure_ratio, bed_degree_of_saturation, friction or erosion inside the "
+                "polygons"
+            )
 
 
 @declared
@@ -120,6 +125,9 @@ class TerrainKeys:
         "-", "excess pore pressure of the bed over its liquefaction value: a number or a raster", None, (0.0, 1.0),
         file=True,
     )  # fmt: skip
+    bed_degree_of_saturation: float | str | None = parameter(
+        "-", "water over pores of the bed: a number or a raster", None, (0.0, 1.0), file=True
+    )
     zones: Any = parameter("-", "polygons in which soil or parameters differ, the last one counts", (), items=Zone)
     edits: Any = parameter("-", "changes of the ground, in this order", (), items=Edit)
 

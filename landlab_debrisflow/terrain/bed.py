@@ -88,16 +88,18 @@ class Bed:
         Pore pressure of the bed, whose ratio `pressure_ratio` then is; it gets the load on the bed.
     earlier : ndarray, shape (nodes,), optional
         Depth eroded in earlier calls of the same event [m]; None without earlier calls.
+    saturation : ndarray, shape (nodes,) or (1,), optional
+        Degree of saturation of the pores with water [-]; None: saturated everywhere.
     """
 
     def __init__(
         self, raster: Raster, surface: Surface, elevation, soil, eroded_depth, pressure_ratio, drained=None,
-        pore_pressure=None, earlier=None,
+        pore_pressure=None, earlier=None, saturation=None,
     ):  # fmt: skip
         self.raster, self.surface, self.elevation, self.soil = raster, surface, elevation, soil
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
         self.drained, self.pore_pressure = drained, pore_pressure
-        self._earlier = earlier
+        self._earlier, self.saturation = earlier, saturation
         self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
         self.taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._cover = Cover(raster)

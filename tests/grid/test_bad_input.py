@@ -84,6 +84,13 @@ def test_a_ratio_of_the_bed_outside_0_to_1(slope, flow, value):
     assert "bed__excess_pore_pressure_ratio must lie in [0, 1]" in message and f"node {INSIDE} " in message
 
 
+@pytest.mark.parametrize("value", [-0.1, 1.1, np.nan, -9999.0])
+def test_a_degree_of_saturation_of_the_bed_outside_0_to_1(slope, flow, value):
+    slope.add_full("bed__degree_of_saturation", 0.5, at="node")[INSIDE] = value
+    message = refused(slope, flow)
+    assert "bed__degree_of_saturation must lie in [0, 1]" in message and f"node {INSIDE} " in message
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("node", "value", "words"),

@@ -82,7 +82,6 @@ def test_parameters_in_other_units(slope, said, keywords, words):
         {"erosion": {"law": "growth", "growth_rate": 0.0}},
         {"erosion": {"law": "growth", "growth_rate": 1.0}},
         {"material": {"coefficient_of_consolidation": 0.0}},
-        {"material": {"coefficient_of_consolidation": 10.0}},
         {"material": {"solid_density": 500.0, "water_density": 0.0}},
         {"material": {"solid_density": 8000.0}},
     ],
@@ -98,6 +97,75 @@ def test_a_field_of_radians_is_doubted_where_nodes_are_open(slope, built):
     slope.status_at_node[:60] = slope.BC_NODE_IS_CLOSED
     angle[60:], angle[:60] = 30.0, 0.6
     assert built(slope, friction=law) == []
+
+
+# ---- consolidation ----
+
+
+def hillside(thickness, length=20, **shape):
+    """Return a slope of 30 degrees above flat ground, with a release `thickness` m deep and `length` nodes square."""
+    grid = RasterModelGrid((length + 10, 90), **({"xy_spacing": 1.0} | shape))
+    x = grid.x_of_node - grid.xy_of_lower_left[0]
+    grid.add_field(Z, np.maximum(0.0, 0.577 * (60.0 * grid.dx - x)), at="node")
+    release = np.zeros(grid.shape)
+    release[5 : 5 + length, 5 : 5 + length] = thickness
+    grid.add_field(RELEASE, release.ravel(), at="node")
+    return grid
+
+
+def consolidation_doubt(said, grid, coefficient=None, **keywords):
+    """Return what is said of consolidation by a flow."""
+    material = {} if coefficient is None else {"coefficient_of_consolidation": coefficient}
+    material |= keywords.pop("material", {})
+    return [words for words in said(grid, material=material, **keywords) if "h2/c_v" in words]
+
+
+def test_pressure_that_is_gone_at_once_is_doubted(said):
+    """By hand: h^2/c_v = 2^2/4 = 1 s; 35 m of fall take 7.3 (32/9.81)^1/2 = 13 s, of which a tenth is more than 1 s."""
+    (words,) = consolidation_doubt(said, hillside(2.0), 4.0)
+    assert "2 m thick" in words and "h2/c_v = 1 s" in words and "13 s" in words and "gone before" in words
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "keywords",
+    [
+        {"coefficient": 2.0},  # in 2 s, more than a tenth of the event
+        {"coefficient": 12.0},  # its unit is doubted
+        {"coefficient": 4.0, "material": {"initial_pressure_ratio": 0.0}},
+        {"coefficient": 4.0, "material": {"water_density": 0.0}},
+        {"coefficient": 4.0, "column": "none"},
+        {"coefficient": 4.0, "column": "constant_ratio"},
+        {"coefficient": 4.0, "flow": "two_phase"},
+        {"coefficient": 1e-9},
+        {"coefficient": 0.0},
+    ],
+)
+def test_other_consolidation_is_not_doubted(said, keywords):
+    assert consolidation_doubt(said, hillside(2.0), **keywords) == []
+
+
+def test_the_default_is_doubted_in_a_flow_of_decimetres(said):
+    """A release as of a flume: 10 m3 of 1 m, which spread to 10^(1/3)/20 = 0.11 m, h^2/c_v = 29 s."""
+    grid = hillside(1.0, length=3, xy_spacing=1.05, xy_of_lower_left=(4e5, 5.2e6))
+    (words,) = consolidation_doubt(said, grid)
+    assert "the default" in words and "h2/c_v = 2.5e+03 s" in words and "0.11 m" in words and "within 29 s" in words
+    assert "permeability" in words
+
+
+@pytest.mark.slow
+def test_the_default_is_not_doubted_in_metres_of_debris_nor_another_value(said):
+    assert consolidation_doubt(said, hillside(2.0)) == []
+    small = hillside(1.0, length=3)
+    assert consolidation_doubt(said, small, 4.4e-2) == [] and consolidation_doubt(said, small, 4.1e-4) == []
+    assert consolidation_doubt(said, hillside(0.005, length=3)) == []  # a film
+
+
+@pytest.mark.slow
+def test_the_largest_site_counts(said):
+    grid = hillside(1.0, length=3)
+    grid.at_node[RELEASE].reshape(grid.shape)[3:10, 20:40] = 2.0
+    assert consolidation_doubt(said, grid) == []
 
 
 # ---- coordinates ----

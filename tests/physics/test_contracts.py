@@ -11,6 +11,7 @@ from landlab_debrisflow import Material, Numerics, Setup
 from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.core.errors import ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
+from landlab_debrisflow.physics.bed_state import BedState
 from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.erosion import Growth
 from landlab_debrisflow.physics.friction import Bingham, Coulomb, HerschelBulkley, Voellmy
@@ -57,9 +58,10 @@ def basal_state(count=50, seed=1, **given):
     effective = np.maximum(0.0, 990.0 * normal_gravity * thickness - pressure)
     values = {
         "depth": thickness / np.cos(slope), "thickness": thickness, "speed": 10.0 ** rng.uniform(-6.0, 2.0, count),
-        "normal_gravity": normal_gravity, "stress": BasalStress(effective, liquefaction, pressure),
-        "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count),
+        "normal_gravity": normal_gravity, "density": np.full(count, 1990.0), "eroded_depth": np.zeros(count),
+        "stress": BasalStress(effective, liquefaction, pressure, rng.uniform(0.0, 1.5, count) * effective),
         "material": Material(basal_slip_ratio=given.pop("slip_ratio", 0.0)), "parameters": None, "variables": None,
+        "bed": BedState(rng.uniform(0.0, 1.0, count), rng.uniform(0.0, 1.0, count), None, np.arange(count)),
     }  # fmt: skip
     return BasalState(**(values | given))
 

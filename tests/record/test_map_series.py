@@ -140,7 +140,7 @@ def test_maps_of_an_undone_call_are_written_anew(tmp_path):
     series, grid = MapSeries(1.0, tmp_path, ["depth"]), inclined((5, 5), 5.0, 0.0)
     for name in module.REACHED:
         grid.add_zeros(f"debris_flow__{name}", at="node")
-    series.prepare(grid, SimpleNamespace(two_phases=False, to_attributes=dict))
+    series.prepare(grid, SimpleNamespace(two_phases=False, has_dilatancy=False, to_attributes=dict))
     for time in (1.0, 2.0, 3.0, 2.0):
         series.observe(SimpleNamespace(grid=grid, elapsed_time=time))
     assert series.state()["times"].tolist() == [1.0, 2.0]

@@ -15,6 +15,9 @@ SCENE = {
     "terrain": {"example": "gully", "soil_depth": 2.0},
     "release": {"polygons": [OUTLINE], "depth": 1.5},
     "friction": {"law": "voellmy", "turbulent_coefficient": 300.0},
+    "material": {
+        "coefficient_of_consolidation": {"permeability": 2e-12, "pore_fluid_viscosity": 1e-3, "stiffness": 2e5},
+    },
     "numerics": {"particle_count": 60},
     "output": {
         "max_duration": 9.0, "interval": 3.0, "gauges": {"Müh<le": [400060, 5200157]},

@@ -60,6 +60,9 @@ def test_every_parameter_is_there_with_unit_and_whether_it_was_given(read):
     assert "Voellmy (1955); Hungr (1995)" in " ".join(read.texts("caption"))
     assert all(f" {name} " in f" {' '.join(read.texts('caption'))} " for name in ("material", "erosion:", "column:"))
     assert {row[0]: row[2] for row in read.table("numerics")}["particle_count"] == "given"
+    words, origin = {row[0]: row[1:3] for row in read.table("material")}["coefficient_of_consolidation"]
+    assert words.startswith("0.0004 m²/s, from permeability 2e-12 m²") and "stiffness 200000 Pa" in words
+    assert origin == "given"
 
 
 def test_keys_of_the_scene_are_there(read):

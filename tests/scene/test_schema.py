@@ -29,7 +29,8 @@ def whole(laws):
     """Return the mapping of a scene with every key that these laws leave room for."""
     mapping = {
         "terrain": {
-            "example": "gully", "soil_depth": 1.5, "window": [0.0, 0.0, 50.0, 50.0], "spacing": 4.0, "nodata": 0.0,
+            "example": "gully", "soil_depth": 1.5, "bed_degree_of_saturation": 0.7,
+            "window": [0.0, 0.0, 50.0, 50.0], "spacing": 4.0, "nodata": 0.0,
             "zones": [
                 {"polygons": [TRIANGLE], "soil_depth": 0.5}, {"polygons": "forest.gpkg", "bed_pressure_ratio": 0.3},
             ],

@@ -45,7 +45,13 @@ def by_yaml(mapping):
     return yaml.safe_load(yaml.safe_dump(mapping))
 
 
-@pytest.mark.parametrize("keywords", [{}, ALL_IN_IT], ids=["defaults", "everything"])
+DERIVED = {"permeability": 5e-9 / 3.0, "pore_fluid_viscosity": 0.005, "stiffness": 1.0 / 2e-6}
+
+
+@pytest.mark.parametrize(
+    "keywords", [{}, ALL_IN_IT, {"material": {"coefficient_of_consolidation": DERIVED}}],
+    ids=["defaults", "everything", "derived"],
+)  # fmt: skip
 def test_it_comes_back_from_plain_values_and_from_yaml(keywords):
     setup = Setup(**keywords)
     mapping = setup.to_mapping()

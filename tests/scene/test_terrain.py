@@ -223,6 +223,7 @@ def test_zones_change_soil_pressure_and_parameters(tmp_path):
     zones = [
         {"polygons": square(0.0, 0.0, 100.0), "friction": {"basal_friction_angle": 35}, "soil_depth": 0.5},
         {"polygons": square(50.0, 0.0, 100.0), "bed_pressure_ratio": 0.3, "erosion": {"growth_rate": 0.0}},
+        {"polygons": square(50.0, 0.0, 50.0), "bed_degree_of_saturation": 0.4},
         {"polygons": square(0.0, 50.0, 100.0), "friction": {"basal_friction_angle": 25.0}},
     ]
     made = scene(
@@ -234,6 +235,8 @@ def test_zones_change_soil_pressure_and_parameters(tmp_path):
     assert [at(terrain, "soil__depth", *xy) for xy in ((20.0, 20.0), (140.0, 20.0))] == [0.5, 1.0]
     ratio = terrain["bed__excess_pore_pressure_ratio"]
     assert np.count_nonzero(ratio == 0.3) == 400 and np.count_nonzero(ratio == 0.65) == ratio.size - 400
+    wet = terrain["bed__degree_of_saturation"]
+    assert np.count_nonzero(wet == 0.4) == 100 and np.count_nonzero(wet == 1.0) == wet.size - 100
     told = scene(tmp_path, soil_depth=1.0, bed_pressure_ratio=0.2, zones=zones).terrain
     assert at(told, "bed__excess_pore_pressure_ratio", 20.0, 20.0) == 0.2 and told.attrs["notes"] == []
     assert (
@@ -289,7 +292,7 @@ def test_parameters_as_rasters(tmp_path):
         ({"friction": {"basal_friction_angle": "high"}}, "must be a number"),
         ({"friction": 35}, "a mapping of words"),
         ({"soil_depth": -1.0}, r"soil_depth must lie in \[0, inf\] m"),
-        ({}, "give soil_depth, bed_pressure_ratio, friction or erosion"),
+        ({}, "give soil_depth, bed_pressure_ratio, bed_degree_of_saturation, friction or erosion"),
         ({"soil": 1.0}, "unknown key 'soil'"),
     ],
 )

@@ -24,9 +24,11 @@ CHOICES = (
     "published value",
     "derived",
     "earlier set",
+    "fitted",
     "numerics",
 )
-"""Ways to choose a value. Centres are recomputed from the range; a derived value follows from others of the set."""
+"""Ways to choose a value. Centres are recomputed from the range; a ``derived`` value follows from others of the set;
+``fitted`` is to this event, and no forecast; ``numerics`` is no physics."""
 ROUNDING = 0.06
 """Relative distance from the centre of a range that rounding of a value may cause, such as .39 to .4."""
 

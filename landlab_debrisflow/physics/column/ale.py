@@ -8,7 +8,7 @@ from ...core.variables import Variable
 from ..column_contracts import ColumnForcing, ColumnState, DilatantBase
 from .consolidating import Consolidating
 from .dilatancy import Dilatancy
-from .schemes.dilatant import DILATANCY, COEFFICIENT, FLUID, SIZE, advance_dilatant
+from .schemes.dilatant import COEFFICIENT, DILATANCY, FLUID, SIZE, advance_dilatant
 
 SOLID_FRACTION = Variable("solid_fraction", "-", "volume fraction of the grains in the column", per_level=True)
 

@@ -148,7 +148,7 @@ class Columns:
 
     def synchronised(self) -> ColumnState:
         """Return a copy of the columns as pressures at levels; the columns themselves are left alone."""
-        state = ColumnState(*(array.copy() for array in self.state))
+        state = self.state.copy()
         self.law.synchronise(state, self.forcing._replace(entrained=np.zeros_like(self.basal_pressure)))
         return state
 

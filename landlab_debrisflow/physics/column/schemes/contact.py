@@ -31,4 +31,4 @@ def contact_of(base, entrained, flux):
         return IMPERMEABLE
     if base == IMPERMEABLE:
         return SEALED
-    return INFLOW if flux else ERODING
+    return INFLOW if flux or base == INFLOW else ERODING

@@ -152,7 +152,10 @@ def _take_in(work, rest, load, bed, contact, soil):
             elif row == 0:
                 work[row, j] = interpolate(old, ratios, cells, min(j * pull, float(cells)))
             else:
-                work[row, j] = cubic_between(old, cells, min(j * pull, float(cells)))
+                place = min(j * pull, float(cells))
+                low = min(int(place), cells - 1)
+                value = cubic_between(old, cells, low, place)
+                work[row, j] = min(max(value, min(old[low], old[low + 1])), max(old[low], old[low + 1]))
     if contact >= INFLOW:
         new = min(1.0, 2.0 * cells * (1.0 - rest))
         work[0, cells] = base_stress + new * (entry - base_stress)

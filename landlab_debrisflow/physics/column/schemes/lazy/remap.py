@@ -11,28 +11,25 @@ from .....core.jit import inner
 
 
 @inner
-def cubic_between(values, cells, position):
-    """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
+def cubic_between(values, cells, low, position):
+    """Return the cubic through four of ``values`` around ``position``, which lies between the levels `low` and next.
 
     `values`, shape (levels,), are at levels from the surface downwards; `cells` is the number of levels less 1;
     `position` is the depth below the surface in cells [-].
     """
-    low = min(int(position), cells - 1)
     if cells < 3:
-        cubic = values[low] + (position - low) * (values[low + 1] - values[low])
-    else:
-        first = min(max(low - 1, 0), cells - 3)
-        x = position - first
-        cubic = 0.5 * (
-            (x - 2.0) * (x - 3.0) * (x * values[first + 1] - (x - 1.0) / 3.0 * values[first])
-            + x * (x - 1.0) * ((x - 2.0) / 3.0 * values[first + 3] - (x - 3.0) * values[first + 2])
-        )
-    return min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
+        return values[low] + (position - low) * (values[low + 1] - values[low])
+    first = min(max(low - 1, 0), cells - 3)
+    x = position - first
+    return 0.5 * (
+        (x - 2.0) * (x - 3.0) * (x * values[first + 1] - (x - 1.0) / 3.0 * values[first])
+        + x * (x - 1.0) * ((x - 2.0) / 3.0 * values[first + 3] - (x - 3.0) * values[first + 2])
+    )
 
 
 @inner
 def interpolate(values, ratios, cells, position):
-    """Return the value of `cubic_between` at ``position``, clipped between lines through the surface, too.
+    """Return the cubic through four of ``values``, clipped to the two that enclose ``position``.
 
     `values`, shape (levels,), are effective stresses from the surface downwards [Pa], `ratios` the same over their
     depth in cells; `cells` is the number of levels less 1; `position` is the depth below the surface in cells [-].
@@ -41,7 +38,8 @@ def interpolate(values, ratios, cells, position):
     the next two).
     """
     low = min(int(position), cells - 1)
-    cubic = cubic_between(values, cells, position)
+    cubic = cubic_between(values, cells, low, position)
+    cubic = min(max(cubic, min(values[low], values[low + 1])), max(values[low], values[low + 1]))
     one, other = ratios[max(low, 1)], ratios[low + 1 if low > 0 else 2]
     return min(max(cubic, min(one, other) * position), max(one, other) * position)
 
