@@ -19,12 +19,13 @@ SHIFTS = {"east": (0.5, 0.0), "west": (-0.5, 0.0), "north": (0.0, 0.5), "south":
 def main() -> None:
     """Run the family and the shifted releases."""
     parser = argparse.ArgumentParser(prog="python -m validation.events.olivares", description=__doc__.splitlines()[0])
+    parser.add_argument("--choice", action="store_true", help="only the choice of sets")
     parser.add_argument("--shifts", action="store_true", help="only the shifted releases")
     options = parser.parse_args()
-    centre = EVENT.read_set()
-    if not options.shifts:
+    both, centre = options.choice == options.shifts, EVENT.read_set()
+    if options.choice or both:
         run_family(read_observed(), centre, MEMBER_PARTICLES, EVENT.particle_count, print)
-    for words, shift in SHIFTS.items():
+    for words, shift in SHIFTS.items() if options.shifts or both else ():
         result = run_flows(centre, EVENT.particle_count, shift)
         shifted = replace(centre, change=f"release half a cell to the {words}")
         add_scores(EVENT, shifted, EVENT.particle_count, score(result), references(result))
