@@ -13,7 +13,7 @@ from .setup import read_observed, run_flows
 
 MEMBER_PARTICLES = 1000
 """Of the runs by which a set is chosen; the chosen one is scored with the number of the event."""
-SHIFTS = {"east": (0.5, 0.0), "west": (-0.5, 0.0), "north": (0.0, 0.5), "south": (0.0, -0.5)}
+SHIFTS = {"east": (0.5, 0.0), "north": (0.0, 0.5), "west": (-0.5, 0.0), "south": (0.0, -0.5)}
 
 
 def main() -> None:
