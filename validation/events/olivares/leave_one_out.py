@@ -106,6 +106,14 @@ def chosen_measures() -> dict[int, dict[str, float]]:
     return {row["flow"]: row["measures"] for row in read()["chosen"]}
 
 
+def best_measures() -> dict[int, dict[str, float]]:
+    """Return the measures of every flow with the member that suits itself best; empty before the first run."""
+    rows = read()["members"]
+    if len(rows) < 3 ** len(FAMILY):
+        return {}
+    return {flow: max((row["flows"][str(flow)] for row in rows), key=lambda found: found["iou"]) for flow in FLOWS}
+
+
 def _write(rows: list[dict], chosen: list[dict]) -> None:
     lists = [
         f'"{name}": [\n  ' + ",\n  ".join(json.dumps(_rounded(row)) for row in each) + "\n ]"
