@@ -2,16 +2,19 @@
 
 from .runs import Run
 from .scenes import NINE
-from .seeds import FIT, HELD_OUT
+from .seeds import DILATANT, FIT, HELD_OUT
 
 TRUTH, FULL = 16000, 8000
 """Particles of the run that counts as truth, and of the one over which costs are; both with the default steps."""
 
-SETS = {"nine": list(NINE), "fit": [f"r{seed}" for seed in FIT], "held-out": [f"r{seed}" for seed in HELD_OUT]}
+SETS = {
+    "nine": list(NINE), "fit": [f"r{seed}" for seed in FIT], "held-out": [f"r{seed}" for seed in HELD_OUT],
+    "dilatant": ["loose debris", *(f"r{seed}" for seed in DILATANT)],
+}  # fmt: skip
 """Sets of scenes by name."""
 
 FAST = (250, 500, 1000, 2000, 4000, 8000)
-DEFAULT = (500, 1000, 2000, 4000, FULL, TRUTH)  # convergence; of scenes that are held out the last two only
+DEFAULT = (500, 1000, 2000, 4000, FULL, TRUTH)  # convergence; of scenes that fit nothing the last two only
 BEFORE = (500, 1000, 2000, FULL)
 COARSE = (500, 1000)
 """Particles of the runs with fast steps, with the default ones, of an engine before a change, and on every second
@@ -28,8 +31,9 @@ def runs_of(scene: str, label: str, short: bool = False) -> list[Run]:
         return [Run(label, scene, count) for count in BEFORE]
     runs = [Run(label, scene, count, "fast") for count in FAST]
     runs += [Run(label, scene, count, "fast+coarse") for count in COARSE]
-    runs += [Run(label, scene, count) for count in (DEFAULT if scene not in SETS["held-out"] else (FULL, TRUTH))]
-    if scene not in SETS["held-out"]:
+    unseen = scene in SETS["held-out"] or scene in SETS["dilatant"]
+    runs += [Run(label, scene, count) for count in ((FULL, TRUTH) if unseen else DEFAULT)]
+    if not unseen:
         runs.append(Run(label, scene, PHYSICS_PARTICLES, "fastest"))
     if scene in NINE:
         runs += [Run(label, scene, PHYSICS_PARTICLES, word) for word in PHYSICS]

@@ -1,4 +1,4 @@
-"""Seeds of the random scenes: those to which constants are fitted, and those that are held out.
+"""Seeds of the random scenes: those to which constants are fitted, those that are held out, those with dilatancy.
 
 A draw of a seed is taken if a run of it with 150 particles
 
@@ -11,10 +11,12 @@ draw was taken was so found with the version before any change of the engine tha
 """
 
 import json
+from functools import partial
 from pathlib import Path
 
 FIT = range(1, 71)
 HELD_OUT = range(1001, 1131)
+DILATANT = range(2001, 2013)
 
 PARTICLES = 150
 MOST_DRAWS = 50
@@ -42,16 +44,26 @@ def reason_against(result: dict, spacing: float, two_phases: bool) -> str:
     return "long" if result["steps"] > (250 if two_phases else 450) else ""
 
 
+def function_of(seed: int):
+    """Return the function of seed and draw that makes a scene."""
+    if seed in DILATANT:
+        from .dilatant import dilatant_scene
+
+        return dilatant_scene
+    from .generator import random_scene
+
+    return random_scene
+
+
 def take_draws(seeds, report=print) -> dict[int, int]:
     """Return the first draw that is taken of each seed; `report` is told of each draw that is not."""
-    from .generator import random_scene
     from .measure import measure
 
     taken = {}
     for seed in seeds:
         for draw in range(MOST_DRAWS):
-            scene = random_scene(seed, draw)
-            result = measure(lambda seed=seed, draw=draw: random_scene(seed, draw), PARTICLES)
+            make = partial(function_of(seed), seed, draw)
+            scene, result = make(), measure(make, PARTICLES)
             reason = reason_against(result, scene.grid.dx, scene.keywords["flow"] == "two_phase")
             if not reason:
                 taken[seed] = draw

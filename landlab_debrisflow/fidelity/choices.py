@@ -10,8 +10,10 @@ import numpy as np
 from ..model.numerics import PRESETS, Numerics
 from ..physics.column.ale import ALE
 from ..physics.column.none import NoExcessPressure
+from ..physics.column_contracts import is_dilatant
 from ..physics.erosion import NoErosion
 from ..physics.registry import law_name
+from ..scene.setup import Setup
 from .constants import (
     FAST_TOLERANCE,
     FINE_COLUMN_RATIO,
@@ -23,7 +25,7 @@ from .constants import (
 )
 from .event import Event
 
-BED_RATIO = "bed__excess_pore_pressure_ratio"
+BED_RATIO, SATURATION = "bed__excess_pore_pressure_ratio", "bed__degree_of_saturation"
 
 
 class Choice(NamedTuple):
@@ -80,7 +82,7 @@ def steps_words(numerics: Numerics) -> str:
 
 
 def has_pressure(event: Event) -> bool:
-    """Return whether body, inflow or a bed that may erode bring excess pore pressure."""
+    """Return whether body, inflow or a bed that may erode bring excess pore pressure, or suction."""
     setup, at = event.setup, event.grid.at_node
     material = setup.material
     if material.bearing_density == 0.0:
@@ -90,7 +92,9 @@ def has_pressure(event: Event) -> bool:
     inflow = any(line.pressure_ratio is not None and any(line.pressure_ratio) for line in setup.inflow)
     ratio = at[BED_RATIO] if BED_RATIO in at else None  # noqa: SIM401  (Landlab's get finds nothing)
     wet = material.bed_pressure_ratio > 0.0 if ratio is None else bool(np.any(np.asarray(ratio) > 0.0))
-    return bool(body or inflow or (erodes(event) and (wet or material.bed_loading_coefficient > 0.0)))
+    saturation = at[SATURATION] if SATURATION in at else material.bed_degree_of_saturation  # noqa: SIM401
+    bed = wet or material.bed_loading_coefficient > 0.0 or bool(np.any(np.asarray(saturation) < 1.0))
+    return bool(body or inflow or (erodes(event) and bed))
 
 
 def erodes(event: Event) -> bool:
@@ -136,14 +140,58 @@ def choose_column(event: Event, time_ratio: float, hold: Collection[str]) -> Cho
 
 
 def column_words(law: Any) -> str:
-    """Return the name of a column law with its levels."""
+    """Return the name of a column law with its levels, and whether it has dilatancy."""
     name = law_name("column", law).split(".")[-1]
-    return f"{name} with {law.levels} levels" if "levels" in getattr(law, "__dataclass_fields__", {}) else name
+    details = ["dilatancy"] if is_dilatant(law) else []
+    if "levels" in getattr(law, "__dataclass_fields__", {}):
+        details.append(f"{law.levels} levels")
+    return f"{name} with {' and '.join(details)}" if details else name
 
 
 def consolidation_ratio(thickness: float, coefficient: float, duration: float) -> float:
     """Return T_c/T: thickness squared [m2] over coefficient of consolidation [m2 s-1] and duration [s], no unit."""
     return thickness**2 / (coefficient * duration) if coefficient * duration > 0.0 else math.inf
+
+
+def start_coefficient(setup: Setup, thickness: float) -> float:
+    """Return the coefficient of consolidation of the material, with dilatancy that of the start [m2 s-1].
+
+    Parameters
+    ----------
+    setup : Setup
+    thickness : float
+        Thickness of the flow [m]; with dilatancy the coefficient is that under half its load.
+
+    Returns
+    -------
+    float
+    """
+    material = setup.material
+    if not is_dilatant(setup.column):
+        return float(material.coefficient_of_consolidation)
+    stress = 0.5 * material.buoyant_density * material.gravity * thickness
+    return float(setup.column.dilatancy.coefficient_of_consolidation(1.0 - material.porosity, stress))
+
+
+def relaxation_time(setup: Setup, coefficient: float) -> float:
+    """Return the relaxation time of the velocity between grains and water [s].
+
+    Parameters
+    ----------
+    setup : Setup
+    coefficient : float
+        Coefficient of consolidation [m2 s-1]. It does not count with dilatancy, which has a permeability.
+
+    Returns
+    -------
+    float
+    """
+    if not is_dilatant(setup.column):
+        return coefficient / STIFFNESS
+    material = setup.material
+    grains, water = (1.0 - material.porosity) * material.solid_density, material.porosity * material.water_density
+    conductivity = setup.column.dilatancy.conductivity(1.0 - material.porosity)
+    return float(grains * water / (grains + water) * conductivity / material.porosity**2)
 
 
 def phase_warning(event: Event, thickness: float, coefficient: float) -> tuple[float, str]:
@@ -167,7 +215,7 @@ def phase_warning(event: Event, thickness: float, coefficient: float) -> tuple[f
     setup = event.setup
     if not thickness > 0.0 or setup.material.bearing_density == 0.0:
         return 0.0, ""
-    ratio = coefficient / STIFFNESS * math.sqrt(setup.material.gravity / thickness)
+    ratio = relaxation_time(setup, coefficient) * math.sqrt(setup.material.gravity / thickness)
     if ratio <= PHASE_RATIO:
         return ratio, ""
     bed = "; with an eroding bed they differ in any case" if erodes(event) else ""

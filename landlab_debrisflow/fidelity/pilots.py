@@ -12,6 +12,7 @@ import numpy as np
 
 from ..core.compilations import compilations
 from ..scene.setup import Setup
+from .choices import start_coefficient
 from .cost import Cost
 from .event import Event, origin, with_count
 from .quantities import CREEP_LEVELS, Decay, quantities
@@ -108,16 +109,19 @@ def measure_pilot(event: Event, setup: Setup, count: int) -> MeasuredPilot:
     return MeasuredPilot(
         quantities=found, creep=creep, creep_level=level,
         cost=Cost(steps, math.nan if compiled else run.seconds), at_rest=run.flow.at_rest,
-        coefficient_of_consolidation=_coefficient(run.flow), outflow=_outflow(run.flow.budget),
+        coefficient_of_consolidation=_coefficient(run.flow, found["mean_depth"]), outflow=_outflow(run.flow.budget),
     )  # fmt: skip
 
 
-def _coefficient(flow: Any) -> float:
-    """Return the median coefficient of consolidation of the particles, or of the material if all left [m2 s-1]."""
+def _coefficient(flow: Any, depth: float) -> float:
+    """Return the median coefficient of consolidation of the particles, or that of the start if all left [m2 s-1].
+
+    `depth` is the mean peak depth of the flow [m].
+    """
     times, thickness = flow.columns.consolidation_time.values, flow.particles.thickness.values
     known = np.isfinite(times) & (times > 0.0)
     if not known.any():
-        return float(flow.setup.material.coefficient_of_consolidation)
+        return start_coefficient(flow.setup, depth)
     return float(np.median(thickness[known] ** 2 / times[known]))
 
 

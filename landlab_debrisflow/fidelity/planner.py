@@ -11,7 +11,7 @@ from ..core.errors import InputError
 from ..core.words import grouped
 from ..grid.release import RELEASE_DEPTH
 from ..scene.setup import Setup
-from .choices import Choice, choose_column, choose_steps, consolidation_ratio, phase_warning
+from .choices import Choice, choose_column, choose_steps, consolidation_ratio, phase_warning, start_coefficient
 from .constants import NOTABLE_OUTFLOW, PILOTS
 from .cost import Cost, forecast_cost
 from .errors import count_asked, errors_with, next_count, stated_errors
@@ -113,13 +113,13 @@ def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, Mea
 
 def _guessed_ratio(event: Event) -> float:
     """Return T_c/T from the release, as if it fell freely over the whole relief [-]."""
-    material, depth = event.setup.material, event.release_depth
+    depth = event.release_depth
     elevation = event.grid.at_node["topographic__elevation"][event.grid.status_at_node == 0]
     thickness = float(depth[depth > 0.0].mean()) if depth.any() else max(
         line.largest_thickness for line in event.setup.inflow
     )  # fmt: skip
-    duration = math.sqrt(2.0 * max(np.ptp(elevation), thickness) / material.gravity)
-    return consolidation_ratio(thickness, material.coefficient_of_consolidation, duration)
+    duration = math.sqrt(2.0 * max(np.ptp(elevation), thickness) / event.setup.material.gravity)
+    return consolidation_ratio(thickness, start_coefficient(event.setup, thickness), duration)
 
 
 def _measured_ratio(pilot: MeasuredPilot) -> float:

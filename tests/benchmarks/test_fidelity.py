@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from landlab import RasterModelGrid
 
-from benchmarks.fidelity import fit, presets, replay, runs, score
+from benchmarks.fidelity import fit, presets, repeat, replay, runs, score
 from benchmarks.fidelity.campaign import SETS, campaign, runs_of
+from benchmarks.fidelity.dilatant import dilatant_scene
 from benchmarks.fidelity.generator import random_scene
 from benchmarks.fidelity.measure import measure, quantities
-from benchmarks.fidelity.scenes import NINE, Scene, maker
-from benchmarks.fidelity.seeds import DRAWS, FIT, HELD_OUT, reason_against
+from benchmarks.fidelity.scenes import NAMED, NINE, Scene, maker
+from benchmarks.fidelity.seeds import DILATANT, DRAWS, FIT, HELD_OUT, reason_against
 from benchmarks.fidelity.variations import vary
-from landlab_debrisflow import DebrisFlow
+from landlab_debrisflow import DebrisFlow, Setup
 
 
 def small_scene():
@@ -27,9 +28,9 @@ def small_scene():
 
 def test_sets_are_large_apart_and_drawn():
     assert len(FIT) >= 60 and len(HELD_OUT) >= 120 and not set(FIT) & set(HELD_OUT)
-    assert set(DRAWS) == {*FIT, *HELD_OUT}
+    assert set(DRAWS) == {*FIT, *HELD_OUT, *DILATANT}
     assert len(NINE) == 9
-    assert len(set(campaign("x", [name for names in SETS.values() for name in names]))) == 70 * 15 + 130 * 10 + 9 * 20
+    assert len(set(campaign("x", [name for names in SETS.values() for name in names]))) == 70 * 15 + 130 * 10 + 9 * 20 + 13 * 10
 
 
 def test_a_seed_makes_the_same_scene_again():
@@ -40,11 +41,18 @@ def test_a_seed_makes_the_same_scene_again():
         np.testing.assert_array_equal(one.grid.at_node[name], other.grid.at_node[name])
 
 
-@pytest.mark.parametrize("seed", [7, pytest.param(1007, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [7, 2002, pytest.param(1007, marks=pytest.mark.slow)])
 def test_scenes_are_accepted_and_release_what_lies_inside(seed):
     scene = maker(f"r{seed}")()
     DebrisFlow(scene.grid, **scene.keywords, numerics={"particle_count": 100})
     assert 30.0 <= scene.max_duration <= 400.0
+
+
+def test_scenes_with_dilatancy_say_so():
+    for scene in (dilatant_scene(2001), NAMED["loose debris"]()):
+        setup = Setup(**scene.keywords)
+        assert setup.has_dilatancy and not setup.two_phases and setup.material.water_table_ratio == 1.0
+    assert dilatant_scene(2001).keywords == dilatant_scene(2001).keywords != dilatant_scene(2001, draw=1).keywords
 
 
 def test_draws_are_refused_for_what_a_coarse_run_says():
@@ -154,3 +162,14 @@ def test_presets_are_compared_with_standard_steps(capsys):
     presets.print_presets({"r1": made, "r2": {}}, ["r1", "r2"])
     shown = capsys.readouterr().out
     assert "1 scenes" in shown and "0.50" in shown and "0.25" in shown and "3.0 / 3.0 / 3.0" in shown
+
+
+def test_kept_runs_are_repeated_to_every_digit(capsys):
+    made = {runs.Run("x", "r1", count): {"area": 1.0, "steps": 9, "seconds": 3.0} for count in (500, 1000, 2000)}
+    drawn = repeat.draw_runs(made, ["r1"], 9, seed=1)
+    assert {run.particles for run in drawn} == {500, 1000}
+    assert repeat.print_repeated(made, drawn, lambda run: made[run] | {"seconds": 5.0})
+    assert not repeat.print_repeated(made, drawn[:1], lambda run: made[run] | {"area": 1.00001})
+    assert not repeat.print_repeated(made, drawn[:1], lambda run: {"failure": "broken"})
+    shown = capsys.readouterr().out
+    assert "2 of 2 runs are equal" in shown and "area 1.0 now 1.00001" in shown and "failure None now broken" in shown

@@ -8,15 +8,19 @@ from landlab_debrisflow import Hydrograph, Numerics, Setup
 from landlab_debrisflow.fidelity.choices import (
     choose_column,
     choose_steps,
+    column_words,
     consolidation_ratio,
     has_pressure,
     phase_warning,
+    start_coefficient,
 )
 from landlab_debrisflow.fidelity.event import Event
 from landlab_debrisflow.laws import ALE, NoExcessPressure
 
 from .valleys import flow_on, valley
 
+DILATANT = {"law": "ale", "dilatancy": {"permeability": 1e-8}}
+OWN = Setup(column=DILATANT).column
 NO_PRESSURE = {"initial_pressure_ratio": 0.0, "bed_pressure_ratio": 0.0}
 
 
@@ -45,6 +49,8 @@ def event(grid=None, **keywords):
         ({"material": {"water_table_ratio": 0.0}}, 100.0, (), NoExcessPressure(), "there is no pore water"),
         ({"column": {"law": "ale", "levels": 7}}, 100.0, ("deposit",), ALE(levels=7), "your own choice"),
         ({"column": "none"}, 100.0, ("deposit",), NoExcessPressure(), "your own choice"),
+        ({"column": DILATANT}, 100.0, ("deposit",), OWN, "your own choice"),
+        ({"column": DILATANT, "material": NO_PRESSURE}, 1e-4, (), OWN, "your own choice"),
     ],
 )
 def test_columns(keywords, ratio, hold, column, words):
@@ -65,6 +71,8 @@ def test_where_pressure_comes_from():
     assert not has_pressure(event(grid, material=dry_body))
     grid.at_node["bed__excess_pore_pressure_ratio"][7] = 0.1
     assert has_pressure(event(grid, material=NO_PRESSURE))
+    assert not has_pressure(event(material=NO_PRESSURE))
+    assert has_pressure(event(material=NO_PRESSURE | {"bed_degree_of_saturation": 0.9}))  # suction of pores with air
     surge = {
         "line_start": (1010.0, 2020.0),
         "line_end": (1010.0, 2050.0),
@@ -107,3 +115,25 @@ def test_phases_differ_where_grains_and_water_move_apart():
     assert "one phase, as you chose" in warning and "eroding bed" in warning
     assert "two phases" in phase_warning(event(flow="two_phase", erosion="none"), 2.0, 4.0)[1]
     assert phase_warning(event(material={"water_density": 0.0}), 2.0, 4.0) == (0.0, "")
+
+
+def test_words_tell_dilatancy():
+    assert column_words(ALE()) == "ale with 11 levels"
+    assert column_words(OWN) == "ale with dilatancy and 11 levels"
+
+
+def test_debris_with_dilatancy_begins_with_its_own_coefficient():
+    """Half the load of 2 m with the default material: 990 * 9.81 Pa; k_w = 1e-8/5e-3 m2 Pa-1 s-1 at m = 0.6."""
+    assert start_coefficient(Setup(), 2.0) == 4e-4
+    found = start_coefficient(Setup(column=DILATANT), 2.0)
+    assert found == pytest.approx(2e-6 * 0.6 * (990.0 * 9.81 + 1000.0) / 0.017, rel=1e-12)
+
+
+def test_with_dilatancy_permeability_tells_how_far_grains_and_water_move_apart():
+    """The default stiffness 2.5e5 Pa is a coefficient of 0.5 m2/s with k_w = 2e-6: the number does not count."""
+    usual, _ = phase_warning(event(), 2.0, 0.5)
+    for coefficient in (0.5, 5.0):
+        ratio, warning = phase_warning(event(column=DILATANT), 2.0, coefficient)
+        assert ratio == pytest.approx(usual, rel=2e-2) and warning == ""
+    coarse = {"law": "ale", "dilatancy": {"permeability": 1e-7}}
+    assert "one phase, as you chose" in phase_warning(event(column=coarse), 2.0, 0.5)[1]

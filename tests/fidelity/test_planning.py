@@ -309,3 +309,18 @@ def test_digests_of_the_ground():
     assert event_of_grid(grid, flow.setup, 1.0, DebrisFlow).ground_digest() == digest
     grid.at_node["bed__drained"][3] = 1.0
     assert event_of_grid(grid, flow.setup, 1.0, DebrisFlow).ground_digest() != digest
+
+
+@pytest.mark.slow
+def test_a_plan_keeps_dilatancy():
+    column = {"law": "ale", "levels": 7, "dilatancy": {"permeability": 1e-10, "critical_solid_fraction": 0.62}}
+    flow = flow_on(valley(), column=column, friction="coulomb", material={"initial_pressure_ratio": 0.0})
+    own = flow.setup.column
+    plan = flow.plan(**EASY, max_duration=SHORT, raster=False)
+    assert plan.column == own and "ale with dilatancy and 7 levels (your own choice)" in str(plan)
+    again = Plan.from_mapping(json.loads(json.dumps(plan.to_mapping())), flow.setup)
+    assert again == plan and again.column == own
+    flow.adopt(plan)
+    flow.run_until_rest(SHORT)
+    assert flow.setup.column == own and "ale with dilatancy and 7 levels" in str(flow.report())
+    assert "debris_flow__solid_fraction" in flow.maps

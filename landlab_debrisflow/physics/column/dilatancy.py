@@ -88,6 +88,11 @@ class Dilatancy:
             compressibility=self.compressibility, reference_stress=self.reference_stress,
         )  # fmt: skip
 
+    def conductivity(self, solid_fraction):
+        """Return k_w = k exp((0.6 - m)/0.04)/mu, of the shape of `solid_fraction` m [-], in m2 Pa-1 s-1."""
+        relative = np.exp((REFERENCE_FRACTION - solid_fraction) / PERMEABILITY_RANGE)
+        return self.permeability / self.pore_fluid_viscosity * relative
+
     def coefficient_of_consolidation(self, solid_fraction, effective_stress):
         """Return c_v = k_w m (sigma' + sigma_0)/a of debris in some state.
 
@@ -110,8 +115,7 @@ class Dilatancy:
         >>> float(Dilatancy().coefficient_of_consolidation(0.62, 1000.0).round(3))
         0.044
         """
-        conductivity = self.permeability / self.pore_fluid_viscosity
-        conductivity = conductivity * np.exp((REFERENCE_FRACTION - solid_fraction) / PERMEABILITY_RANGE)
+        conductivity = self.conductivity(solid_fraction)
         return conductivity * solid_fraction * (effective_stress + self.reference_stress) / self.compressibility
 
 
