@@ -232,8 +232,8 @@ def s1000() -> str:
 
 
 SOURCES = (
-    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "flow_stability", "speed", "key_figures",
-    "s1000", "tsing_shan", "when_ale_matters",
+    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
+    "speed", "key_figures", "s1000", "tsing_shan", "when_ale_matters",
 )  # fmt: skip
 
 
@@ -260,7 +260,7 @@ def paper_speed() -> str:
         one = pairs["farther"]
         rows.append([
             resistance, f"{one['speed']:.1f}", f"{one['Pe_b']:.0f}, {pairs['fast']['Pe_b']:.2g}",
-            *(f"{pair['farther']:+.0f}" for pair in pairs.values()),
+            *(f"{round(pair['farther'])}" for pair in pairs.values()),
             f"{one['ALE']:.0f}", f"{one['deposit ALE']:.2f}, {one['deposit classical']:.2f}", f"{one['angle']:.1f}",
         ])  # fmt: skip
     for name in speeds.DILATANCY:
@@ -270,9 +270,9 @@ def paper_speed() -> str:
             f"{row['ALE']:.0f}", f"{row['deposit ALE']:.2f}", f"{row['angle']:.1f}",
         ])  # fmt: skip
     heads = (
-        "resistance", "speed [m/s]", "Pe_b: c_v = 4e-4, 0.4", "ALE farther [m]", "the same, valley moved",
-        "plain of 10°", "proportional", "no loading", "c_v = 0.4", "c_v = 0.4, plain of 10°", "ALE beyond [m]",
-        "mean deposit: ALE, classical [m]", "travel angle [°]",
+        "resistance", "speed [m/s]", "Pe_b, with c_v = 0.4", "ALE farther [m]", "valley moved", "plain of 10°",
+        "proportional", "no loading", "c_v = 0.4", "both: 0.4, 10°", "ALE beyond [m]", "deposit: ALE, classical [m]",
+        "travel angle [°]",
     )  # fmt: skip
     return table(heads, rows)
 

@@ -1,7 +1,8 @@
 """Run and score measured events: ``python -m validation.events [EVENT ...]``, all of them by default.
 
-Prints the scores and appends them to scores.json of the event. With the set and the number of particles that are
-shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s figures`` draws the figures.
+Prints the scores and the targets of the set that is shown, and appends the scores to scores.json of the event. With the
+set and the number of particles that are shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s
+figures`` draws the figures.
 """
 
 import argparse
@@ -47,6 +48,7 @@ def run_event(event: Event, options: argparse.Namespace, console: Console) -> No
             columns[words] = run_and_record(event, changed, number)
             console.print(f"{event.name}: {words}, {time.perf_counter() - begin:.0f} s", highlight=False)
     console.print(table(event, columns), highlight=False)
+    console.print(page.targets(event.name), highlight=False, markup=False)
 
 
 def table(event: Event, rows: dict[str, dict[str, float]]) -> Table:

@@ -31,6 +31,7 @@ def score(result: xr.Dataset) -> dict[str, float]:
     first = result.isel(run=0)
     found = of_series(first, result) | of_deposit(first.deposit.values > FILM, result)
     found |= {name: float(first[name]) for name in ("largest_thickness", "outflow", "duration")}
+    found["largest deposit"] = float(first.deposit.max())
     found["peak h 2 m over D-Claw"] = found["peak h 2 m"] / D_CLAW_PEAK
     starts = [str(name) for name in result.run.values if str(name).startswith("start ratio")]
     shifts = []
@@ -161,6 +162,7 @@ RECORDED = (
     | _of_series("pressure ratio", "p / weight {}", "{:.2f}", {"pressure": PASSING["pressure"]}, tabulated=False)
     | {
         "peak h 2 m over D-Claw": Measure("h 2 m / D-Claw", tabulated=False),
+        "largest deposit": Measure("largest deposit [m]", tabulated=False),
         "outflow": Measure("left the map [m³]", tabulated=False),
         "duration": Measure("at rest after [s]", "{:.1f}", tabulated=False),
     }

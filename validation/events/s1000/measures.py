@@ -15,10 +15,10 @@ SEEDS = 20
 """Of the noise that is added to the observation."""
 
 MEASURES = {
-    "csi outside": Measure("CSI"),
+    "csi outside": Measure("CSI", "{:.3f}"),
     "correlation outside": Measure("correlation", "{:+.2f}"),
     "csi": Measure("CSI with the source", tabulated=False),
-    "csi 0.5 outside": Measure("CSI, 0.5 m"),
+    "csi 0.5 outside": Measure("CSI, 0.5 m", "{:.3f}"),
     "precision outside": Measure("precision", tabulated=False),
     "recall outside": Measure("recall", tabulated=False),
     "csi erosion": Measure("CSI of lowering", tabulated=False),
