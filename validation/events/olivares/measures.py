@@ -18,8 +18,8 @@ OFF_THALWEG = (1, 3)
 """Flows that leave the thalweg of the DEM near their fans, by the description of the data."""
 
 MEASURES = {
-    "median iou": Measure("median IoU"),
-    "median iou of 2, 4, 5, 6": Measure("median IoU without 1 and 3"),
+    "median iou": Measure("median IoU", "{:.3f}"),
+    "median iou of 2, 4, 5, 6": Measure("median IoU without 1 and 3", "{:.3f}"),
     **{f"iou {flow}": Measure(f"IoU {flow}") for flow in FLOWS},
     "median precision": Measure("median precision"),
     "median recall": Measure("median recall"),
