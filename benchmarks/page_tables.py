@@ -1,4 +1,4 @@
-"""Tables of docs/accuracy.md, written from result files between markers: they cannot drift from the charts.
+"""Tables of pages of docs/, written from result files between markers: they cannot drift from the charts.
 
 In the page stands ``<!-- table NAME -->``, then the table, then ``<!-- end -->``. `fill` writes all of them;
 tests/benchmarks/test_charts.py compares.
@@ -13,10 +13,11 @@ import numpy as np
 
 from benchmarks import column as columns
 from benchmarks import flow as flows
+from benchmarks import paper_speed as speeds
 from benchmarks import result_files
 from benchmarks.example_scripts import load
 
-PAGES = (result_files.ROOT / "docs" / "accuracy.md",)
+PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "events.md"))
 MARKED = re.compile(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -231,8 +232,8 @@ def s1000() -> str:
 
 
 SOURCES = (
-    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "flow_stability", "speed", "key_figures",
-    "s1000", "tsing_shan", "when_ale_matters",
+    "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
+    "speed", "key_figures", "s1000", "tsing_shan", "when_ale_matters",
 )  # fmt: skip
 
 
@@ -249,7 +250,34 @@ def provenance() -> str:
     return table(["result", "command", "date", "commit", "machine", "load before", "note"], rows, "---")
 
 
+def paper_speed() -> str:
+    """Return speeds by resistance, and by how much ALE runs farther than the classical model."""
+    kept = result_files.read("paper_speed")["rows"]
+    found = {tuple(row[name] for name in speeds.NAMES): row for row in kept}
+    rows = []
+    for resistance in speeds.RESISTANCES:
+        pairs = {name: found[(*case, resistance)] for name, case in speeds.SHOWN.items()}
+        one = pairs["farther"]
+        rows.append([
+            resistance, f"{one['speed']:.1f}", f"{one['Pe_b']:.0f}, {pairs['fast']['Pe_b']:.2g}",
+            *(f"{round(pair['farther'])}" for pair in pairs.values()),
+            f"{one['ALE']:.0f}", f"{one['deposit ALE']:.2f}, {one['deposit classical']:.2f}", f"{one['angle']:.1f}",
+        ])  # fmt: skip
+    for name in speeds.DILATANCY:
+        row = found["plain of 2°", "overburden", speeds.FOLLOWS, name]
+        rows.append([
+            name, f"{row['speed']:.1f}", f"{row['Pe_b']:.0f}", *("" for _ in speeds.SHOWN),
+            f"{row['ALE']:.0f}", f"{row['deposit ALE']:.2f}", f"{row['angle']:.1f}",
+        ])  # fmt: skip
+    heads = (
+        "resistance", "speed [m/s]", "Pe_b, with c_v = 0.4", "ALE farther [m]", "valley moved", "plain of 10°",
+        "proportional", "no loading", "c_v = 0.4", "both: 0.4, 10°", "ALE beyond [m]", "deposit: ALE, classical [m]",
+        "travel angle [°]",
+    )  # fmt: skip
+    return table(heads, rows)
+
+
 TABLES = {
     "rivals": rivals, "single": single, "two_phases": two_phases, "demo": demo, "columns": column_errors,
-    "speed": speed, "s1000": s1000, "provenance": provenance,
+    "speed": speed, "s1000": s1000, "provenance": provenance, "paper_speed": paper_speed,
 }  # fmt: skip

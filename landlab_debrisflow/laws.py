@@ -12,6 +12,7 @@ from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
 from .physics.bed_state import BedState
 from .physics.column import ALE, Classical, ConstantRatio, NoExcessPressure
+from .physics.column.dilatancy import Dilatancy
 from .physics.column_contracts import BaseContact, ColumnForcing, ColumnLaw, ColumnState
 from .physics.consolidation import Consolidation
 from .physics.contracts import BasalState, ErosionLaw, FlowLaw, FlowState, FrictionLaw
@@ -34,6 +35,7 @@ __all__ = [
     "Consolidation",
     "ConstantRatio",
     "Coulomb",
+    "Dilatancy",
     "ErosionLaw",
     "ExcessTraction",
     "FlowLaw",

@@ -111,6 +111,20 @@ def test_on_a_screen_friction_is_full_and_the_flow_stops_earlier():
     assert reached[1] > 1.5 * reached[0]
 
 
+@pytest.mark.slow
+def test_a_drain_of_pores_with_air_holds_less_than_hydrostatic_pressure():
+    grid = sloping()
+    grid.add_ones("bed__drained", at="node")
+    grid.add_field("bed__degree_of_saturation", np.where(grid.x_of_node > 100.0, 0.25, 1.0), at="node")
+    flow = DebrisFlow(grid, numerics=COARSE, erosion="none")
+    flow.run_one_step(8.0)
+    p, suction = flow.particles, 0.75 * 1000.0 / 990.0  # of rho_w g h_n cos(theta) the part S is left
+    below = p.x > 105.0
+    assert 20 < below.sum() < below.size
+    expected = np.where(below, -suction * p.liquefaction_pressure, 0.0)
+    assert_allclose(p.basal_excess_pore_pressure[abs(p.x - 100.0) > 5.0], expected[abs(p.x - 100.0) > 5.0], rtol=1e-12)
+
+
 def test_a_drain_is_there_or_not():
     grid = sloping()
     grid.add_full("bed__drained", 0.5, at="node")

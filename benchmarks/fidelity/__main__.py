@@ -48,7 +48,9 @@ def parse(arguments) -> argparse.Namespace:
     ):  # fmt: skip
         found = command(name, words)
         most = "nine" if name == "run" else "nine,fit,held-out,dilatant"
-        found.add_argument("--scenes", default=most, help="nine, fit, held-out, dilatant, or names with commas between them")
+        found.add_argument(
+            "--scenes", default=most, help="nine, fit, held-out, dilatant, or names with commas between them"
+        )
         found.add_argument("--processes", type=int, default=1, help="runs at a time")
         if name == "campaign":
             found.add_argument("--short", action="store_true", help="default steps only, of an engine before a change")

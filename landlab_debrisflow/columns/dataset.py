@@ -1,5 +1,6 @@
 """Solved columns as a Dataset, with units."""
 
+import dataclasses
 from numbers import Real
 from typing import Any
 
@@ -23,8 +24,19 @@ VARIABLES = {
     "clipped_pressure": ("Pa m", "pressure above liquefaction taken off, times thickness, so far"),
 }
 
+DILATANT_VARIABLES = {
+    "solid_fraction": ("-", "volume fraction of the grains"),
+    "dilatancy_angle": ("deg", "angle of dilatancy at the base, which adds to the friction angle"),
+    "coefficient_of_consolidation": ("m2 s-1", "coefficient of consolidation at the base"),
+}
+"""Further variables of columns with dilatancy."""
 
-def dataset(inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.ndarray]]) -> xr.Dataset:
+PER_LEVEL = {"excess_pore_pressure", "solid_fraction"}
+
+
+def dataset(
+    inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.ndarray]], coefficient: np.ndarray
+) -> xr.Dataset:
     """Return the columns at all times of output as a Dataset.
 
     Parameters
@@ -34,13 +46,17 @@ def dataset(inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.nda
     given : dict
         Its arguments as they were given: numbers and words become attributes.
     output : list of dict
-        For each time the arrays of `VARIABLES`, shape (column,) or (column, level).
+        For each time the arrays of `VARIABLES`, shape (column,) or (column, level); with dilatancy also those of
+        `DILATANT_VARIABLES`.
+    coefficient : ndarray, shape (column,)
+        Coefficient of consolidation at time 0 [m2 s-1].
     """
     data: dict[str, Any] = {}
-    for name, (unit, words) in VARIABLES.items():
-        dims = ("time", "column", "level") if name == "excess_pore_pressure" else ("time", "column")
+    written = VARIABLES | (DILATANT_VARIABLES if given["dilatancy"] is not None else {})
+    for name, (unit, words) in written.items():
+        dims = ("time", "column", "level") if name in PER_LEVEL else ("time", "column")
         data[name] = (dims, np.stack([values[name] for values in output]), variable_attributes(unit, words))
-    start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, inputs.coefficient_of_consolidation)
+    start = basal_peclet_number(inputs.entrainment_rate.at(0.0), inputs.thickness, coefficient)
     data["initial_peclet_number"] = ("column", start, variable_attributes("-", "basal Peclet number at time 0"))
     height = "height above the base over thickness, 0 at the base, 1 at the surface"
     coordinates = {
@@ -53,4 +69,8 @@ def dataset(inputs: Inputs, given: dict[str, Any], output: list[dict[str, np.nda
     for name, value in given.items():
         if isinstance(value, str | Real):
             attributes |= quantity_attributes(name, value, units.get(name, "-"))
+    if (law := given["dilatancy"]) is not None:
+        for field in dataclasses.fields(law):
+            value = getattr(law, field.name)
+            attributes |= quantity_attributes(f"dilatancy_{field.name}", value, field.metadata["unit"])
     return xr.Dataset(data, coordinates, attributes)

@@ -1,6 +1,8 @@
 """The arguments of `solve_column`, declared as the parameters of laws are."""
 
 from ..core.parameters import parameter
+from ..physics.column.dilatancy import DENSEST, LOOSEST, Dilatancy
+from ..physics.column.driver import PACKED, SOLID_DENSITY
 from ..physics.consolidation import Consolidation
 
 HYDROSTATIC = "give a finite pressure over the hydrostatic one, negative for suction"
@@ -34,6 +36,14 @@ NUMBERS = {
         "-", "excess pore pressure of the bed over its liquefaction value", None, (0.0, 1.0), timed=True,
         remedy="0 is a dry bed, 1 a liquefied one",
     ),
+    "shear_rate": parameter(
+        "s-1", "at which a column with dilatancy is sheared", 0.0, (0.0, None), timed=True,
+        remedy="give twice the mean velocity over the thickness",
+    ),
+    "solid_fraction": parameter(
+        "-", "of a column with dilatancy at time 0", PACKED, (LOOSEST, DENSEST),
+        remedy="give 1 less the porosity, or leave it out",
+    ),
 }  # fmt: skip
 """Arguments that are one number or one per column, declared as parameters are."""
 
@@ -46,6 +56,13 @@ SINGLE_NUMBERS = {
         "-", "thickness of the basal layer over that of the column", 0.1, (0.0, 1.0),
         remedy="it is a part of the thickness",
     ),
+    "soil_solid_fraction": parameter(
+        "-", "of the soil that comes in, with dilatancy", None, (LOOSEST, DENSEST),
+        remedy="leave it None for that of the columns",
+    ),
+    "solid_density": parameter(
+        "kg m-3", "density of the grains, with dilatancy", SOLID_DENSITY, (1.0, 1e5), remedy="quartz has 2650",
+    ),
     "step": parameter(
         "s", "longest time step", None, (0.0, None), open_below=True, remedy="leave it None to have it chosen"
     ),
@@ -54,5 +71,6 @@ SINGLE_NUMBERS = {
 CHOICES = {
     "law": parameter("-", "law of the column", "ale", choices=("ale", "classical", "constant_ratio")),
     "advance": parameter("-", "whether a column may be left alone", "lazy", choices=("lazy", "every_step")),
+    "dilatancy": parameter("-", "debris contracts or dilates as it is sheared", None, kind=Dilatancy),
     "bounded": parameter("-", "show the pressure between suction and liquefaction", False, kind=bool),
 }

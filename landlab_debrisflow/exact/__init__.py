@@ -1,5 +1,5 @@
-"""Exact solutions in closed form: pore pressure in columns, and depth-averaged flows."""
+"""Exact solutions in closed form: pore pressure in columns, debris that dilates, and depth-averaged flows."""
 
-from . import columns, flows
+from . import columns, dilatancy, flows
 
-__all__ = ["columns", "flows"]
+__all__ = ["columns", "dilatancy", "flows"]

@@ -25,7 +25,7 @@ from .constants import (
 )
 from .event import Event
 
-BED_RATIO = "bed__excess_pore_pressure_ratio"
+BED_RATIO, SATURATION = "bed__excess_pore_pressure_ratio", "bed__degree_of_saturation"
 
 
 class Choice(NamedTuple):
@@ -82,7 +82,7 @@ def steps_words(numerics: Numerics) -> str:
 
 
 def has_pressure(event: Event) -> bool:
-    """Return whether body, inflow or a bed that may erode bring excess pore pressure."""
+    """Return whether body, inflow or a bed that may erode bring excess pore pressure, or suction."""
     setup, at = event.setup, event.grid.at_node
     material = setup.material
     if material.bearing_density == 0.0:
@@ -92,7 +92,9 @@ def has_pressure(event: Event) -> bool:
     inflow = any(line.pressure_ratio is not None and any(line.pressure_ratio) for line in setup.inflow)
     ratio = at[BED_RATIO] if BED_RATIO in at else None  # noqa: SIM401  (Landlab's get finds nothing)
     wet = material.bed_pressure_ratio > 0.0 if ratio is None else bool(np.any(np.asarray(ratio) > 0.0))
-    return bool(body or inflow or (erodes(event) and (wet or material.bed_loading_coefficient > 0.0)))
+    saturation = at[SATURATION] if SATURATION in at else material.bed_degree_of_saturation  # noqa: SIM401
+    bed = wet or material.bed_loading_coefficient > 0.0 or bool(np.any(np.asarray(saturation) < 1.0))
+    return bool(body or inflow or (erodes(event) and bed))
 
 
 def erodes(event: Event) -> bool:

@@ -30,13 +30,16 @@ class ColumnPhysics(NamedTuple):
     phases : Phases
         Gives the coefficient of consolidation.
     drained : ndarray of bool, shape (nodes,), or None
-        Where a drain holds the excess pore pressure at 0; None: nowhere.
+        Where a drain holds the excess pore pressure at `drain_ratio`; None: nowhere.
     water_to_buoyant : float
         Density of water over buoyant density [-].
     spacing : float
         Smaller node spacing of the raster [m].
     contact : ndarray of int8, shape (1,)
         Contact at the base of columns where nothing is drained, `BY_EROSION` or `SOIL_ALONE`.
+    drain_ratio : ndarray, shape (nodes,) or (1,)
+        Excess pore pressure over its liquefaction value that drains hold: 0, or less where pores of the bed hold air
+        [-].
     """
 
     law: ColumnLaw
@@ -46,6 +49,7 @@ class ColumnPhysics(NamedTuple):
     water_to_buoyant: float
     spacing: float
     contact: np.ndarray
+    drain_ratio: np.ndarray
 
 
 def column_state(p, which: slice) -> ColumnState:
@@ -69,8 +73,9 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
     load = p.liquefaction_pressure[which]
     bed_pressure, bases = entrained_ratio * load, columns.contact
     if columns.drained is not None:
-        drained = columns.drained[p.nearest_node[which]]
-        bed_pressure[drained] = 0.0
+        nodes, ratio = p.nearest_node[which], columns.drain_ratio
+        drained = columns.drained[nodes]
+        bed_pressure[drained] = (ratio if ratio.size == 1 else ratio[nodes[drained]]) * load[drained]
         bases = np.where(drained, BaseContact.PRESCRIBED, columns.contact).astype(np.int8)
     return ColumnForcing(
         volume=p.volume[which],

@@ -69,12 +69,16 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
     )
     contact = SOIL_ALONE if getattr(erosion.law, "is_jump_condition", False) else BY_EROSION
     water_to_buoyant = material.bearing_density / material.buoyant_density
+    # pore pressure of a bed with air in its pores is the part S of hydrostatic pressure, where a drain takes the excess
+    drain_ratio = np.zeros(1) if bed.saturation is None else (bed.saturation - 1.0) * water_to_buoyant
     return Surroundings(
         bed=bed,
         walls=raster if np.any(raster.status == CLOSED) else None,
         friction=friction,
         erosion=erosion,
-        columns=ColumnPhysics(setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing, contact),
+        columns=ColumnPhysics(
+            setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing, contact, drain_ratio
+        ),
         step_rule=StepRule(
             courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
             way=numerics.advective_courant_number * raster.spacing,

@@ -30,7 +30,10 @@ def test_sets_are_large_apart_and_drawn():
     assert len(FIT) >= 60 and len(HELD_OUT) >= 120 and not set(FIT) & set(HELD_OUT)
     assert set(DRAWS) == {*FIT, *HELD_OUT, *DILATANT}
     assert len(NINE) == 9
-    assert len(set(campaign("x", [name for names in SETS.values() for name in names]))) == 70 * 15 + 130 * 10 + 9 * 20 + 13 * 10
+    assert (
+        len(set(campaign("x", [name for names in SETS.values() for name in names])))
+        == 70 * 15 + 130 * 10 + 9 * 20 + 13 * 10
+    )
 
 
 def test_a_seed_makes_the_same_scene_again():

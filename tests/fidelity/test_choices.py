@@ -71,6 +71,8 @@ def test_where_pressure_comes_from():
     assert not has_pressure(event(grid, material=dry_body))
     grid.at_node["bed__excess_pore_pressure_ratio"][7] = 0.1
     assert has_pressure(event(grid, material=NO_PRESSURE))
+    assert not has_pressure(event(material=NO_PRESSURE))
+    assert has_pressure(event(material=NO_PRESSURE | {"bed_degree_of_saturation": 0.9}))  # suction of pores with air
     surge = {
         "line_start": (1010.0, 2020.0),
         "line_end": (1010.0, 2050.0),

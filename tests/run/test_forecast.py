@@ -76,6 +76,7 @@ def test_a_forecast_is_the_outcome_of_its_pilot_runs_and_prints():
     assert found.consolidation_time == pytest.approx(1.5**2 / 4e-4, rel=1.0)  # h^2 / c_v; thicker in the middle
     assert found.released == pytest.approx(1.5 * 30 * 25, rel=1e-12)
     text = str(found)
+    assert f", {found.consolidation_time / found.duration:.2g} times the duration" in str(found)
     for words in ("T_c", "T_e", "Pe_b", "steps", "wall time", "(max_duration), still moving"):
         assert words in text
 

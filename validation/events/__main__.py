@@ -1,7 +1,8 @@
 """Run and score measured events: ``python -m validation.events [EVENT ...]``, all of them by default.
 
-Prints the scores and appends them to scores.json of the event. With the set and the number of particles that are
-shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s figures`` draws the figures.
+Prints the scores and the targets of the set that is shown, and appends the scores to scores.json of the event. With the
+set and the number of particles that are shown, result.nc is written, and the tables of docs/events.md anew; ``nox -s
+figures`` draws the figures.
 """
 
 import argparse
@@ -37,8 +38,8 @@ def run_event(event: Event, options: argparse.Namespace, console: Console) -> No
     count, columns = options.particles or event.particle_count, {}
     for parameters in [event.read_set(name) for name in options.set or [event.default_set]]:
         runs = [(parameters, count)]
-        if options.scan:
-            runs += [(changed, count) for changed in parameters.scan()]
+        if options.scan is not None:
+            runs += [(changed, count) for changed in parameters.scan(options.scan)]
         if options.refine:
             runs += [(parameters, number) for number in (*record.nearby_counts(count), 2 * count)]
         for changed, number in runs:
@@ -47,19 +48,19 @@ def run_event(event: Event, options: argparse.Namespace, console: Console) -> No
             columns[words] = run_and_record(event, changed, number)
             console.print(f"{event.name}: {words}, {time.perf_counter() - begin:.0f} s", highlight=False)
     console.print(table(event, columns), highlight=False)
+    console.print(page.targets(event.name), highlight=False, markup=False)
 
 
 def table(event: Event, rows: dict[str, dict[str, float]]) -> Table:
     """Return the scores that are tabulated, one run in a row; scores.json has all of them."""
     shown = Table(title=event.title, title_justify="left")
-    shown.add_column("")
+    shown.add_column("", no_wrap=True)
     measures = {key: measure for key, measure in event.measures.items() if measure.tabulated}
     for measure in measures.values():
         shown.add_column(Text(measure.words), justify="right")
     for words, values in rows.items():
-        numbers = [values.get(key, math.nan) for key in measures]
-        cells = [each.form.format(n) for n, each in zip(numbers, measures.values(), strict=True)]
-        shown.add_row(Text(words), *("" if math.isnan(n) else cell for n, cell in zip(numbers, cells, strict=True)))
+        cells = (measure.text(values.get(key, math.nan)) for key, measure in measures.items())
+        shown.add_row(Text(words), *cells)
     return shown
 
 
@@ -69,7 +70,13 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("events", nargs="*", metavar="EVENT", help=f"by default all: {', '.join(EVENTS)}")
     parser.add_argument("--set", action="append", metavar="NAME", help="set of parameters, by default the one shown")
     parser.add_argument("--particles", type=int, metavar="N", help="by default the number of the event")
-    parser.add_argument("--scan", action="store_true", help="every value at both ends of its published range, too")
+    parser.add_argument(
+        "--scan",
+        nargs="?",
+        const="",
+        metavar="WORD",
+        help="every value at the ends of its published range, too; with WORD those with it in their key",
+    )
     parser.add_argument("--refine", action="store_true", help="numbers of particles near N (noise) and 2 N, too")
     options = parser.parse_args(arguments)
     if options.particles is not None and options.particles < 1:

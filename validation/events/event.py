@@ -1,6 +1,7 @@
 """Declaration of an event: set-up, measures, targets and figure of a measured flow."""
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +30,16 @@ class Measure(NamedTuple):
     words: str
     form: str = "{:.2f}"
     tabulated: bool = True
+
+    def text(self, value: float) -> str:
+        """Return a value as tables show it; NaN is empty, and a zero has no sign minus.
+
+        Examples
+        --------
+        >>> Measure("volume", "{:.0f}").text(-0.2), Measure("correlation", "{:+.2f}").text(0.5)
+        ('0', '+0.50')
+        """
+        return "" if math.isnan(value) else re.sub(r"^-(?=[0.]+%?$)", "", self.form.format(value))
 
 
 class Target(NamedTuple):

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from . import EVENTS, find_event, record
 from .event import Event, Target
-from .sets import set_names
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "events.md"
@@ -45,17 +44,21 @@ def chosen(name: str) -> str:
     """Return the commit of the set that is shown, and what was known of the event when it was chosen."""
     event = find_event(name)
     parameters = event.read_set()
-    rows = record.read_scores(event.folder)
-    shown = record.latest(rows, parameters.name, event.particle_count)
-    known = re.sub(r"\s+", " ", parameters.known_when_chosen.strip())
+    shown = record.latest(record.read_scores(event.folder), parameters.name, event.particle_count)
     commit = f"commit {shown['commit']} of {shown['committed']}" if shown else "not yet scored"
-    return f"Set `{parameters.name}` ({parameters.title}), {commit}. Known when it was chosen: {known}\n"
+    lines = [f"Shown is the set `{parameters.name}`: {parameters.title} ({commit}). Known when it was chosen:", ""]
+    while parameters is not None:
+        known = re.sub(r"\s+", " ", parameters.known_when_chosen.strip())
+        lines.append(f"* `{parameters.name}`: {known}")
+        parameters = event.read_set(parameters.base) if parameters.base else None
+    return "\n".join(lines) + "\n"
 
 
 def targets(name: str) -> str:
     """Return the targets of an event, and whether the set that is shown meets them."""
     event = find_event(name)
-    rows = [(target.words, _value_of(target, event), _verdict(target, event)) for target in event.targets]
+    found = [(target, _mean(target, event, event.default_set)) for target in event.targets]
+    rows = [(target.words, _number_of(target, event, value), _verdict(target, value)) for target, value in found]
     return _table(["target", "value", "met"], rows)
 
 
@@ -64,12 +67,12 @@ def scores(name: str) -> str:
     event = find_event(name)
     kept = record.read_scores(event.folder)
     columns = [key for key, measure in event.measures.items() if measure.tabulated]
-    references = record.read_references(event.folder)
-    rows = [(words, "", *_cells(event, found, columns)) for words, found in references.items()]
+    rows = [
+        (words, "", *_cells(event, found, columns)) for words, found in record.read_references(event.folder).items()
+    ]
     for row in kept:
         if not row["change"] and row["particles"] == event.particle_count:
-            version = f"{row['commit']}, {row['code']}"
-            rows.append((f"`{row['set']}`", version, *_cells(event, row["scores"], columns)))
+            rows.append((f"`{row['set']}`", row["commit"], *_cells(event, row["scores"], columns)))
     for set_name in dict.fromkeys(row["set"] for row in kept):
         if finer := record.latest(kept, set_name, 2 * event.particle_count):
             cells = _cells(event, finer["scores"], columns)
@@ -77,7 +80,8 @@ def scores(name: str) -> str:
         if found := record.noise(kept, set_name, event.particle_count):
             cells = ["±" + cell.lstrip("+") if cell else "" for cell in _cells(event, found, columns)]
             rows.append((f"`{set_name}`, noise", "", *cells))
-    return _table(["run", "commits: set, code", *(event.measures[key].words for key in columns)], rows)
+    rows = list(dict.fromkeys(map(tuple, rows)))  # runs again with a later engine that moved no digit shown
+    return _table(["run", "set committed in", *(event.measures[key].words for key in columns)], rows)
 
 
 def scan(name: str) -> str:
@@ -90,73 +94,99 @@ def scan(name: str) -> str:
     return _table(["set", "changed", *(event.measures[key].words for key in columns)], rows)
 
 
-def effects(name: str) -> str:
-    """Return how the scores move from each set to the one that changes one law of it: before → after."""
+def refinement(name: str) -> str:
+    """Return the scores of the set that is shown, by the number of particles."""
     event = find_event(name)
-    kept = record.read_scores(event.folder)
+    kept = [row for row in record.read_scores(event.folder) if row["set"] == event.default_set and not row["change"]]
     columns = [key for key, measure in event.measures.items() if measure.tabulated]
+    last = {row["particles"]: row["scores"] for row in kept}
+    rows = [(str(count), *_cells(event, last[count], columns)) for count in sorted(last)]
+    return _table(["particles", *(event.measures[key].words for key in columns)], rows)
+
+
+def effects(name: str) -> str:
+    """Return how the measures of the targets move from each set to the one that changes it: before → after."""
+    event = find_event(name)
     rows = []
-    for after in map(event.read_set, set_names(event.read_set().paths[0].parent)):
-        found = [record.latest(kept, set_name, event.particle_count) for set_name in (after.base, after.name)]
-        if after.base and all(found):
-            cells = zip(*(_cells(event, row["scores"], columns) for row in found), strict=True)
-            rows.append((f"`{after.base}` to `{after.name}`", *(" → ".join(pair) for pair in cells)))
-    return _table(["sets", *(event.measures[key].words for key in columns)], rows)
+    for after in map(event.read_set, dict.fromkeys(row["set"] for row in record.read_scores(event.folder))):
+        if after.base:
+            found = [[_mean(target, event, each) for each in (after.base, after.name)] for target in event.targets]
+            cells = (
+                " → ".join(_number_of(target, event, n) for n in pair)
+                for target, pair in zip(event.targets, found, strict=True)
+            )
+            rows.append((f"`{after.base}`", f"`{after.name}`", *cells))
+    return _table(["from", "to", *_target_words(event)], rows)
+
+
+def best(name: str) -> str:
+    """Return the best value of each target over all sets and scans ever scored, with the values of the others there."""
+    event = find_event(name)
+    runs = dict.fromkeys((row["set"], row["change"]) for row in record.read_scores(event.folder))
+    found = {run: [_mean(target, event, *run) for target in event.targets] for run in runs}
+    rows = []
+    for place, target in enumerate(event.targets):
+        known = [run for run, numbers in found.items() if not any(map(math.isnan, numbers))]
+        if known and math.isinf(target.high):
+            run = max(known, key=lambda run, place=place: found[run][place])
+            cells = [
+                event.measures[each.measure].form.format(n) for each, n in zip(event.targets, found[run], strict=True)
+            ]
+            rows.append((target.words, f"`{run[0]}`{', ' if run[1] else ''}{run[1]}", *cells))
+    words = [f"{'mean ' if each.events else ''}{event.measures[each.measure].words}" for each in event.targets]
+    return _table(["best in", "run", *words], rows)
 
 
 def summary(name: str) -> str:
     """Return a table of events and sets: how many targets each set meets, and the values of the measures aimed at."""
     rows = []
     for event in map(find_event, EVENTS):
-        folder = event.read_set().paths[0].parent
-        for set_name in set_names(folder):
+        if event.shared_sets:  # its scores are in the row of the other event
+            continue
+        others = [each.title for each in map(find_event, EVENTS) if each.shared_sets == event.name]
+        for set_name in dict.fromkeys(row["set"] for row in record.read_scores(event.folder)):
             found = [(target, _mean(target, event, set_name)) for target in event.targets]
-            if not found or all(math.isnan(value) for _, value in found):
+            if all(math.isnan(value) for _, value in found):
                 continue
             met = sum(target.met(value) for target, value in found)
-            told = "; ".join(_told(target, event, value) for target, value in found)
+            words = zip(_target_words(event), found, strict=True)
+            told = "; ".join(f"{each} {_number_of(target, event, value)}" for each, (target, value) in words)
             shown = " (shown)" if set_name == event.default_set else ""
-            rows.append((event.title, f"`{set_name}`{shown}", f"{met} of {len(found)}", told))
+            rows.append((" and ".join([event.title, *others]), f"`{set_name}`{shown}", f"{met} of {len(found)}", told))
     return _table(["event", "set", "targets met", "values"], rows, "---")
 
 
 KINDS = {
     "values": values, "chosen": chosen, "targets": targets, "scores": scores, "scan": scan, "effects": effects,
-    "summary": summary,
+    "refinement": refinement, "best": best, "summary": summary,
 }  # fmt: skip
 """Functions by the kind of table."""
 
 
-def _mean(target: Target, event: Event, set_name: str) -> float:
+def _mean(target: Target, event: Event, set_name: str, change: str = "") -> float:
     """Return the measure of a target, the mean over its events; NaN if one was not scored with the set."""
     found = []
     for each in map(find_event, target.events or (event.name,)):
-        row = record.latest(record.read_scores(each.folder), set_name, each.particle_count)
+        row = record.latest(record.read_scores(each.folder), set_name, each.particle_count, change)
         found.append(row["scores"].get(target.measure, math.nan) if row else math.nan)
     return sum(found) / len(found)
 
 
-def _value_of(target: Target, event: Event) -> str:
-    value = _mean(target, event, event.default_set)
-    return "" if math.isnan(value) else event.measures[target.measure].form.format(value)
+def _target_words(event: Event) -> list[str]:
+    """Return the words of the measures that are aimed at."""
+    return [f"{'mean ' if target.events else ''}{event.measures[target.measure].words}" for target in event.targets]
 
 
-def _verdict(target: Target, event: Event) -> str:
-    value = _mean(target, event, event.default_set)
+def _number_of(target: Target, event: Event, value: float) -> str:
+    return event.measures[target.measure].text(value) or "–"
+
+
+def _verdict(target: Target, value: float) -> str:
     return "not scored" if math.isnan(value) else "yes" if target.met(value) else "**no**"
 
 
-def _told(target: Target, event: Event, value: float) -> str:
-    measure = event.measures[target.measure]
-    words = f"mean of {measure.words}" if len(target.events) > 1 else measure.words
-    return f"{words} {'–' if math.isnan(value) else measure.form.format(value)}"
-
-
 def _cells(event: Event, found: Mapping[str, float], columns: Sequence[str]) -> list[str]:
-    numbers = [found.get(key, math.nan) for key in columns]
-    return [
-        "" if math.isnan(n) else event.measures[key].form.format(n) for key, n in zip(columns, numbers, strict=True)
-    ]
+    return [event.measures[key].text(found.get(key, math.nan)) for key in columns]
 
 
 def _number(value) -> str:

@@ -107,14 +107,24 @@ class ParameterSet:
         """Return the set with one value changed, which `change` tells."""
         before = self.values[section][key]
         values = {**self.values, section: {**self.values[section], key: before._replace(value=value)}}
-        return replace(self, values=values, change=f"{key} = {value:.3g} {before.unit}".removesuffix(" -"))
+        return replace(self, values=values, change=f"{key} = {value:g} {before.unit}".removesuffix(" -"))
 
-    def scan(self) -> Iterator["ParameterSet"]:
-        """Yield the sets with one value at either end of its published range."""
+    def scan(self, word: str = "") -> Iterator["ParameterSet"]:
+        """Yield the sets with one value at either end of its published range, of wide ranges also between the ends.
+
+        `word` limits the scan to the keys that hold it. A range of a factor of ten or more has two values per decade.
+        """
         for section, key, value in self.sourced():
-            for end in value.span or ():
-                if not math.isclose(end, value.value):
-                    yield self.changed(section, key, end)
+            if value.span is None or word not in key:
+                continue
+            low, high = value.span
+            decades = math.log10(high / low) if low > 0.0 else 0.0
+            steps = round(2.0 * decades) if decades >= 1.0 else 1
+            for step in range(steps + 1):
+                between = low * 10.0 ** (decades * step / steps)
+                end = high if step == steps else between if step else low
+                if not math.isclose(end, value.value, rel_tol=1e-6):
+                    yield self.changed(section, key, float(f"{end:.3g}"))
 
     def commit(self) -> Commit:
         """Return the commit that last changed the files of the set.

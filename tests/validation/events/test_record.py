@@ -1,7 +1,7 @@
 """Scores are kept and never lost, tables of the page are those of the records, figures need no data."""
 
 import json
-import re
+import subprocess
 from types import SimpleNamespace
 
 import numpy as np
@@ -80,9 +80,8 @@ def test_an_event_is_complete(name):
     event = find_event(name)
     assert event.name == name and {target.measure for target in event.targets} <= set(event.measures)
     rows = record.read_scores(event.folder)
-    assert record.latest(rows, event.default_set, event.particle_count) is not None
-    for row in rows:
-        assert set(row["scores"]) <= set(event.measures) and "dirty" not in row["code"]
+    shown = record.latest(rows, event.default_set, event.particle_count)
+    assert "dirty" not in shown["code"]
     result = record.read_result(event)
     assert result.attrs["set"] == event.default_set and "dirty" not in result.attrs["measured_commit"]
     assert (event.folder / "result.nc").stat().st_size < 130_000
@@ -96,22 +95,19 @@ def test_a_figure_needs_no_data(name, monkeypatch):
 
 
 @pytest.mark.slow
-def test_a_commit_of_a_set_holds_no_scores():
-    for name in EVENTS:
-        for row in record.read_scores(find_event(name).folder):
-            try:
-                files = git_files(row["commit"])
-            except OSError as error:
-                pytest.skip(str(error))
-            assert not [path for path in files if re.search(r"scores\.json|result\.nc", path)], row["commit"]
+def test_every_set_was_committed_before_its_first_score():
+    for event in map(find_event, EVENTS):
+        scored = {row["set"] for row in record.read_scores(event.folder)}
+        for path in sorted(event.read_set().paths[0].parent.glob("*.yaml")):
+            if path.stem not in scored:
+                continue
+            if not (first := git("log", "--diff-filter=A", "--format=%h", "--", str(path)).split()):
+                pytest.skip(f"Git knows no commit of {path}: a checkout without history")
+            record_then = git("show", f"{first[-1]}:./validation/events/{event.name}/scores.json")
+            assert f'"set": "{path.stem}"' not in record_then, path
 
 
-def git_files(commit):
-    """Return the files that a commit changed; OSError if it is not known here."""
-    import subprocess
-
-    command = ["git", "-C", str(page.ROOT), "show", "--name-only", "--format=", commit]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
-        raise OSError(f"commit {commit} is not in this checkout: {done.stderr.strip()}")
-    return done.stdout.split()
+def git(*arguments):
+    """Return the output of Git, empty if it fails: a file that a commit does not have."""
+    command = ["git", "-C", str(page.ROOT), *arguments]
+    return subprocess.run(command, capture_output=True, text=True).stdout

@@ -50,7 +50,7 @@ def test_a_set_that_is_based_on_another_has_its_values(folder):
         ("value: 20.0", "value: 24.0", r"basal_friction_angle is 24, but the centre of \[15.0, 25.0\] is 20"),
         ("source: a book", "source: ''", r"basal_friction_angle needs a source"),
         ("unit: deg, ", "", r"basal_friction_angle needs a unit"),
-        ("choice: measured", "choice: fitted", r"choice of site.soil_depth must be one of centre, .*got 'fitted'"),
+        ("choice: measured", "choice: guessed", r"choice of site.soil_depth must be one of centre, .*got 'guessed'"),
         ("range: [15.0, 25.0]", "range: [25.0, 15.0]", r"must be two increasing numbers"),
         ("range: [15.0, 25.0], ", "", r"is the centre of a range; give range"),
         ("friction:", "fricton:", r"unknown key 'fricton' \(did you mean 'friction'\?\)"),
@@ -77,6 +77,14 @@ def test_a_scan_changes_one_value(folder):
     assert [each.change for each in changed] == ["basal_friction_angle = 15 deg", "basal_friction_angle = 25 deg"]
     assert [each.plain("friction")["basal_friction_angle"] for each in changed] == [15.0, 25.0]
     assert all(each.plain("friction")["turbulent_coefficient"] == 500.0 for each in changed)
+
+
+def test_a_wide_range_is_scanned_between_its_ends(folder):
+    wide = SET.replace("value: 500.0, unit: m s-2,", "value: 1e-9, unit: m s-2, range: [1e-10, 1e-8],")
+    (folder / "wide.yaml").write_text(wide, encoding="utf-8")
+    changed = [each.plain("friction")["turbulent_coefficient"] for each in read_set(folder, "wide").scan("turbulent")]
+    assert changed == [1e-10, 3.16e-10, 3.16e-9, 1e-8]
+    assert list(read_set(folder, "wide").scan("nothing")) == []
 
 
 @pytest.mark.slow

@@ -11,7 +11,7 @@ from .measured import LAST_TIME, SERIES
 
 BLUE, RED, GREEN, _, SKY, ORANGE, BLACK = LINES
 BAND = "0.82"
-STYLES = {"measured_permeability": (RED, "-.", 1.2), "no_dilatancy": (ORANGE, ":", 1.8),
+STYLES = {"measured_permeability": (RED, "-.", 0.9), "no_dilatancy": (ORANGE, ":", 1.8),
           "hydrostatic": (GREEN, "--", 1.2)}  # fmt: skip
 WORDS = {
     "george_iverson_2014": "modelled, permeability 5·10⁻⁹ m²,\nhydrostatic start",
@@ -23,8 +23,8 @@ WORDS = {
 
 QUANTITIES = {"thickness": ("thickness [m]", 1.0), "pressure": ("pore pressure at the base [kPa]", 1e-3)}
 LIMITS = {"2 m": (0.0, 8.0), "32 m": (2.0, 17.0), "66 m": (4.0, LAST_TIME)}
-THICKEST = 20.0
-"""At the end of the colours of the deposit, and of those that were mapped [cm]."""
+THICKEST = 40.0
+"""At the end of the colours of the deposit [cm]."""
 
 STEPS = {"thickness": 1e-4, "pressure": 1.0, "deposit": 1e-4, "measured_thickness": 1e-4, "measured_pressure": 1.0}
 
@@ -36,14 +36,14 @@ def shown(result: xr.Dataset) -> xr.Dataset:
 
 def draw(result: xr.Dataset) -> Figure:
     """Return the figure from the stored result."""
-    figure = Figure(figsize=(10.0, 8.2), layout="constrained")
+    figure = Figure(figsize=(10.0, 8.8), layout="constrained")
     axes = figure.subplot_mosaic(
         [
             ["thickness 2 m", "thickness 32 m", "thickness 66 m"],
             ["legend", "pressure 32 m", "pressure 66 m"],
             ["map"] * 3,
         ],
-        height_ratios=(1.0, 1.0, 0.8),
+        height_ratios=(1.0, 1.0, 1.15),
     )  # fmt: skip
     for name, stations in SERIES.items():
         for station in stations:
@@ -66,12 +66,12 @@ def _draw_series(axes: Axes, result: xr.Dataset, name: str, station: str) -> Non
     time, at = result.time.values, {"station": station}
     mean, lower, upper = scale * result[f"measured_{name}"].sel(at).values
     axes.fill_between(time, lower, upper, color=BAND, linewidth=0.0, label="measured, mean ± 1 sd of eight releases")
-    axes.plot(time, mean, color=BLACK, linewidth=1.2, label="measured, mean")
+    axes.plot(time, mean, color=BLACK, linewidth=1.4, label="measured, mean", zorder=3.0)
     for index, run in enumerate(map(str, result.run.values)):
         colour, dashes, width = STYLES.get(run, (SKY, "--", 1.2)) if index else (BLUE, "-", 2.0)
         series = scale * result[name].isel(run=index).sel(at).values
         words = WORDS.get(run, f"the same, {run}")
-        axes.plot(time, series, color=colour, linestyle=dashes, linewidth=width, label=words)
+        axes.plot(time, series, color=colour, linestyle=dashes, linewidth=width, label=words, zorder=3.0 - 0.1 * index)
     low, high = LIMITS[station]
     axes.set(xlim=(low, high), xlabel="time since the gate began to open [s]")
     seen = (time >= low) & (time <= high)
@@ -99,7 +99,7 @@ def _draw_deposit(figure: Figure, axes: Axes, result: xr.Dataset) -> None:
         axes.contour(s, y, result.mapped_deposit.sel(experiment=date), [0.5], colors=[colour], linewidths=1.1)
         axes.plot([], [], color=colour, linewidth=1.1, label=str(date))
     axes.plot([76.0, 82.4], [1.0, 1.0], [76.0, 82.4], [-1.0, -1.0], color="0.4", linewidth=2.0)
-    axes.set(xlim=(76.0, s[-1]), ylim=(y[0], y[-1]), xlabel="distance along the bed from the gate [m]", ylabel="y [m]")
+    axes.set(xlim=(76.0, s[-1]), ylim=(-5.8, 5.8), xlabel="distance along the bed from the gate [m]", ylabel="y [m]")
     axes.set_title("modelled deposit, and outlines of the four that were mapped", fontsize=TITLE)
     axes.set_aspect("equal")
     axes.legend(loc="lower left", fontsize=NOTE, ncols=4, frameon=False)

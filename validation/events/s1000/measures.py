@@ -15,24 +15,25 @@ SEEDS = 20
 """Of the noise that is added to the observation."""
 
 MEASURES = {
-    "csi outside": Measure("CSI outside the source"),
-    "correlation outside": Measure("correlation outside", "{:+.2f}"),
-    "csi": Measure("CSI", tabulated=False),
-    "csi 0.5 outside": Measure("CSI outside, 0.5 m"),
-    "precision outside": Measure("precision outside", tabulated=False),
-    "recall outside": Measure("recall outside", tabulated=False),
+    "csi outside": Measure("CSI", "{:.3f}"),
+    "correlation outside": Measure("correlation", "{:+.2f}"),
+    "csi": Measure("CSI with the source", tabulated=False),
+    "csi 0.5 outside": Measure("CSI, 0.5 m", "{:.3f}"),
+    "precision outside": Measure("precision", tabulated=False),
+    "recall outside": Measure("recall", tabulated=False),
     "csi erosion": Measure("CSI of lowering", tabulated=False),
     "csi deposition": Measure("CSI of raising", tabulated=False),
-    "correlation above fan": Measure("correlation outside, fan left out", "{:+.2f}", tabulated=False),
-    "lowered outside": Measure("lowered outside [m³]", "{:.0f}"),
-    "raised outside": Measure("raised outside [m³]", "{:.0f}"),
-    "in scar": Measure("left in the scar [m³]", "{:.0f}"),
+    "correlation above fan": Measure("correlation, fan left out", "{:+.2f}", tabulated=False),
+    "lowered outside": Measure("lowered [m³]", "{:.0f}"),
+    "raised outside": Measure("raised [m³]", "{:.0f}"),
+    "in scar": Measure("in the scar [m³]", "{:.0f}"),
     "toe": Measure("toe [m]", "{:+.0f}"),
     "eroded": Measure("eroded, all passes [m³]", "{:.0f}", tabulated=False),
     "outflow": Measure("left the map [m³]", "{:.0f}", tabulated=False),
     "duration": Measure("at rest after [s]", "{:.0f}", tabulated=False),
 }
-"""Toe: distance of the farthest changed cell from the highest cell of the source in plan, less the observed one."""
+"""All outside of the source, unless the words say otherwise. Toe: distance of the farthest changed cell from the
+highest cell of the source in plan, less the observed one."""
 
 
 def score(result: xr.Dataset) -> dict[str, float]:

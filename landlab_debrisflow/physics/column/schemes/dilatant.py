@@ -134,8 +134,9 @@ def _take_in(work, rest, load, bed, contact, soil):
     `load` is the weight of all [Pa]; `bed` is the pressure of the soil [Pa] and `soil` its solid fraction [-].
     """
     cells = work.shape[1] - 1
-    entry = work[0, cells] if contact == SEALED else load - bed
-    entry_before = entry if contact == SEALED else rest * entry
+    # stress of the soil that came in last and first: over a base that is closed it has the pressure of the base
+    entry = work[0, cells] + load * (1.0 - rest) if contact == SEALED else load - bed
+    entry_before = work[0, cells] if contact == SEALED else rest * entry
     pull, base_stress, base_fraction = 1.0 / rest if rest > 0.0 else 1e300, work[0, cells], work[1, cells]
     # values and their ratios to the depth, for `interpolate`
     old, ratios = np.empty(cells + 1), np.empty(cells + 1)
@@ -158,5 +159,5 @@ def _take_in(work, rest, load, bed, contact, soil):
                 work[row, j] = min(max(value, min(old[low], old[low + 1])), max(old[low], old[low + 1]))
     new = min(1.0, 2.0 * cells * (1.0 - rest))
     work[1, cells] = base_fraction + new * (soil - base_fraction)
-    if contact >= INFLOW:
-        work[0, cells] = base_stress + new * (entry - base_stress)
+    if contact == INFLOW and new < 1.0:  # what mixes is the ratio of the stress to the depth
+        work[0, cells] = (1.0 - new) * (base_stress / rest) + new * entry
