@@ -66,7 +66,8 @@ CAMPAIGN = "python -m benchmarks.fidelity campaign --label after --processes 2"
 CHARTS = {
     "column": Chart("column", ("column",), "python -m benchmarks.column"),
     "column_stability": Chart("column_stability", ("column_stability",), "python -m benchmarks.column_stability"),
-    "dilatancy_stability": Chart("dilatancy_stability", ("dilatancy_stability",), "python -m benchmarks.dilatancy_stability"),
+    "dilatancy_stability": Chart("dilatancy_stability", ("dilatancy_stability",),
+                                 "python -m benchmarks.dilatancy_stability"),
     "convergence": Chart("fidelity.__main__", FIDELITY, CAMPAIGN, "chart_of_convergence"),
     "failure_surfaces": Chart("failure_surfaces", ("failure_surfaces",), "python -m benchmarks.failure_surfaces"),
     "fidelity": Chart("fidelity.__main__", FIDELITY[:1], CAMPAIGN, "chart_of_cost"),

@@ -55,6 +55,13 @@ def test_speeds_momenta_and_scour_of_series_made_by_hand():
     assert all(target.met(found[target.measure]) for target in EVENT.targets)
 
 
+def test_a_plug_behind_the_front_has_no_speed():
+    result = beds()
+    result["thickness"][0, 1] = surge(setup.TIMES, 15.0, 3.0)
+    found = EVENT.score(result)
+    assert np.isnan(found["control speed"]) and np.isnan(found["wet speed"])
+
+
 def test_signs_the_other_way_meet_no_target_but_the_rate():
     found = EVENT.score(beds(speeds=(10.0, 9.0, 11.0, 10.0), scours=(0.0, 2.0, 1.0, 0.0)))
     assert [target.measure for target in EVENT.targets if target.met(found[target.measure])] == ["scour rate"]

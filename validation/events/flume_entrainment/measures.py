@@ -83,13 +83,15 @@ def score(result: xr.Dataset) -> dict[str, float]:
 def front_speed(time: np.ndarray, thickness: xr.DataArray, foot: float | None = None) -> float:
     """Return the speed of the front between 32 and 66 m, from its arrival at both [m/s].
 
-    It arrives with half of its peak, or with the thickness `foot` [m].
+    It arrives with half of its peak, or with the thickness `foot` [m]; NaN if it comes to 66 m before 32 m, because a
+    plug that follows has the peak.
     """
     arrivals = []
     for station in ("32 m", "66 m"):
         series = thickness.sel(station=station).values
         arrivals.append(half_peak(time, series if foot is None else np.minimum(series, 2.0 * foot)))
-    return REACH / (arrivals[1] - arrivals[0])
+    taken = arrivals[1] - arrivals[0]
+    return REACH / taken if taken > 0.0 else float("nan")
 
 
 def scour_rates(time: np.ndarray, eroded: np.ndarray) -> np.ndarray:
