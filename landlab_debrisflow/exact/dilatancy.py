@@ -278,12 +278,10 @@ def dilatant_block(
         acceleration = gravity * np.sin(slope) - friction / (density * thickness)
         change = packing * shear * dilation
         if drained:
-            change = -change
-        else:
-            change *= (stress + debris.reference_stress) / debris.compressibility
-            if (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0):
-                change = 0.0
-        return acceleration, change
+            return acceleration, -change
+        change *= (stress + debris.reference_stress) / debris.compressibility
+        held = (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0)
+        return acceleration, 0.0 if held else change
 
     stops: Any = lambda _, state: state[0]  # noqa: E731
     stops.terminal, stops.direction = True, -1.0
