@@ -166,12 +166,11 @@ def start_coefficient(setup: Setup, thickness: float) -> float:
     -------
     float
     """
-    material = setup.material
-    if not is_dilatant(setup.column):
+    material, dilatancy = setup.material, getattr(setup.column, "dilatancy", None)
+    if dilatancy is None:
         return float(material.coefficient_of_consolidation)
     stress = 0.5 * material.buoyant_density * material.gravity * thickness
-    column: Any = setup.column
-    return float(column.dilatancy.coefficient_of_consolidation(1.0 - material.porosity, stress))
+    return float(dilatancy.coefficient_of_consolidation(1.0 - material.porosity, stress))
 
 
 def relaxation_time(setup: Setup, coefficient: float) -> float:
@@ -187,12 +186,11 @@ def relaxation_time(setup: Setup, coefficient: float) -> float:
     -------
     float
     """
-    if not is_dilatant(setup.column):
+    material, dilatancy = setup.material, getattr(setup.column, "dilatancy", None)
+    if dilatancy is None:
         return coefficient / STIFFNESS
-    material = setup.material
     grains, water = (1.0 - material.porosity) * material.solid_density, material.porosity * material.water_density
-    column: Any = setup.column
-    conductivity = column.dilatancy.conductivity(1.0 - material.porosity)
+    conductivity = dilatancy.conductivity(1.0 - material.porosity)
     return float(grains * water / (grains + water) * conductivity / material.porosity**2)
 
 
