@@ -47,6 +47,10 @@ class Chart(NamedTuple):
         """Return the figure."""
         return getattr(importlib.import_module(f"benchmarks.{self.module}"), self.function)()
 
+    def absence(self) -> str:
+        """Return why it cannot be drawn from the files of the repository alone; an empty text if it can."""
+        return ""
+
     def files(self) -> list[Path]:
         """Return the files it is drawn from."""
         return [result_files.ROOT / name if "/" in name else result_files.path_of(name) for name in self.results]
@@ -59,6 +63,10 @@ class EventChart(Chart):
         """Return the figure."""
         return events.chart(self.module)
 
+    def absence(self) -> str:
+        """Return why the measured data that it needs, too, is absent; an empty text if it is there."""
+        return events.find_event(self.module).absence()
+
 
 FIDELITY = ("benchmarks/fidelity/results/after.jsonl", "benchmarks/fidelity/results/before.jsonl")
 CAMPAIGN = "python -m benchmarks.fidelity campaign --label after --processes 2"
@@ -66,7 +74,8 @@ CAMPAIGN = "python -m benchmarks.fidelity campaign --label after --processes 2"
 CHARTS = {
     "column": Chart("column", ("column",), "python -m benchmarks.column"),
     "column_stability": Chart("column_stability", ("column_stability",), "python -m benchmarks.column_stability"),
-    "dilatancy_stability": Chart("dilatancy_stability", ("dilatancy_stability",), "python -m benchmarks.dilatancy_stability"),
+    "dilatancy_stability": Chart("dilatancy_stability", ("dilatancy_stability",),
+                                 "python -m benchmarks.dilatancy_stability"),
     "convergence": Chart("fidelity.__main__", FIDELITY, CAMPAIGN, "chart_of_convergence"),
     "failure_surfaces": Chart("failure_surfaces", ("failure_surfaces",), "python -m benchmarks.failure_surfaces"),
     "fidelity": Chart("fidelity.__main__", FIDELITY[:1], CAMPAIGN, "chart_of_cost"),
@@ -115,7 +124,10 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
             say(f"Wrote {_short(_drawn_by_run(name))}")
         if name in CHARTS:
             chart = CHARTS[name]
-            say(f"Wrote {_short(save_figure(chart.draw(), FIGURES / f'{name}.png', chart.dpi))}")
+            if reason := chart.absence():
+                say(f"{name}.png stays as it is: {reason}")
+            else:
+                say(f"Wrote {_short(save_figure(chart.draw(), FIGURES / f'{name}.png', chart.dpi))}")
         if name in REPORTS:
             text = importlib.import_module(f"benchmarks.{REPORTS[name]}").report()
             path = write_atomically(TEXTS / f"{name}.txt", lambda path, text=text: path.write_text(text, "utf-8"))

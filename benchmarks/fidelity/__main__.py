@@ -10,9 +10,9 @@
 
 The first takes hours of CPU time and may be broken off and begun again: a run is a line of JSON in
 results/LABEL.jsonl, and what stands there is not run again. `repeat` makes some of these runs again and compares every
-digit, which tells whether the engine is still that of the results. The others need seconds; `chart` draws fidelity.png and
-convergence.png of docs/figures, the latter with results/before.jsonl. S-1000 needs the rasters of examples/s1000.py in
-$DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same scenes by its own
+digit, which tells whether the engine is still that of the results. The others need seconds; `chart` draws fidelity.png
+and convergence.png of docs/figures, the latter with results/before.jsonl. S-1000 needs the rasters of
+examples/s1000.py in $DEBRISFLOW_DATA. Another version of the package, installed elsewhere, is measured over the same scenes by its own
 interpreter: run as a file with -P, the harness puts the checkout last.
 
     PYTHON -P benchmarks/fidelity/__main__.py campaign --label before --short --scenes nine,fit

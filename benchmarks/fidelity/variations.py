@@ -6,6 +6,8 @@ coarse        every second node of the grid
 more=PERCENT  so many particles more, or fewer
 column=LAW    another law of the column, its levels after a slash: column=ale/21
 flow=LAW      one phase or two
+levels=N      another number of levels of the same column
+courant=N     another Courant number, of waves and of the way of a particle
 """
 
 
@@ -33,6 +35,10 @@ def vary(scene, particles: int, variation: str):
             keywords["column"] = {"law": law} | ({"levels": int(levels)} if levels else {})
         elif key == "flow":
             keywords["flow"] = value
+        elif key == "levels":
+            keywords["column"] = {**keywords["column"], "levels": int(value)}
+        elif key == "courant":
+            numerics |= {"courant_number": float(value), "advective_courant_number": float(value)}
         else:
-            raise ValueError(f"unknown variation {word!r}; there are fast, fastest, coarse, more=, column=, flow=")
+            raise ValueError(f"unknown variation {word!r}; see benchmarks/fidelity/variations.py")
     return grid, keywords, numerics

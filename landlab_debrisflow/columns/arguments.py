@@ -2,7 +2,7 @@
 
 import dataclasses
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -101,8 +101,8 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
         given[name] = checked("solve_column", name, argument, given[name])
     for name in ("initial_layer_fraction", "step", "soil_solid_fraction", "solid_density"):
         declared = SINGLE_NUMBERS[name]
-        usual = given[name] is None and declared.default is None
-        if not usual and checked_numbers(name, declared, given[name]).ndim:
+        left_out = given[name] is None and declared.default is None
+        if not left_out and checked_numbers(name, declared, given[name]).ndim:
             refuse(f"{name} must be one number, got {given[name]!r}")
     usual, unused = "coefficient_of_consolidation", "solid_fraction"
     if given["dilatancy"] is not None:
@@ -113,7 +113,7 @@ def read_inputs(given: dict[str, Any]) -> Inputs:
     histories = {name: History(name, given[name]) for name in NUMBERS if name not in absent}
     histories["base"] = History("base", given["base"])
     _refuse_contradictions(given, histories)
-    law, profile = _checked_law(given, histories), given_profile(given)
+    law, profile = _checked_law(given, histories), cast(Any, given_profile(given))
     shapes = {name: history.value.shape for name, history in histories.items()}
     if profile is not None:
         shapes["initial"] = profile.shape[:-1]

@@ -1,12 +1,14 @@
 """Arguments of `solve_column` for debris that contracts or dilates, and contradictions between these and others."""
 
+from typing import Any
+
 import numpy as np
 
 from .declarations import NUMBERS, SINGLE_NUMBERS
-from .history import refuse
+from .history import History, refuse
 
 
-def refuse_contradictions(given, histories) -> None:
+def refuse_contradictions(given: dict[str, Any], histories: dict[str, History]) -> None:
     """Refuse arguments that need `dilatancy`, or do not go with it.
 
     Parameters

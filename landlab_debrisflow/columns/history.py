@@ -69,7 +69,7 @@ def checked_numbers(
     return array
 
 
-def float_array(value):
+def float_array(value: Any) -> np.ndarray | None:
     """Return real numbers, one or a sequence, as an array of floats of that shape; None for anything else."""
     try:
         array = np.asarray(value)

@@ -1,5 +1,7 @@
 """The profile from which `solve_column` starts: pressures, or a word."""
 
+from typing import Any
+
 import numpy as np
 
 from ..core.hints import did_you_mean
@@ -9,7 +11,7 @@ from .history import float_array, refuse
 STARTS = ("zero", "linear", "uniform", "basal_layer")
 
 
-def given_profile(given):
+def given_profile(given: dict[str, Any]) -> np.ndarray | None:
     """Return `initial` if it is an array, else None."""
     initial, levels = given["initial"], given["levels"]
     if isinstance(initial, str):
@@ -42,7 +44,7 @@ def given_profile(given):
     return array
 
 
-def profile_of_word(given, inputs, pressure) -> np.ndarray:
+def profile_of_word(given: dict[str, Any], inputs: Any, pressure: np.ndarray) -> np.ndarray:
     """Return the profile [Pa] that `initial` names by a word, with `pressure` at the base [Pa]."""
     levels, shape = given["levels"], given["initial"]
     if inputs.loading[0] > 0.0:

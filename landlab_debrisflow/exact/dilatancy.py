@@ -182,7 +182,9 @@ def liquefaction_strain(stress: ArrayLike, solid_fraction: ArrayLike, debris: Di
     return np.divide(gain, contraction, out=np.where(gain > 0.0, np.inf, 0.0), where=contraction > 0.0)
 
 
-def drained_solid_fraction(strain: ArrayLike, solid_fraction: float, critical_solid_fraction: float = 0.64):
+def drained_solid_fraction(
+    strain: ArrayLike, solid_fraction: float, critical_solid_fraction: float = 0.64
+) -> np.ndarray:
     """Return the solid fraction of debris that drains freely, after slow shear [-].
 
     ``dm/dG = -m (m - m_crit)``, G being the shear strain.
@@ -276,12 +278,10 @@ def dilatant_block(
         acceleration = gravity * np.sin(slope) - friction / (density * thickness)
         change = packing * shear * dilation
         if drained:
-            change = -change
-        else:
-            change *= (stress + debris.reference_stress) / debris.compressibility
-            if (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0):
-                change = 0.0
-        return acceleration, change
+            return acceleration, -change
+        change *= (stress + debris.reference_stress) / debris.compressibility
+        held = (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0)
+        return acceleration, 0.0 if held else change
 
     stops: Any = lambda _, state: state[0]  # noqa: E731
     stops.terminal, stops.direction = True, -1.0
@@ -292,7 +292,7 @@ def dilatant_block(
         found = solve_ivp(
             rates, (0.0, time.max()), start, "LSODA", dense_output=True, events=stops, rtol=1e-9, atol=1e-9
         )  # fmt: skip
-        velocity, moved = found.sol(np.minimum(time, found.t[-1]))
+        velocity, moved = found.sol(np.minimum(time, found.t[-1]).ravel()).reshape(2, *time.shape)
         if found.t_events[0].size:
             velocity = np.where(time < found.t[-1], velocity, 0.0)
     same = np.full(time.shape, load if drained else solid_fraction)

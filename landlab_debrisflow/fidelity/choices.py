@@ -170,7 +170,8 @@ def start_coefficient(setup: Setup, thickness: float) -> float:
     if not is_dilatant(setup.column):
         return float(material.coefficient_of_consolidation)
     stress = 0.5 * material.buoyant_density * material.gravity * thickness
-    return float(setup.column.dilatancy.coefficient_of_consolidation(1.0 - material.porosity, stress))
+    column: Any = setup.column
+    return float(column.dilatancy.coefficient_of_consolidation(1.0 - material.porosity, stress))
 
 
 def relaxation_time(setup: Setup, coefficient: float) -> float:
@@ -190,7 +191,8 @@ def relaxation_time(setup: Setup, coefficient: float) -> float:
         return coefficient / STIFFNESS
     material = setup.material
     grains, water = (1.0 - material.porosity) * material.solid_density, material.porosity * material.water_density
-    conductivity = setup.column.dilatancy.conductivity(1.0 - material.porosity)
+    column: Any = setup.column
+    conductivity = column.dilatancy.conductivity(1.0 - material.porosity)
     return float(grains * water / (grains + water) * conductivity / material.porosity**2)
 
 

@@ -9,17 +9,13 @@ import numpy as np
 from scipy.ndimage import find_objects, label
 
 from ..core.values import NodeValues, with_inner
-from ..physics.column.consolidating import Consolidating
-from ..physics.column.diagnostics import consolidation_time
-from ..physics.column_contracts import is_dilatant
-from ..physics.material import Material
-from ..physics.scales import runout_thickness, sliding_time
 from ..spatial.raster import CLOSED
 from .checks import where
+from .consolidation import FASTEST_CONSOLIDATION
+from .consolidation import consolidation_doubts as consolidation_doubts  # told with the others
 from .fields import NODE_FIELDS
-from .fill_values import code_of, is_fill
+from .fill_values import HIGHEST, LOWEST, code_of, elevation_range
 
-LOWEST, HIGHEST = -12000.0, 9000.0  # lowest and highest ground on Earth [m]
 UPRIGHT = 10.0  # largest relief over extent of a whole DEM [-]
 DEGREES_BELOW = 0.01  # node spacing below which coordinates may be degrees [m]
 LEAST_ANGLE = 2.0  # [deg]
@@ -31,12 +27,6 @@ LARGEST_PERMEABILITY = 1e-7
 
 LARGEST_COLLIDING = 3e-3
 """Grain diameter above which sheared columns lie at their lower bound of effective stress [m]."""
-
-FASTEST_CONSOLIDATION = 10.0  # [m2 s-1]
-FILM = 0.01  # thickness of a release of which nothing is expected [m]
-GONE = 1.0  # c_v t/h2 at which the base of a column has lost 93 % of its pressure [-]
-HALVED = 0.2  # c_v t/h2 at which it has lost half [-]
-BEGINNING = 0.1  # of an event: time in which a body goes 1 % of its way [-]
 
 
 # ---- parameters ----
@@ -51,7 +41,7 @@ def parameter_doubts(grid, setup) -> Iterator[str]:
         for part in with_inner(getattr(setup, kind)):
             for field in dataclasses.fields(part) if dataclasses.is_dataclass(part) else ():
                 values = _nonzero_values(grid, part, field)
-                if values.size and (words := _parameter_doubt(field, values)):
+                if values.size and (words := _parameter_doubt(kind, field, values)):
                     yield f"{kind}: {field.name} {words}"
 
 
@@ -71,8 +61,8 @@ def _nonzero_values(grid, law, field):
     return values[values != 0.0]
 
 
-def _parameter_doubt(field, values) -> str:
-    """Return the doubt about the non-zero values of a parameter, or an empty text."""
+def _parameter_doubt(kind, field, values) -> str:
+    """Return the doubt about the non-zero values of a parameter of a `kind` of law, or an empty text."""
     unit, least, most = field.metadata.get("unit"), values.min(), values.max()
     if unit == "deg" and field.metadata["bounds"][0] == 0.0 and most < LEAST_ANGLE and np.any(values % 1.0):
         return f"is {most:g} degrees at most: was it meant in radians? {most:g} rad are {np.degrees(most):.3g} deg"
@@ -85,7 +75,7 @@ def _parameter_doubt(field, values) -> str:
         return f"is {most:g} m2 s-1: was it meant per year? {most:g} m2 per year are {most / 3.156e7:.2g} m2 s-1"
     if field.name == "permeability" and most > LARGEST_PERMEABILITY:
         return f"is {most:g} m2, that of clean gravel or more: was it meant as a hydraulic conductivity in m s-1?"
-    if field.name == "grain_diameter" and most > LARGEST_COLLIDING:
+    if kind == "column" and field.name == "grain_diameter" and most > LARGEST_COLLIDING:
         return (
             f"is {most:g} m: with grains above {LARGEST_COLLIDING:g} m collisions liquefy the whole column in ordinary "
             "flows; give the size of the sand between larger grains"
@@ -99,7 +89,7 @@ def _parameter_doubt(field, values) -> str:
 def coordinate_doubts(grid) -> Iterator[str]:
     """Yield doubts about the coordinates of the grid: ground in degrees or km is upright when read in metres."""
     corner, spacing = np.array(grid.xy_of_lower_left), np.array([grid.dx, grid.dy])
-    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), _elevation_range(grid)
+    extent, (low, high) = spacing * (np.array(grid.shape[::-1]) - 1), elevation_range(grid)
     on_globe = bool(np.all(np.abs([corner, corner + extent]) <= [[360.0, 90.0]] * 2))
     fine, far = spacing.max() < DEGREES_BELOW, bool(np.any(np.abs(corner) > 10.0 * extent))
     upright = spacing.max() < 1.0 and high - low > UPRIGHT * extent.max() and low >= LOWEST and high <= HIGHEST
@@ -118,21 +108,12 @@ def coordinate_doubts(grid) -> Iterator[str]:
 
 def elevation_doubts(grid) -> Iterator[str]:
     """Yield doubts about the height of the ground."""
-    low, high = _elevation_range(grid)
+    low, high = elevation_range(grid)
     if low < LOWEST or high > HIGHEST:
         yield (
             f"topographic__elevation goes from {low:g} to {high:g} m, which is nowhere on Earth: was it meant in "
             "another unit? All lengths are in m"
         )
-
-
-def _elevation_range(grid) -> tuple[float, float]:
-    """Return the lowest and the highest elevation at nodes in use [m], without values that reading would refuse."""
-    z = grid.at_node["topographic__elevation"]
-    ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
-    if np.any((z < LOWEST) | (z > HIGHEST), where=ground):
-        ground &= ~is_fill(z)
-    return (float(z.min(where=ground, initial=np.inf)), float(z.max(where=ground, initial=-np.inf)))
 
 
 # ---- names ----
@@ -206,60 +187,6 @@ def velocity_doubts(velocity) -> Iterator[str]:
             f"a release moves at {fastest:.4g} m/s when it fails, faster than any landslide: was the velocity meant in "
             "km/h or cm/s? It is in m/s"
         )
-
-
-def consolidation_doubts(grid, setup, release) -> Iterator[str]:
-    """Yield a doubt if pressure is gone at once, or if a c_v that nobody chose decides where a thin flow stops.
-
-    Pressure that stays is not doubted: large muddy events are computed with it, and the default c_v is that of one.
-    In a flow of decimetres this default neither keeps the pressure nor lets it go.
-
-    `grid` is the RasterModelGrid, `setup` the `Setup`, `release` a `Release`.
-    """
-    material, column = setup.material, setup.column
-    consolidates = isinstance(column, Consolidating) and not is_dilatant(column)
-    if not consolidates or setup.two_phases or release.nodes.size == 0 or material.bearing_density == 0.0:
-        return
-    c_v, depth = material.coefficient_of_consolidation, release.depth
-    thickness = float(np.sum(depth**2) / np.sum(depth))  # of the ground below most of the mass
-    if thickness < FILM:
-        return
-    fall = float(grid.at_node["topographic__elevation"][release.nodes].max()) - _elevation_range(grid)[0]
-    event = sliding_time(fall, material.gravity)
-    thin = min(thickness, runout_thickness(_largest_volume(grid, release.nodes, depth)))
-    time, thin_time = (float(consolidation_time(h, c_v)) for h in (thickness, thin))
-    times = (
-        f"in a release {thickness:.2g} m thick excess pore pressure drains within h2/c_v = {time:.2g} s, a fall of "
-        f"{fall:.3g} m takes some {event:.2g} s"
-    )
-    recipe = (
-        "give c_v of your debris, or coefficient_of_consolidation={'permeability': ..., 'pore_fluid_viscosity': ..., "
-        "'stiffness': ...}"
-    )
-    gone = GONE * time < BEGINNING * event and material.initial_pressure_ratio > 0.0
-    if gone and c_v <= FASTEST_CONSOLIDATION:  # above, the unit is doubted
-        yield (
-            f"material: coefficient_of_consolidation is {c_v:.2g} m2 s-1: {times}. The pressure of the start is gone "
-            "before the release has moved far, whatever initial_pressure_ratio is. Was c_v meant in cm2/s? For a flow "
-            f"without excess pore pressure take column='none'; else {recipe}"
-        )
-    elif c_v == Material.coefficient_of_consolidation and HALVED * thin_time < event:
-        yield (
-            f"material: coefficient_of_consolidation is {c_v:g} m2 s-1, the default, of metres of debris: {times}. "
-            f"The pressure of the start stays at first; spread to {thin:.2g} m, as flows of this volume are at their "
-            f"end, it drains within {thin_time:.2g} s: where the flow stops depends on c_v, which is larger by orders "
-            f"in sand and gravel than in mud; {recipe}"
-        )
-
-
-def _largest_volume(grid, nodes, depth) -> float:
-    """Return the volume of the largest of the sites that fail [m3]; `depth` [m] fails at some nodes."""
-    rows, columns = np.unravel_index(nodes, grid.shape)
-    rows, columns = rows - rows.min(), columns - columns.min()
-    failing = np.zeros((rows.max() + 1, columns.max() + 1))
-    failing[rows, columns] = depth
-    sites, _ = label(failing > 0.0, np.ones((3, 3)))
-    return float(np.bincount(sites.ravel(), failing.ravel()).max()) * grid.dx * grid.dy
 
 
 def release_doubts(grid, nodes, depth) -> Iterator[str]:

@@ -2,6 +2,11 @@
 
 import numpy as np
 
+from ..spatial.raster import CLOSED
+
+LOWEST, HIGHEST = -12000.0, 9000.0
+"""Lowest and highest ground on Earth [m]."""
+
 FILL_VALUES = (
     -9999.0, -32768.0, -32767.0, 32767.0, 65535.0, -99999.0, 99999.0, -999999.0, 999999.0,
     -2147483648.0, -2147483647.0, 2147483647.0, 4294967295.0,
@@ -47,3 +52,12 @@ def replacement_remedy(name: str, values, value) -> str:
         return ""
     field, count = f"grid.at_node['{name}']", np.count_nonzero(values == value)
     return f"; {code_of(value)} marks missing data, at {count} nodes: {field}[{field} == {code_of(value)}] = 0"
+
+
+def elevation_range(grid) -> tuple[float, float]:
+    """Return the lowest and the highest elevation at nodes in use [m], without values that reading would refuse."""
+    z = grid.at_node["topographic__elevation"]
+    ground = (grid.status_at_node != CLOSED) & np.isfinite(z)
+    if np.any((z < LOWEST) | (z > HIGHEST), where=ground):
+        ground &= ~is_fill(z)
+    return (float(z.min(where=ground, initial=np.inf)), float(z.max(where=ground, initial=-np.inf)))

@@ -46,7 +46,7 @@ def runout_thickness(volume: float) -> float:
 
     Examples
     --------
-    >>> runout_thickness(8.0), runout_thickness(8000.0)  # a flume, a hillslope
-    (0.1, 1.0)
+    >>> [round(runout_thickness(volume), 3) for volume in (8.0, 8000.0)]  # a flume, a hillslope
+    [0.1, 1.0]
     """
     return volume ** (1.0 / 3.0) / SPREAD

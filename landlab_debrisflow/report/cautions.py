@@ -10,7 +10,8 @@ DISTRUST = (
     "Run-out and deposit depend on the friction angle and on the pore pressure at the start. Neither is measured "
     "before an event: run the scene with the least and the most favourable values that are possible.",
     "How the pore pressure follows the load when a body thins (column: loading_source: overburden, the default, or "
-    "proportional) is an open question, and moves the run-out more than most parameters: run both.",
+    "proportional) is an open question, and moves the run-out more than most parameters: run both. With dilatancy the "
+    "permeability takes its place, which is known to orders of magnitude.",
     "The eroded volume follows from a growth rate that was fitted to other events, and from the depth of erodible "
     "soil, which is a guess almost everywhere.",
     "Pressures on buildings, and the flow around buildings, depend on the raster and on the number of particles. A "

@@ -11,7 +11,7 @@ def test_a_seed_draws_the_same_ones_again():
 
 def test_methods_and_private_functions_are_among_them():
     names = {signature.split("(")[0] for _, signature, _ in docstrings.docstrings()}
-    assert {"DebrisFlow.run_one_step", "solve_column", "_History.advance_to"} <= names
+    assert {"DebrisFlow.run_one_step", "solve_column", "AdvancedColumns.advance_to"} <= names
 
 
 def test_the_draw_is_printed(capsys, monkeypatch):

@@ -94,6 +94,9 @@ def test_variations():
     assert keywords["column"] == {"law": "classical", "levels": 21} and "column" not in scene.keywords
     coarse, _, numerics = vary(scene, 200, "fast+coarse")
     assert coarse.shape == (13, 30) and numerics["preset"] == "fast"
+    _, keywords, numerics = vary(NAMED["loose debris"](), 200, "levels=21+courant=0.1")
+    assert keywords["column"]["levels"] == 21 and "dilatancy" in keywords["column"]
+    assert numerics["courant_number"] == numerics["advective_courant_number"] == 0.1
     with pytest.raises(ValueError, match="unknown variation 'quick'"):
         vary(scene, 200, "quick")
 

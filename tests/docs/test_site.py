@@ -8,7 +8,18 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-MODULES = ("", ".laws", ".record", ".plots", ".scene", ".triggers", ".exact", ".exact.columns", ".exact.flows")
+MODULES = (
+    "",
+    ".laws",
+    ".record",
+    ".plots",
+    ".scene",
+    ".triggers",
+    ".exact",
+    ".exact.columns",
+    ".exact.dilatancy",
+    ".exact.flows",
+)
 sys.path.append(str(ROOT / "docs" / "_site"))
 
 import links  # noqa: E402  of docs/_site

@@ -162,6 +162,21 @@ def test_the_default_is_not_doubted_in_metres_of_debris_nor_another_value(said):
 
 
 @pytest.mark.slow
+def test_pressure_that_a_wet_bed_renews_is_not_doubted(said):
+    for soil, keywords, doubted in (
+        (1.0, {}, False), (1.0, {"erosion": "none"}, True), (1.0, {"material": {"bed_pressure_ratio": 0.0}}, True),
+    ):  # fmt: skip
+        grid = hillside(2.0)
+        grid.add_field("soil__depth", np.where(grid.at_node[RELEASE] > 0.0, 2.0, soil), at="node")
+        assert bool(consolidation_doubt(said, grid, 4.0, **keywords)) == doubted
+    for ratio in (0.5, 0.0):
+        grid = hillside(2.0)
+        grid.add_full("soil__depth", 2.0, at="node")
+        grid.add_full("bed__excess_pore_pressure_ratio", ratio, at="node")
+        assert bool(consolidation_doubt(said, grid, 4.0)) == (ratio == 0.0)
+
+
+@pytest.mark.slow
 def test_the_largest_site_counts(said):
     grid = hillside(1.0, length=3)
     grid.at_node[RELEASE].reshape(grid.shape)[3:10, 20:40] = 2.0

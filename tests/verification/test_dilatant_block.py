@@ -61,6 +61,7 @@ def test_a_block_from_rest(kind, solid_fraction):
     assert np.all(errors[1][wrong] < errors[0][wrong] / 3.0)
 
 
+@pytest.mark.slow
 def test_a_dense_block_starts_and_locks():
     """It dilates, suction presses the grains together, and it stops for good."""
     flow = block(0.66, 0.0)

@@ -39,7 +39,7 @@ def wall(grid):
 
 def drain(grid):
     """Let the bed drain to the right of the release."""
-    grid.add_field("debris_flow__bed_drained", 1 * (grid.x_of_node > 30.0), at="node")
+    grid.add_field("bed__drained", 1.0 * (grid.x_of_node > 30.0), at="node")
 
 
 def settled(**keywords):
@@ -84,6 +84,8 @@ SCENES |= {
     "at a wall": lambda: run(2.0, change=wall),
     "two phases at a wall": lambda: run(1.5, change=wall, flow="two_phase"),
     "loaded bed": lambda: run(material=LOADED),
+    "dilatancy": lambda: run(0.2, column={"law": "ale", "dilatancy": {}}, change=drain),
+    "dilatancy, soil in the half cell": lambda: run(0.2, column={"law": "ale", "dilatancy": {}, "bed_contact": "flux"}),
     "inflow": lambda: run(1.0, inflow=SURGE),
     "two phases in": lambda: run(0.8, inflow=SURGE, flow="two_phase"),
     "out of the grid": lambda: run(2.0, shape=(9, 11), inclination=1.5, erosion="none", column="none"),

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
+from .data import absence
 from .sets import ParameterSet, read_set
 
 FOLDER = Path(__file__).parent
@@ -101,6 +102,8 @@ class Event:
         Steps to which variables are rounded when they are stored, as integers of 16 bits.
     shared_sets : str
         Name of the event in whose folder the sets are; by default the event's own.
+    drawn_with : str
+        File of the measured data that the figure needs beside result.nc, because its licence keeps it out of there.
     """
 
     name: str
@@ -116,11 +119,16 @@ class Event:
     draw: Callable[[xr.Dataset], Any]
     steps: Mapping[str, float]
     shared_sets: str = ""
+    drawn_with: str = ""
 
     @property
     def folder(self) -> Path:
         """Return the folder of the event."""
         return FOLDER / self.name
+
+    def absence(self) -> str:
+        """Return why the figure cannot be drawn, or an empty text if it can."""
+        return absence(self.name, self.drawn_with) if self.drawn_with else ""
 
     def read_set(self, name: str = "") -> ParameterSet:
         """Return a set of parameters, by default the one that is shown; InputError if there is none."""

@@ -98,3 +98,24 @@ def test_a_drained_base_lets_water_out_below():
     assert one.basal_pressure[0] > 0.5 * LOADING * 0.3
     assert mean(both.state.solid_fraction)[0] > mean(one.state.solid_fraction)[0] + 5e-4
     assert both.state.solid_fraction[0, 0] > one.state.solid_fraction[0, 0] + 0.01
+
+
+def at_base_of_sheared(dt, kind):
+    """Return solid fraction of the base, and mean ratio of stress to load, after 2 s of erosion and shear at 10 s-1."""
+    columns = dilatant_columns(
+        {"permeability": 1e-10}, 1.0, 0.62, 10.0, profile=0.3 * LOADING * ETA[None], soil_solid_fraction=0.62,
+        **CONTACTS[kind],
+    )  # fmt: skip
+    for _ in range(round(2.0 / dt)):
+        load = LOADING * (columns.forcing.thickness + 0.01 * dt)
+        columns.step(dt, 0.01 * dt, bed_pressure=0.3 * load)
+    return columns.state.solid_fraction[0, 0], mean(stresses(columns))[0] / columns.forcing.liquefaction_pressure[0]
+
+
+@pytest.mark.parametrize("kind", CONTACTS)
+def test_the_length_of_a_step_does_not_count_while_sheared_debris_erodes(kind):
+    """Soil is sheared for as long as it takes to fill the half cell above the base, not for a step."""
+    exact = np.array(at_base_of_sheared(0.001, kind))
+    errors = [abs(np.array(at_base_of_sheared(dt, kind)) - exact) for dt in (0.1, 0.05, 0.01)]
+    assert errors[0][0] < 1e-3 and errors[0][1] < 0.02
+    assert np.all(errors[2] < 0.3 * errors[0] + 1e-5)

@@ -91,6 +91,9 @@ def test_an_event_is_complete(name):
 @pytest.mark.parametrize("name", EVENTS)
 def test_a_figure_needs_no_data(name, monkeypatch):
     monkeypatch.setenv("DEBRISFLOW_DATA", "/nonexistent")
+    if find_event(name).drawn_with:  # a licence keeps the observation out of result.nc
+        assert "no measured data" in find_event(name).absence()
+        return
     assert [axes for axes in events.chart(name).axes if axes.has_data()]
 
 

@@ -127,8 +127,8 @@ def _take_in(work, rest, load, bed, contact, soil):
     """Move the grains of one column to their new levels, and put the soil that came in below them.
 
     A grain keeps its depth, so that its depth over the thickness shrinks by `rest`, the volume before over the volume
-    after. Between levels, stress and solid fraction are cubics without new extremes. A base that the bed prescribes has
-    the state of the soil; in the half cell above another base the soil mixes with the debris there.
+    after. Between levels, stress and solid fraction are cubics without new extremes. In the half cell above the base
+    the soil mixes with what is there, except that a base which the bed prescribes has the stress of the soil.
 
     `work`, shape (2, levels), holds effective stress [Pa] and solid fraction [-], and is changed;
     `load` is the weight of all [Pa]; `bed` is the pressure of the soil [Pa] and `soil` its solid fraction [-].
@@ -157,8 +157,7 @@ def _take_in(work, rest, load, bed, contact, soil):
                 low = min(int(place), cells - 1)
                 value = cubic_between(old, cells, low, place)
                 work[row, j] = min(max(value, min(old[low], old[low + 1])), max(old[low], old[low + 1]))
-    if contact >= INFLOW:
-        new = min(1.0, 2.0 * cells * (1.0 - rest))
-        work[1, cells] = base_fraction + new * (soil - base_fraction)
-        if contact == INFLOW and new < 1.0:  # what mixes is the ratio of the stress to the depth
-            work[0, cells] = (1.0 - new) * (base_stress / rest) + new * entry
+    new = min(1.0, 2.0 * cells * (1.0 - rest))
+    work[1, cells] = base_fraction + new * (soil - base_fraction)
+    if contact == INFLOW and new < 1.0:  # what mixes is the ratio of the stress to the depth
+        work[0, cells] = (1.0 - new) * (base_stress / rest) + new * entry
