@@ -23,14 +23,8 @@ from matplotlib.colors import BoundaryNorm
 from benchmarks import charts, result_files, style
 from landlab_debrisflow.laws import Dilatancy, kernel
 from landlab_debrisflow.physics.column.dilatancy import DENSEST, LOOSEST
-from landlab_debrisflow.physics.column.schemes.dilatant_block import (
-    ITERATIONS,
-    LANES,
-    NOT_PRESCRIBED,
-    Block,
-    Rates,
-    solve_block,
-)
+from landlab_debrisflow.physics.column.schemes.dilatant_block import LANES, NOT_PRESCRIBED, Block, Rates
+from landlab_debrisflow.physics.column.schemes.dilatant_solution import ITERATIONS, solve_block
 
 LEVELS, STEPS = 11, 6
 SHEAR = np.concatenate([[0.0], np.logspace(-3.0, 5.0, 9)])  # [s-1]

@@ -1,7 +1,7 @@
 """The scheme of columns whose debris contracts or dilates: every column is advanced in every step.
 
 A step loads the column, lets in the soil that was eroded, and advances effective stress and solid fraction implicitly
-(`dilatant_block`). Grains keep their effective stress and their solid fraction while no water moves.
+(`dilatant_solution`). Grains keep their effective stress and their solid fraction while no water moves.
 """
 
 import numpy as np
@@ -10,7 +10,8 @@ from ....core.jit import inner, kernel
 from ..dilatancy import DENSEST, LOOSEST
 from .choices import PROPORTIONAL, UNLOADED
 from .contact import IMPERMEABLE, INFLOW, SEALED, contact_of
-from .dilatant_block import LANES, NOT_PRESCRIBED, Block, Rates, equilibrium, relative_conductivity, solve_block
+from .dilatant_block import LANES, NOT_PRESCRIBED, Block, Rates, describe_base
+from .dilatant_solution import solve_block
 from .lazy.remap import cubic_between, interpolate
 
 # places in `ColumnState.memory`: 1 once the column is known; load at the base at the end of the last step [Pa]; tangent
@@ -64,7 +65,8 @@ def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
     volumes, entrained, ratio = forcing.volume, forcing.entrained, forcing.water_to_buoyant
     count, levels = profile.shape
     cells = levels - 1
-    work = np.empty((2, levels))
+    work, eta = np.empty((2, levels)), np.arange(levels) / cells
+    dilatancy, coefficient = np.empty(LANES), np.empty(LANES)
     for first in range(0, count, LANES):
         for b in range(LANES):
             i = min(first + b, count - 1)  # lanes beyond the last column repeat it, and are not read
@@ -82,43 +84,39 @@ def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
             prescribed[b] = NOT_PRESCRIBED
             if contact != IMPERMEABLE and contact < INFLOW:
                 prescribed[b] = min(max(weight - bed, 0.0), most[b])
-            _load(profile, fractions, i, old_load, weight * rest, scheme, work)
+            _load(profile, fractions, i, (old_load, weight * rest), eta, scheme, work)
             if gained > 0.0:
                 _take_in(work, rest, weight, bed, contact, soil)
             for j in range(levels):
-                stress[j, b] = min(max(work[0, j], 0.0), most[b] * j / cells)
+                stress[j, b] = min(max(work[0, j], 0.0), most[b] * eta[j])
                 fraction[j, b] = min(max(work[1, j], LOOSEST), DENSEST)
         solve_block(block, step, law, dt)
+        describe_base(block, step, law, dilatancy, coefficient)
         for b in range(min(LANES, count - first)):
             i = first + b
             for j in range(levels):
-                profile[i, cells - j] = loads[i] * j / cells - stress[j, b]
+                profile[i, cells - j] = loads[i] * eta[j] - stress[j, b]
                 fractions[i, cells - j] = fraction[j, b]
             profile[i, cells] = 0.0
-            base, solid, gd = stress[cells, b], fraction[cells, b], rates[i]
-            tends = equilibrium(base, law.viscosity * gd, law.inertia * gd * gd, law.critical)
             memory[i, IS_KNOWN], memory[i, LAST_LOAD] = 1.0, loads[i]
-            memory[i, DILATANCY], memory[i, FLUID] = solid - tends, law.viscosity * (1.0 - solid)
-            memory[i, COEFFICIENT] = (
-                law.conductivity * relative_conductivity(solid) * solid * (base + law.reference_stress)
-                / law.compressibility
-            )  # fmt: skip
+            memory[i, DILATANCY], memory[i, COEFFICIENT] = dilatancy[b], coefficient[b]
+            memory[i, FLUID] = law.viscosity * (1.0 - fraction[cells, b])
             basal_pressure[i] = profile[i, 0]
 
 
 @inner
-def _load(profile, fractions, i, old_load, load, scheme, work):
+def _load(profile, fractions, i, loads, eta, scheme, work):
     """Write effective stress [Pa] and solid fraction [-] of one column under its new load, from the surface down.
 
-    `profile`, shape (n, levels), has the pressures before [Pa], `fractions` the solid fractions; `old_load` and `load`
-    are the weight of the same grains before and after [Pa]; `work`, shape (2, levels), is written.
+    `profile`, shape (n, levels), has the pressures before [Pa], `fractions` the solid fractions; `loads` are the
+    weight of the same grains before and after [Pa]; `eta`, shape (levels,), is the depth over the thickness [-].
+    `work`, shape (2, levels), is written.
     """
-    cells = profile.shape[1] - 1
+    cells, (old_load, load) = profile.shape[1] - 1, loads
     scale = load / old_load if scheme.loading == PROPORTIONAL and old_load > 0.0 else 1.0
     gain = load - old_load if scheme.loading == UNLOADED else 0.0
     for j in range(cells + 1):
-        eta = j / cells
-        work[0, j] = scale * (old_load * eta - profile[i, cells - j]) + gain * eta
+        work[0, j] = (scale * old_load + gain) * eta[j] - scale * profile[i, cells - j]
         work[1, j] = fractions[i, cells - j]
 
 
