@@ -94,7 +94,8 @@ class PeakMaps:
     def record(self, particles: Particles, footprints: Footprints, density, time: float) -> None:
         """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
-        for field in (*self._current, *self._phases):
+        mixture = () if self._solid_fraction is None else (self._solid_fraction,)
+        for field in (*self._current, *self._phases, *mixture):
             field[self._under] = 0.0
         if p.count == 0:
             self._under = self._under[:0]

@@ -9,6 +9,7 @@ import pytest
 
 from landlab_debrisflow import DebrisFlow, InputError, ParameterError
 from landlab_debrisflow.grid.fields import NODE_FIELDS
+from landlab_debrisflow.model.map_fields import PHASES
 from validation.grids import COARSE, changed_fields, copy_fields, inclined, release_slab
 
 Z, SOIL, RELEASE = "topographic__elevation", "soil__depth", "debris_flow__release_depth"
@@ -78,8 +79,8 @@ def test_numbers_of_two_phases_do_not_stay_for_one():
     grid = scene()
     two = DebrisFlow(grid, flow="two_phase", numerics=COARSE)
     two.run_one_step(4.0)
-    phases = [name for name in OUTPUTS if "solid" in name or "water" in name]
-    assert len(phases) == 3 and all(grid.at_node[name].any() for name in phases) and set(phases) <= set(two.maps)
+    phases = [f"debris_flow__{name}" for name in PHASES]
+    assert all(grid.at_node[name].any() for name in phases) and set(phases) <= set(two.maps)
     reset(grid)
     one = DebrisFlow(grid, numerics=COARSE)
     one.run_one_step(4.0)
@@ -87,6 +88,25 @@ def test_numbers_of_two_phases_do_not_stay_for_one():
     reset(grid)
     DebrisFlow(grid, flow="two_phase", numerics=COARSE).run_one_step(4.0)
     assert all(grid.at_node[name].any() for name in phases)
+
+
+def test_the_solid_fraction_is_that_of_dilatant_debris_and_does_not_stay_for_other():
+    grid, name = scene(), "debris_flow__solid_fraction"
+    dilatant = DebrisFlow(grid, column={"law": "ale", "dilatancy": {}}, numerics=COARSE, erosion="none")
+    dilatant.run_one_step(3.0)
+    columns, volume = dilatant.columns.solid_fraction, dilatant.particles.volume.values
+    under = grid.at_node["debris_flow__depth"] > 0.0
+    assert np.array_equal(grid.at_node[name] > 0.0, under)
+    # mean over the thickness of every particle, trapezoidal, and over the nodes by volume
+    of_particles = columns.values[:, 1:-1].sum(axis=1) + 0.5 * (columns.values[:, 0] + columns.values[:, -1])
+    expected = np.sum(volume * of_particles / (columns.shape[1] - 1)) / volume.sum()
+    depth = grid.at_node["debris_flow__depth"]
+    assert np.sum(depth * grid.at_node[name]) / depth.sum() == pytest.approx(expected, rel=1e-12)
+    assert 0.5 < expected < 0.7 and name in dilatant.maps
+    reset(grid)
+    other = DebrisFlow(grid, numerics=COARSE)
+    other.run_one_step(1.0)
+    assert not grid.at_node[name].any() and name not in other.maps
 
 
 @pytest.mark.slow
