@@ -12,7 +12,6 @@ from ..core.values import NodeValues, with_inner
 from ..spatial.raster import CLOSED
 from .checks import where
 from .consolidation import FASTEST_CONSOLIDATION
-from .consolidation import consolidation_doubts as consolidation_doubts  # told with the others
 from .fields import NODE_FIELDS
 from .fill_values import HIGHEST, LOWEST, code_of, elevation_range
 

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.parameters import on_nodes
 from ..spatial.raster import CORE
 from . import checks, doubts, elevation_checks
+from .consolidation import consolidation_doubts
 from .inflow_lines import check_lines
 from .release import NO_RELEASE, Release, read_release
 
@@ -215,7 +216,7 @@ class GridReader:
         found = {
             "depth": doubts.release_doubts(self._grid, release.nodes, release.depth),
             "velocity": doubts.velocity_doubts(release.velocity),
-            "consolidation": doubts.consolidation_doubts(self._grid, self._setup, release),
+            "consolidation": consolidation_doubts(self._grid, self._setup, release),
         }
         for kind, sentences in found.items():
             for doubt in () if kind in warned else sentences:

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..core.constants import THINNEST
 from ..core.jit import kernel
 from ..core.structs import struct
 from ..physics.contracts import NOT_ASKED, BasalState, BasalStress, Phases
-from ..physics.friction.shear import THINNEST
 
 NO_VARIABLES = SimpleNamespace()
 

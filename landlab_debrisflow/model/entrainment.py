@@ -8,6 +8,7 @@ from ..core.arrays import value_at
 from ..core.jit import kernel
 from ..core.structs import struct
 from ..physics.bed_state import SATURATED_BED, BedState
+from ..physics.contracts import is_jump_condition
 from .basal import BasalLaw, basal_state
 
 
@@ -140,7 +141,7 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
         if bed.saturation is not None:
             dry_pores(p, bed, material)
     # the friction of the flow already contains the momentum of soil that a jump condition gives: as if it slipped along
-    slip_ratio = 1.0 if getattr(erosion.law, "is_jump_condition", False) else material.basal_slip_ratio
+    slip_ratio = 1.0 if is_jump_condition(erosion.law) else material.basal_slip_ratio
     soil = Soil(
         solid_fraction=phases.solid_fraction, slip_ratio=slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,

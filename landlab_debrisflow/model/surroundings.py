@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..physics.column_contracts import is_dilatant
+from ..physics.contracts import is_jump_condition
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
 from .basal import BasalLaw
@@ -67,7 +68,7 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         )
         for kind, law in (("friction", setup.friction), ("erosion", setup.erosion))
     )
-    contact = SOIL_ALONE if getattr(erosion.law, "is_jump_condition", False) else BY_EROSION
+    contact = SOIL_ALONE if is_jump_condition(erosion.law) else BY_EROSION
     water_to_buoyant = material.bearing_density / material.buoyant_density
     # pore pressure of a bed with air in its pores is the part S of hydrostatic pressure, where a drain takes the excess
     drain_ratio = np.zeros(1) if bed.saturation is None else (bed.saturation - 1.0) * water_to_buoyant

@@ -82,7 +82,7 @@ class Shearing(NamedTuple):
     ----------
     rate : ndarray, shape (n,); 2 (v - v_b)/h_n [s-1]
     load : ndarray, shape (n,); rho' g_n h_n after the step, with g_n as the curvature of the bed has it [Pa]
-    start_solid_fraction : float; of a column that the law is told of for the first time [-]
+    start_solid_fraction : float; of a column that the law is told of for the first time with 0 at its levels [-]
     soil_solid_fraction : float; of the soil that comes in [-]
     solid_density : float; of the grains [kg m-3]
     """

@@ -80,6 +80,11 @@ class FrictionLaw(Protocol):
         """
 
 
+def is_jump_condition(erosion: Any) -> bool:
+    """Return whether the rate of an erosion law is the jump of shear stress across the base; see `ErosionLaw`."""
+    return getattr(erosion, "is_jump_condition", False)
+
+
 class ErosionLaw(Protocol):
     """Rate at which the flow erodes the bed.
 

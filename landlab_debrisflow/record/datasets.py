@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from ..grid.fields import NODE_FIELDS
+from ..physics.agreement import CONSOLIDATION
 from ..physics.column.diagnostics import consolidation_time, erosion_time
 from ..spatial.raster import CLOSED
 from .attributes import (  # fmt: skip
@@ -132,6 +133,8 @@ def maps_dataset(grid: Any, shown: Mapping[str, np.ndarray], setup: Any, moment:
         attributes |= parameter_attributes(kind, law)
         for name, values, words in node_parameters(kind, law, grid.at_node, closed.size):
             data[name] = (("y", "x"), np.where(closed, np.nan, values).reshape(grid.shape), words, encoding)
+    if setup.has_dilatancy:
+        attributes = {name: value for name, value in attributes.items() if CONSOLIDATION not in name}
     for name, array in setup.node_arrays().items():
         words = variable_attributes(array.unit, f"{array.meaning}, as given, also at closed nodes")
         data[name] = (("y", "x"), array.values.reshape(grid.shape), words, encoding)

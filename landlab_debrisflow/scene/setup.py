@@ -15,7 +15,7 @@ from ..core.names import legal_name
 from ..core.values import NodeValues
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
-from ..physics.column.dilatancy import check_dilatancy
+from ..physics.agreement import CONSOLIDATION, check_laws
 from ..physics.column_contracts import ColumnLaw, is_dilatant
 from ..physics.contracts import ErosionLaw, FlowLaw, FrictionLaw
 from ..physics.material import Material
@@ -99,20 +99,14 @@ class Setup:
         ) -> None: ...
 
     def __post_init__(self):
+        names_c_v = isinstance(self.material, Mapping) and self.material.get(CONSOLIDATION) is not None
         built = {kind: build_law(kind, getattr(self, kind)) for kind in LAWS}
         built["material"] = build_declared(Material, self.material, "material")
         built["numerics"] = build_declared(Numerics, self.numerics, "numerics")
         built["inflow"] = _hydrographs(self.inflow)
         for name, value in built.items():
             object.__setattr__(self, name, value)
-        if self.has_dilatancy:
-            check_dilatancy(self.material, self.two_phases)
-        if getattr(self.erosion, "is_jump_condition", False) and getattr(self.column, "scheme", "") == "lax_wendroff":
-            raise ParameterError(
-                f"erosion: {law_name('erosion', self.erosion)} needs a column whose base keeps a pressure of its own, "
-                "got the scheme 'lax_wendroff', whose base has the pressure of the bed while soil comes in; choose the "
-                "scheme 'default' or 'upwind', or another law of erosion"
-            )
+        check_laws(self, names_c_v)
 
     @property
     def two_phases(self) -> bool:
@@ -159,7 +153,7 @@ class Setup:
         dict
             `from_mapping` builds an equal setup from it, also by way of YAML or JSON. A law that is not declared
             appears as its class and its `repr`, a declared law without a name in `LAWS` as its class: from such a
-            mapping no setup can be built.
+            mapping no setup can be built. With dilatancy the coefficient of consolidation is no value of the material.
         """
         return self._mapping(lambda kind, name, array: array.values.tolist())
 
@@ -181,6 +175,8 @@ class Setup:
             values = values_of(kind, law) if is_declared(law) else {"repr": text_of(law)}
             mapping[kind] = {"law": law_name(kind, law)} | values
         mapping |= {kind: values_of(kind, getattr(self, kind)) for kind in ("material", "numerics")}
+        if self.has_dilatancy:
+            del mapping["material"][CONSOLIDATION]
         return mapping | {"inflow": [values_of("inflow", hydrograph) for hydrograph in self.inflow]}
 
     def digest(self) -> str:

@@ -5,10 +5,10 @@ from typing import ClassVar
 from ...core.errors import ParameterError
 from ...core.parameters import declared, parameter
 from ...core.variables import Variable
-from ..column_contracts import ColumnForcing, ColumnState, DilatantBase
+from ..column_contracts import DilatantBase
 from .consolidating import Consolidating
 from .dilatancy import Dilatancy
-from .schemes.dilatant import COEFFICIENT, DILATANCY, FLUID, SIZE, advance_dilatant
+from .schemes.dilatant import COEFFICIENT, DILATANCY, FLUID
 
 SOLID_FRACTION = Variable("solid_fraction", "-", "volume fraction of the grains in the column", per_level=True)
 
@@ -56,48 +56,10 @@ class ALE(Consolidating):
                 )
 
     @property
-    def memory_size(self) -> int:
-        """Number of floats of a column in `ColumnState.memory`."""
-        return super().memory_size if self.dilatancy is None else SIZE
-
-    @property
     def variables(self) -> tuple[Variable, ...]:
         """Variables per particle beyond those of every column."""
         return () if self.dilatancy is None else (SOLID_FRACTION,)
 
-    def advance(self, columns: ColumnState, forcing: ColumnForcing, dt: float, basal_pressure) -> None:
-        """Advance the `columns` by `dt` [s] in place under a `forcing`; write `basal_pressure`, shape (n,) [Pa].
-
-        Parameters
-        ----------
-        columns : ColumnState
-            Columns of n particles.
-        forcing : ColumnForcing
-            Change of the columns in the step.
-        dt : float
-            Duration of the step [s].
-        basal_pressure : ndarray, shape (n,)
-            Written: excess pore pressure at the base, for friction [Pa].
-        """
-        if self.dilatancy is None:
-            super().advance(columns, forcing, dt, basal_pressure)
-        else:
-            constants = self.dilatancy.constants(forcing.shearing.solid_density)
-            advance_dilatant(columns, forcing, dt, basal_pressure, self.choices, constants)
-
     def at_base(self, memory) -> DilatantBase:
         """Return the debris at the base of columns with dilatancy, from their `memory`, shape (n, memory_size)."""
         return DilatantBase(memory[:, DILATANCY], memory[:, FLUID], memory[:, COEFFICIENT])
-
-    def synchronise(self, columns: ColumnState, forcing: ColumnForcing) -> None:
-        """Turn every profile of `columns` into the pressures at levels now [Pa], in place; `forcing` is the last.
-
-        Parameters
-        ----------
-        columns : ColumnState
-            Columns of n particles; the profiles are written [Pa].
-        forcing : ColumnForcing
-            Forcing of the last step.
-        """
-        if self.dilatancy is None:  # else they are pressures at all times
-            super().synchronise(columns, forcing)

@@ -6,7 +6,7 @@ from typing import ClassVar
 from ...core.parameters import declared, parameter
 from ..column_contracts import ColumnForcing, ColumnState
 from .schemes.choices import BED_CONTACT, LOADING, Scheme, scheme_of
-from .schemes.registry import MEMORY_SIZE, advance, check_scheme, synchronise
+from .schemes.registry import MEMORY_SIZE, advance, check_scheme, memory_size, synchronise
 
 
 @declared
@@ -40,7 +40,7 @@ class Consolidating:
     @property
     def memory_size(self) -> int:
         """Number of floats of a column in `ColumnState.memory`."""
-        return MEMORY_SIZE[self.scheme]
+        return memory_size(self)
 
     @functools.cached_property
     def choices(self) -> Scheme:

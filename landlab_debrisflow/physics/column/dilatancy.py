@@ -1,11 +1,9 @@
 """Dilatancy: debris that contracts or dilates as it is sheared, and so makes its own pore pressure."""
 
-import dataclasses
 from typing import NamedTuple
 
 import numpy as np
 
-from ...core.errors import ParameterError
 from ...core.parameters import declared, parameter
 
 LOOSEST, DENSEST = 0.3, 0.74
@@ -117,37 +115,3 @@ class Dilatancy:
         """
         conductivity = self.conductivity(solid_fraction)
         return conductivity * solid_fraction * (effective_stress + self.reference_stress) / self.compressibility
-
-
-def check_dilatancy(material, two_phases: bool) -> None:
-    """Refuse a `material` that columns with dilatancy cannot have, and a flow of two phases.
-
-    Raises
-    ------
-    ParameterError
-        If the material is dry, not saturated, looser or denser than `LOOSEST` and `DENSEST`, or has a coefficient of
-        consolidation of its own; if there are two phases.
-    """
-    if two_phases:
-        raise ParameterError(
-            "column: dilatancy goes with one phase; in a flow of two phases the change of porosity makes the pore "
-            "pressure already: remove dilatancy, or use flow='one_phase'"
-        )
-    default = next(one.default for one in dataclasses.fields(material) if one.name == "coefficient_of_consolidation")
-    if (given := material.coefficient_of_consolidation) != default:
-        raise ParameterError(
-            f"material: coefficient_of_consolidation must be left out with dilatancy, got {given!r}: it follows from "
-            "permeability, pore_fluid_viscosity and compressibility at every level; remove one of the two"
-        )
-    for name, allowed in (("water_density", "> 0 kg m-3"), ("water_table_ratio", "1")):
-        value = getattr(material, name)
-        if value == 0.0 or (name == "water_table_ratio" and value < 1.0):
-            raise ParameterError(
-                f"material: {name} must be {allowed} with dilatancy, got {value:g}: only saturated debris makes pore "
-                "pressure as it contracts; remove dilatancy for other debris"
-            )
-    for name, porosity in (("porosity", material.porosity), ("bed_porosity", material.soil_porosity)):
-        if not LOOSEST <= 1.0 - porosity <= DENSEST:
-            raise ParameterError(
-                f"material: {name} must lie in [{1.0 - DENSEST:g}, {1.0 - LOOSEST:g}] with dilatancy, got {porosity:g}"
-            )

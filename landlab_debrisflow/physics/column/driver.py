@@ -145,11 +145,7 @@ class Columns:
             self.forcing = self.forcing._replace(shearing=shearing)
         self.state = ColumnState(profile, np.zeros((count, law.memory_size)), np.zeros(count), fractions)
         self.basal_pressure = np.zeros(count)
-        start = None if fractions is None else fractions.copy()
         law.advance(self.state, self.forcing, 0.0, self.basal_pressure)
-        if start is not None:  # a new column has one solid fraction at all levels
-            fractions[:] = start
-            law.advance(self.state, self.forcing, 0.0, self.basal_pressure)
 
     def step(self, dt: float, entrained=0.0, shear_rate=None, **changes) -> np.ndarray:
         """Advance the columns by one step.

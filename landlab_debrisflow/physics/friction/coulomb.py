@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 
+from ...core.constants import THINNEST
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
-from .shear import THINNEST, strength
+from .shear import strength
 
 SHEAR_AT_BASE = {"linear": 2.0, "parabolic": 3.0}
 """Shear rate at the base over (v - v_b)/h_n, v being the mean velocity, by velocity profile."""

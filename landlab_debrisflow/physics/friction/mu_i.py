@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from ...core.constants import THINNEST
 from ...core.errors import ParameterError
 from ...core.parameters import declared, parameter
 from ..contracts import BasalState
-from .shear import THINNEST, friction_coefficient
+from .shear import friction_coefficient
 
 TINY = 1e-300
 """Added to a divisor, so that 0/0, without effective stress and speed, becomes 0."""

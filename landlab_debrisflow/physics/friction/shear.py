@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 
+from ...core.constants import THINNEST
 from ..contracts import BasalState
 
 SLOWEST = 1e-9
@@ -17,9 +18,6 @@ in a few kicks."""
 
 STEEPEST = math.tan(math.radians(89.0))
 """Largest coefficient of friction [-]."""
-
-THINNEST = 1e-6
-"""Least thickness in a rate of shear, a grain of clay [m]: no rate divides by 0."""
 
 
 def strength(cohesion, friction_angle, state: BasalState, out) -> None:

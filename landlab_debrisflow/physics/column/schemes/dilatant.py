@@ -6,6 +6,7 @@ A step loads the column, lets in the soil that was eroded, and advances effectiv
 
 import numpy as np
 
+from ....core.constants import THINNEST
 from ....core.jit import inner, kernel
 from ..dilatancy import DENSEST, LOOSEST
 from .choices import PROPORTIONAL, UNLOADED
@@ -19,9 +20,6 @@ from .lazy.remap import cubic_between, interpolate
 # consolidation there [m2 s-1]
 IS_KNOWN, LAST_LOAD, DILATANCY, FLUID, COEFFICIENT = range(5)
 SIZE = 5
-
-THINNEST = 1e-6
-"""Least thickness of a column, a grain of clay [m]: no flux divides by 0."""
 
 
 def advance_dilatant(columns, forcing, dt, basal_pressure, scheme, law):
@@ -78,7 +76,8 @@ def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
             old_load = memory[i, LAST_LOAD]
             if memory[i, IS_KNOWN] == 0.0:  # a new column: only erosion has changed its load
                 old_load = weight * rest
-                fractions[i, :] = start
+                if fractions[i, 0] == 0.0:  # nor has anybody told its solid fraction
+                    fractions[i, :] = start
             shear[b], load[b], most[b] = rates[i], weight, weight * (1.0 + ratio)
             thickness[b] = max(thicknesses[i], THINNEST)
             prescribed[b] = NOT_PRESCRIBED
