@@ -37,7 +37,7 @@ NUMBERS = {
         remedy="0 is a dry bed, 1 a liquefied one",
     ),
     "shear_rate": parameter(
-        "s-1", "at which a column with dilatancy is sheared", 0.0, (0.0, None), timed=True,
+        "s-1", "shear rate of a column with dilatancy", 0.0, (0.0, None), timed=True,
         remedy="give twice the mean velocity over the thickness",
     ),
     "solid_fraction": parameter(

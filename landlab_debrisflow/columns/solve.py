@@ -56,8 +56,8 @@ def solve_column(
         e_R >= 0, per column [m s-1]. A function gets the time [s] and returns one number or one per column.
     coefficient_of_consolidation : float, array_like or mapping, optional
         c_v >= 0, per column, by default 1e-3 [m2 s-1]; or what it follows from, ``{"permeability": ...,
-        "pore_fluid_viscosity": ..., "stiffness": ...}`` [m2, Pa s, Pa], for all columns. With `dilatancy` it follows
-        from the state.
+        "pore_fluid_viscosity": ..., "stiffness": ...}`` [m2, Pa s, Pa], for all columns. With `dilatancy` c_v
+        follows from the state and is left out.
     basal_pressure : float, array_like or function of time
         Excess pore pressure of the bed, per column [Pa].
     times : array_like, shape (time,)
@@ -114,7 +114,7 @@ def solve_column(
     solid_fraction : float or array_like, optional
         With dilatancy, at time 0, per column, in [0.3, 0.74] [-]; by default that of `Material`.
     soil_solid_fraction : float, optional
-        With dilatancy, of the soil that comes in [-]; by default that of the columns at time 0, if it is one.
+        With dilatancy, of the soil that comes in [-]; by default that of the columns at time 0, if all have one.
     solid_density : float
         With dilatancy, of the grains [kg m-3].
 

@@ -9,7 +9,7 @@ class DerivedNumber(float):
     Attributes
     ----------
     parameters : dict of str to float
-        From what the number followed, by name.
+        Parameters from which the number followed, by name.
 
     Examples
     --------

@@ -78,8 +78,8 @@ def parameter(
     words : tuple of str
         Words that will do for a number.
     derivation : type, optional
-        Declared class with an attribute ``value`` that follows from its parameters: then a mapping of these will do for
-        a number, and the value is kept.
+        Declared class with an attribute ``value`` that follows from its parameters: then a mapping of these may stand
+        for the number, and the value is kept.
 
     Returns
     -------

@@ -216,7 +216,7 @@ def dilatant_block(
     time: ArrayLike, slope: float, thickness: float, solid_fraction: float, friction_angle: float,
     drained: bool = False, debris: DilatantDebris = USUAL, water_density: float = 1000.0, gravity: float = GRAVITY,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
-    """Return the velocity of a slab from rest that makes its own pore pressure, with stress and packing of its base.
+    """Return velocity, stress and solid fraction of a slab that starts from rest and makes its own pore pressure.
 
     ``rho h dv/dt = rho g h sin(slope) - sigma' tan(phi + psi) - 2 mu (1 - m) v/h``. The shear rate is ``2 v/h``,
     ``tan(psi) = m - m_eq``, and pore water is hydrostatic at the start. Either no water moves, so that
@@ -270,18 +270,18 @@ def dilatant_block(
 
     def rates(_, state):
         speed, moved = max(state[0], 0.0), state[1]
-        stress, packing = (load, moved) if drained else (np.clip(moved, 0.0, most), solid_fraction)
+        stress, fraction = (load, moved) if drained else (np.clip(moved, 0.0, most), solid_fraction)
         shear = 2.0 * speed / thickness
-        dilation = packing - float(equilibrium_solid_fraction(stress, shear, debris))
+        dilation = fraction - float(equilibrium_solid_fraction(stress, shear, debris))
         friction = stress * np.tan(min(friction_angle + np.arctan(dilation), STEEPEST))
-        friction += 2.0 * debris.pore_fluid_viscosity * (1.0 - packing) * speed / thickness
+        friction += 2.0 * debris.pore_fluid_viscosity * (1.0 - fraction) * speed / thickness
         acceleration = gravity * np.sin(slope) - friction / (density * thickness)
-        change = packing * shear * dilation
+        change = fraction * shear * dilation
         if drained:
             return acceleration, -change
         change *= (stress + debris.reference_stress) / debris.compressibility
-        held = (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0)
-        return acceleration, 0.0 if held else change
+        at_bound = (moved <= 0.0 and change < 0.0) or (moved >= most and change > 0.0)
+        return acceleration, 0.0 if at_bound else change
 
     stops: Any = lambda _, state: state[0]  # noqa: E731
     stops.terminal, stops.direction = True, -1.0

@@ -180,7 +180,7 @@ def relaxation_time(setup: Setup, coefficient: float) -> float:
     ----------
     setup : Setup
     coefficient : float
-        Coefficient of consolidation [m2 s-1]. It does not count with dilatancy, which has a permeability.
+        Coefficient of consolidation [m2 s-1]; not read with dilatancy, which has a permeability.
 
     Returns
     -------

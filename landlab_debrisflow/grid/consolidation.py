@@ -1,4 +1,4 @@
-"""Doubts about the coefficient of consolidation of an event: pressure that is gone at once, a default that decides."""
+"""Doubts about the coefficient of consolidation of an event: pressure is gone at once, or a default decides."""
 
 from collections.abc import Iterator
 
@@ -22,10 +22,10 @@ BED_RATIO = "bed__excess_pore_pressure_ratio"
 
 
 def consolidation_doubts(grid, setup, release) -> Iterator[str]:
-    """Yield a doubt if pressure is gone at once, or if a c_v that nobody chose decides where a thin flow stops.
+    """Yield a doubt if pressure is gone at once, or if the default c_v decides where a thin flow stops.
 
-    Pressure that a wet bed renews is not gone. Pressure that stays is not doubted: large muddy events are computed
-    with it, and the default c_v is that of one. In a flow of decimetres this default neither keeps the pressure nor
+    Pressure that a wet bed renews is not gone. Pressure that stays is not doubted: the default c_v is that of a large
+    muddy event, in which pressure stays. In a flow of decimetres this default neither keeps the pressure nor
     lets it go.
 
     `grid` is the RasterModelGrid, `setup` the `Setup`, `release` a `Release`.
@@ -59,10 +59,10 @@ def consolidation_doubts(grid, setup, release) -> Iterator[str]:
         )
     elif c_v == Material.coefficient_of_consolidation and HALVED * thin_time < event:
         yield (
-            f"material: coefficient_of_consolidation is {c_v:g} m2 s-1, the default, of metres of debris: {times}. "
+            f"material: coefficient_of_consolidation is {c_v:g} m2 s-1, the default, for debris metres thick: {times}. "
             f"The pressure of the start stays at first; spread to {thin:.2g} m, as flows of this volume are at their "
-            f"end, it drains within {thin_time:.2g} s: where the flow stops depends on c_v, which is larger by orders "
-            f"in sand and gravel than in mud; {recipe}"
+            f"end, it drains within {thin_time:.2g} s: where the flow stops depends on c_v, which is orders "
+            f"of magnitude larger in sand and gravel than in mud; {recipe}"
         )
 
 

@@ -25,7 +25,7 @@ LARGEST_PERMEABILITY = 1e-7
 """Permeability of gravel without fines [m2] (Bear, 1972, table 5.5.1)."""
 
 LARGEST_COLLIDING = 3e-3
-"""Grain diameter above which sheared columns lie at their lower bound of effective stress [m]."""
+"""Grain diameter above which collisions liquefy sheared columns [m]."""
 
 
 # ---- parameters ----
@@ -37,9 +37,9 @@ def parameter_doubts(grid, setup) -> Iterator[str]:
     `grid` is the RasterModelGrid, `setup` the `Setup`; a doubt is a sentence.
     """
     for kind in ("flow", "friction", "erosion", "column", "material"):
-        for part in with_inner(getattr(setup, kind)):
-            for field in dataclasses.fields(part) if dataclasses.is_dataclass(part) else ():
-                values = _nonzero_values(grid, part, field)
+        for law in with_inner(getattr(setup, kind)):
+            for field in dataclasses.fields(law) if dataclasses.is_dataclass(law) else ():
+                values = _nonzero_values(grid, law, field)
                 if values.size and (words := _parameter_doubt(kind, field, values)):
                     yield f"{kind}: {field.name} {words}"
 

@@ -191,8 +191,8 @@ def dry_pores(p, bed, material) -> None:
     """
     taken = np.flatnonzero(p.entrained_volume[: p.awake])
     saturation = _bed_state(bed, p.nearest_node[taken]).degree_of_saturation
-    suction = material.bearing_density / material.buoyant_density
-    p.entrained_ratio[taken] = saturation * p.entrained_ratio[taken] - (1.0 - saturation) * suction
+    water_to_buoyant = material.bearing_density / material.buoyant_density
+    p.entrained_ratio[taken] = saturation * p.entrained_ratio[taken] - (1.0 - saturation) * water_to_buoyant
 
 
 @kernel

@@ -18,7 +18,7 @@ def check_laws(setup, names_c_v: bool) -> None:
     ------
     ParameterError
         If columns with dilatancy have two phases, a material that is dry, not saturated, too loose or too dense, or a
-        coefficient of consolidation; if the pressure at the base of the paper's scheme goes with a jump of stress.
+        coefficient of consolidation; if the erosion law is a jump condition and the columns have the paper's scheme.
     """
     if setup.has_dilatancy:
         _check_dilatancy(setup.material, setup.two_phases, names_c_v)
@@ -31,7 +31,7 @@ def check_laws(setup, names_c_v: bool) -> None:
 
 
 def _check_dilatancy(material, two_phases: bool, names_c_v: bool) -> None:
-    """Refuse what columns with dilatancy cannot have; arguments as in `check_laws`."""
+    """Refuse phases and material with which columns cannot have dilatancy; arguments as in `check_laws`."""
     if two_phases:
         raise ParameterError(
             "column: dilatancy goes with one phase; in a flow of two phases the change of porosity makes the pore "

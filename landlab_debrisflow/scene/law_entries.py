@@ -12,6 +12,7 @@ from ..core.docstrings import allowed, default
 from ..core.values import flat_keys_of
 from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
+from ..physics.column.dilatancy import Dilatancy
 from ..physics.consolidation import Consolidation
 from ..physics.material import Material
 from ..physics.registry import LAWS
@@ -57,11 +58,12 @@ def law_entries(kind: str) -> list[Entry]:
 def other_entries() -> list[Entry]:
     """Return the entries of keywords besides laws whose parameters are declared: material, numerics, inflow.
 
-    A parameter of the material that may be given by the parameters it follows from is among them, with a formula.
+    Among them, with a formula, are dilatancy and the parameter of the material that may follow from others.
     """
     classes = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
     entries = [_entry(keyword, cls, has_formula=False) for keyword, cls in classes.items()]
-    return [*entries, _entry("coefficient_of_consolidation", Consolidation, has_formula=True)]
+    with_formula = {"dilatancy": Dilatancy, "coefficient_of_consolidation": Consolidation}
+    return [*entries, *(_entry(keyword, cls, has_formula=True) for keyword, cls in with_formula.items())]
 
 
 def _entry(title: str, cls: type, has_formula: bool) -> Entry:

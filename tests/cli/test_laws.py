@@ -10,6 +10,7 @@ from landlab_debrisflow.cli import laws as laws_page
 from landlab_debrisflow.cli import main
 from landlab_debrisflow.core.parameters import declared, parameter
 from landlab_debrisflow.core.values import flat_keys_of
+from landlab_debrisflow.physics.column.dilatancy import Dilatancy
 from landlab_debrisflow.physics.consolidation import Consolidation
 from landlab_debrisflow.physics.registry import LAWS
 
@@ -26,12 +27,13 @@ def test_every_law_and_parameter_is_there_once():
     sections = {text.split("\n")[0]: text for text in PAGE.split("\n### ")[1:]}
     laws = {f"{kind}: {name}": law for kind, known in LAWS.items() for name, law in known.items()}
     others = {"material": Material, "numerics": Numerics, "inflow": Hydrograph}
-    others |= {"coefficient_of_consolidation": Consolidation}
+    with_formula = {"dilatancy": Dilatancy, "coefficient_of_consolidation": Consolidation}
+    others |= with_formula
     assert list(sections) == list(laws | others)
     for title, cls in (laws | others).items():
         rows = [line.split("`")[1] for line in sections[title].splitlines() if line.startswith("| `")]
         assert rows == list(flat_keys_of(cls))
-        assert ("\nSource: " in sections[title]) == (title in laws or cls is Consolidation)
+        assert ("\nSource: " in sections[title]) == (title in laws | with_formula)
 
 
 def test_every_class_is_imported_from_a_public_module():

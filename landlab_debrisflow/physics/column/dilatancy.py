@@ -52,10 +52,10 @@ class Dilatancy:
     2 (v - v_b)/h_n [s-1]; rho_s density of the grains [kg m-3]; delta, `grain_diameter` [m]; sigma' effective normal
     stress of the level [Pa].
 
-    The excess pore pressure follows from alpha (dp/dt - load) + gd tan(psi) = d(k_w dp/dy)/dy, the solid fraction from
-    dm/dt = -m d(k_w dp/dy)/dy, with the compressibility alpha = a/(m (sigma' + sigma_0)), a `compressibility`, sigma_0
-    `reference_stress`, and k_w = k exp((0.6 - m)/0.04)/mu, k `permeability`. The water that leaves stays above the
-    grains, in the volume of the flow.
+    The excess pore pressure p follows from alpha (dp/dt - dL/dt) + gd tan(psi) = d(k_w dp/dy)/dy, the solid fraction
+    from dm/dt = -m d(k_w dp/dy)/dy, with the depth y below the surface, the load L = rho' g_n y, the compressibility
+    alpha = a/(m (sigma' + sigma_0)), a `compressibility`, sigma_0 `reference_stress`, and k_w = k exp((0.6 -
+    m)/0.04)/mu, k `permeability`. Water that leaves the grains stays above them, in the volume of the flow.
 
     References
     ----------
@@ -70,7 +70,7 @@ class Dilatancy:
     critical_solid_fraction: float = parameter(
         "-", "solid fraction that slow shear neither raises nor lowers", 0.64, (LOOSEST, DENSEST)
     )
-    permeability: float = parameter("m2", "at the solid fraction 0.6", 5e-9, (0.0, 1e-3))
+    permeability: float = parameter("m2", "k, of the grains' skeleton at a solid fraction of 0.6", 5e-9, (0.0, 1e-3))
     pore_fluid_viscosity: float = parameter("Pa s", "of water with suspended fines", 5e-3, (1e-5, 1e3))
     grain_diameter: float = parameter("m", "of grains whose collisions count in the shear rate", 1e-3, (0.0, 1.0))
     compressibility: float = parameter(

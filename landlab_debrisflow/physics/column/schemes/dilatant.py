@@ -76,7 +76,7 @@ def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
             old_load = memory[i, LAST_LOAD]
             if memory[i, IS_KNOWN] == 0.0:  # a new column: only erosion has changed its load
                 old_load = weight * rest
-                if fractions[i, 0] == 0.0:  # nor has anybody told its solid fraction
+                if fractions[i, 0] == 0.0:  # and its solid fraction is not set yet
                     fractions[i, :] = start
             shear[b], load[b], most[b] = rates[i], weight, weight * (1.0 + ratio)
             thickness[b] = max(thicknesses[i], THINNEST)
@@ -156,5 +156,5 @@ def _take_in(work, rest, load, bed, contact, soil):
                 work[row, j] = min(max(value, min(old[low], old[low + 1])), max(old[low], old[low + 1]))
     new = min(1.0, 2.0 * cells * (1.0 - rest))
     work[1, cells] = base_fraction + new * (soil - base_fraction)
-    if contact == INFLOW and new < 1.0:  # what mixes is the ratio of the stress to the depth
+    if contact == INFLOW and new < 1.0:  # the ratios of stress to depth mix
         work[0, cells] = (1.0 - new) * (base_stress / rest) + new * entry

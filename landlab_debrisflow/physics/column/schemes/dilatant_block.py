@@ -21,7 +21,7 @@ LITTLE_STRESS = 1e-9
 """Added to a stress that divides [Pa]."""
 
 ROUNDING = 1e-10
-"""Distance from suction, over the stress there, at which a level counts as on the bound [-]."""
+"""Distance from the highest effective stress, over this stress, at which a level counts as on the bound [-]."""
 
 NOT_PRESCRIBED = -1.0
 """Prescribed stress of a base without one [Pa]."""

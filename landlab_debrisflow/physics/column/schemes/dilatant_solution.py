@@ -6,9 +6,9 @@ effective stress s, and with it ``l = ln((s + s_0)/(s_old + s_0))``. At a level,
     a l/(m D) - (gd dt/D) (m - m_eq(s)) - dt d(k_w (ds/dy - load/h))/dy = 0,
 
 which rises with s, and whose Jacobian is an M-matrix: the solution is unique, and Newton's method finds it. The bounds
-0 <= s <= suction are a part of the problem: a level stays on a bound while its residual presses it there. So debris
-contracts no faster than its water leaves. The solid fraction follows from the same fluxes of water, so that the grains
-gain what water leaves through the surface.
+0 <= s <= s_most, the stress at the lowest pore pressure, are a part of the problem: a level stays on a bound while its
+residual presses it there. So debris contracts no faster than its water leaves. The solid fraction follows from the same
+fluxes of water, so that the grains gain the volume that water leaves through the surface.
 
 The columns of a block are solved side by side, one in each lane of the processor's vectors. A lane that has converged
 is left alone: no column depends on its neighbours in a block.
@@ -119,7 +119,7 @@ def _eliminate(block, rates, law, dt, j, below, half):
     upper, here, lower, fractions = stress[j - 1], stress[j], stress[below], fraction[j]
     ups, downs, stores, logs = conductance[j - 1], conductance[j], storage[j], logarithm[j]
     above, above_change, factors, changes = eliminated[j - 1], change[j - 1], eliminated[j], change[j]
-    prescribes, share = NOT_PRESCRIBED if below == j else np.inf, j / cells
+    prescribes, eta = NOT_PRESCRIBED if below == j else np.inf, j / cells
     rate = dt / law.compressibility
     for b in range(LANES):
         gd, m, s, stored = shear[b], fractions[b], here[b], stores[b]
@@ -134,11 +134,11 @@ def _eliminate(block, rates, law, dt, j, below, half):
         residual = stored * logs[b] - shearing * (m - tends)
         residual += up * (s - upper[b] - step) - down * (lower[b] - s - step)
         diagonal = stored * moved * both + shearing * steepness + up + down
-        top = most[b] * share
+        top = most[b] * eta
         highest = top - ROUNDING * (top + law.reference_stress)
         # `and` and `or` would be branches, which keep the lanes from being computed together
-        held = ((s <= 0.0) & (residual >= 0.0)) | ((s >= highest) & (residual <= 0.0)) | (prescribed[b] > prescribes)
-        inverse = (0.0 if held else 1.0) / (diagonal - up * above[b])
+        fixed = ((s <= 0.0) & (residual >= 0.0)) | ((s >= highest) & (residual <= 0.0)) | (prescribed[b] > prescribes)
+        inverse = (0.0 if fixed else 1.0) / (diagonal - up * above[b])
         factors[b] = down * inverse
         changes[b] = (up * above_change[b] - residual) * inverse
 
@@ -155,13 +155,13 @@ def _substitute(block, rates, law, state):
     cells, farthest = stress.shape[0] - 1, np.zeros(LANES)
     for j in range(cells, 0, -1):
         here, logs, factors, changes, below = stress[j], logarithm[j], eliminated[j], change[j], change[j + 1]
-        share = j / cells
+        eta = j / cells
         for b in range(LANES):
             step = changes[b] + factors[b] * below[b]
             changes[b] = step
             old = here[b] + law.reference_stress
             new = min(max(old + step, old * (1.0 / FACTOR)), old * FACTOR)
-            new = min(max(new, law.reference_stress), law.reference_stress + most[b] * share)
+            new = min(max(new, law.reference_stress), law.reference_stress + most[b] * eta)
             new = old + state[b] * (new - old)
             here[b] = new - law.reference_stress
             logs[b] += log_of_ratio(new, old)
