@@ -114,7 +114,8 @@ def solve_column(
     solid_fraction : float or array_like, optional
         With dilatancy, at time 0, per column, in [0.3, 0.74] [-]; by default that of `Material`.
     soil_solid_fraction : float, optional
-        With dilatancy, of the soil that comes in [-]; by default that of the columns at time 0, if all have one.
+        With dilatancy, of the soil that comes in [-]; by default that of the columns at time 0; needed where columns of
+        different solid fractions erode.
     solid_density : float
         With dilatancy, of the grains [kg m-3].
 

@@ -52,6 +52,8 @@ def _check_dilatancy(material, two_phases: bool, names_c_v: bool) -> None:
             )
     for name, porosity in (("porosity", material.porosity), ("bed_porosity", material.soil_porosity)):
         if not LOOSEST <= 1.0 - porosity <= DENSEST:
+            allowed = f"[{1.0 - DENSEST:g}, {1.0 - LOOSEST:g}]"
             raise ParameterError(
-                f"material: {name} must lie in [{1.0 - DENSEST:g}, {1.0 - LOOSEST:g}] with dilatancy, got {porosity:g}"
+                f"material: {name} must lie in {allowed} with dilatancy, got {porosity:g}: its law is for solid "
+                f"fractions of {LOOSEST:g} to {DENSEST:g}"
             )
