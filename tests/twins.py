@@ -71,6 +71,11 @@ SCENES = {
     "walls": (with_walls, {}),
     "loaded bed": (with_loaded_bed, {"material": {"bed_loading_coefficient": 0.6, "bed_drainage_time": 20.0}}),
     "half-wet bed": (half_wet, {"erosion": "excess_traction", "material": WET | {"bed_pressure_ratio": 1.0}}),
+    "dilatancy": (
+        with_sleepers,
+        {"column": {"law": "ale", "dilatancy": {"permeability": 1e-10}}, "inflow": SURGES | {"pressure_ratio": 0.3},
+         "numerics": {"particle_count": 200}},
+    ),
     "friction from a field": (
         with_friction, {"friction": {"law": "coulomb", "basal_friction_angle": "friction__angle"}},
     ),
