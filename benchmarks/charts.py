@@ -18,6 +18,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from PIL import Image
 from rich.console import Console
 
 from benchmarks import result_files, style
@@ -29,6 +30,8 @@ from validation.events import page
 
 FIGURES = result_files.ROOT / "docs" / "figures"
 TEXTS = Path(__file__).parent
+LARGE = 250_000
+"""Size from which a figure is written with 256 colours, which maps of relief halve without a visible loss [bytes]."""
 
 
 class Chart(NamedTuple):
@@ -95,7 +98,8 @@ CHARTS = {
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
 } | {
-    f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}")
+    f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}",
+                                dpi=80 if name == "olivares" else style.DPI)
     for name in events.EVENTS
 }  # fmt: skip
 """Figures of docs/figures by name; beside them stand those of `RUNS`."""
@@ -127,7 +131,9 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
             if reason := chart.absence():
                 say(f"{name}.png stays as it is: {reason}")
             else:
-                say(f"Wrote {_short(save_figure(chart.draw(), FIGURES / f'{name}.png', chart.dpi))}")
+                path = save_figure(chart.draw(), FIGURES / f"{name}.png", chart.dpi)
+                reduce_colours(path)
+                say(f"Wrote {_short(path)}")
         if name in REPORTS:
             text = importlib.import_module(f"benchmarks.{REPORTS[name]}").report()
             path = write_atomically(TEXTS / f"{name}.txt", lambda path, text=text: path.write_text(text, "utf-8"))
@@ -136,6 +142,14 @@ def make(*names: str, say: Callable[[str], object] = print) -> None:
 
     for path in (*page_tables.fill(), *page.fill()):
         say(f"Wrote {_short(path)}")
+
+
+def reduce_colours(path: Path) -> None:
+    """Write a PNG file of more than `LARGE` bytes anew with 256 colours."""
+    if path.stat().st_size > LARGE:
+        with Image.open(path) as image:
+            reduced = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+        write_atomically(path, lambda place: reduced.save(place, "png", optimize=True))
 
 
 def demo(folder: Path) -> Path:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from PIL import Image
 
 from benchmarks import charts, page_tables, result_files
 from benchmarks.fidelity import runs
@@ -42,6 +43,16 @@ def test_a_chart_has_its_files_and_its_function(name):
     for path in chart.files():
         if path.parent == result_files.FOLDER:
             assert result_files.measured(path.stem)["command"].startswith(f"python -m {command[1]}")
+
+
+def test_a_large_figure_is_written_with_256_colours(tmp_path):
+    grey = np.random.default_rng(1).integers(0, 255, (400, 400, 3), dtype=np.uint8)
+    for name, pixels, mode in (("large", grey, "P"), ("small", grey[:20, :20], "RGB")):
+        Image.fromarray(pixels).save(tmp_path / f"{name}.png")
+        charts.reduce_colours(tmp_path / f"{name}.png")
+        with Image.open(tmp_path / f"{name}.png") as image:
+            assert image.mode == mode and image.size == pixels.shape[1::-1]
+    assert (tmp_path / "large.png").stat().st_size < 200_000 < charts.LARGE
 
 
 def test_every_result_is_used_small_and_says_where_it_comes_from():

@@ -11,7 +11,7 @@ from .measures import WET, compare
 from .setup import FLOWS, read_observed
 
 STEPS = {"max_depth": 0.01}
-DEEPEST = 5.0
+DEEPEST = 6.0
 """End of the colour scale [m]."""
 MARGIN = 200.0
 """Ground shown around outline and flow [m]."""
