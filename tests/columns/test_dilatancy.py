@@ -55,7 +55,10 @@ def test_diagnostics_follow_from_the_state():
     assert_allclose(column.dilatancy_angle[0, 0], np.degrees(np.arctan(0.62 - 0.64)), rtol=1e-12)
     assert np.all(now[1] != now[0])
     # of the state at the base, where collisions of grains count
-    stress, packing = LOADING * thickness[1, 1] - column.basal_excess_pore_pressure[1, 1], column.solid_fraction[1, 1, 0]
+    stress, packing = (
+        LOADING * thickness[1, 1] - column.basal_excess_pore_pressure[1, 1],
+        column.solid_fraction[1, 1, 0],
+    )
     dilatancy = float(packing) - equilibrium_solid_fraction(float(stress), 30.0)
     assert_allclose(column.dilatancy_angle[1, 1], np.degrees(np.arctan(dilatancy)), rtol=1e-9)
     for name in ("solid_fraction", "dilatancy_angle", "coefficient_of_consolidation"):

@@ -33,7 +33,9 @@ def test_a_column_that_thickens_is_loaded_as_one_without_dilatancy(loading_sourc
     """By strain, undrained, at rest: pressure rises by the load, in proportion to it, or not at all."""
     profile, load = 0.4 * LOADING * ETA[None], 1.5 * LOADING * ETA
     columns = dilatant_columns({"permeability": 0.0}, 1.0, 0.61, profile=profile, loading_source=loading_source)
-    columns.step(0.1, thickness=np.array([1.5]), volume=np.array([1.0]), liquefaction_pressure=np.array([1.5 * LOADING]))
+    columns.step(
+        0.1, thickness=np.array([1.5]), volume=np.array([1.0]), liquefaction_pressure=np.array([1.5 * LOADING])
+    )
     gained = {"overburden": 0.5 * LOADING * ETA, "proportional": 0.4 * 0.5 * LOADING * ETA, "none": 0.0}[loading_source]
     assert_allclose(columns.state.profile, np.minimum(profile + gained, load), rtol=1e-9, atol=1e-9)
 
