@@ -28,7 +28,10 @@ def check_duration(value, name: str = "dt") -> float:
 
 
 def check_types(grid) -> None:
-    """Refuse fields of another than the declared type: depths added to integers would be rounded."""
+    """Refuse fields of another than the declared type or of several values per node.
+
+    Depths added to integers would be rounded.
+    """
     for field in NODE_FIELDS:
         if "in" in field.intent and field.name in grid.at_node:
             values, wanted = grid.at_node[field.name], np.dtype(field.dtype)
@@ -37,6 +40,11 @@ def check_types(grid) -> None:
                 raise InputError(
                     f"{field.name} must have the dtype {wanted}, got {values.dtype}; convert it before anything else "
                     f"holds it: {at} = {at}.astype({field.dtype.__name__})"
+                )
+            if values.shape != (grid.number_of_nodes,):
+                raise InputError(
+                    f"{field.name} must have one value per node, the shape ({grid.number_of_nodes},), got "
+                    f"{values.shape}; delete it with grid.delete_field('node', '{field.name}') and add one of them"
                 )
 
 

@@ -40,7 +40,7 @@ def _check_dilatancy(material, two_phases: bool, names_c_v: bool) -> None:
     given = material.coefficient_of_consolidation
     if names_c_v or given != type(material).coefficient_of_consolidation:
         raise ParameterError(
-            f"material: coefficient_of_consolidation must be left out with dilatancy, got {given!r}: it follows from "
+            f"material: coefficient_of_consolidation must be left out with dilatancy, got {given:g}: it follows from "
             "permeability, pore_fluid_viscosity and compressibility at every level; remove one of the two"
         )
     for name, allowed in (("water_density", "> 0 kg m-3"), ("water_table_ratio", "1")):

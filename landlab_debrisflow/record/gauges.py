@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..core.errors import InputError
 from ..grid.fields import OUTPUT_PREFIX
+from ..model.map_fields import SOLID_FRACTION
 from ..spatial.raster import CORE
 from .attributes import file_attributes, variable_attributes
 from .follower import TimeRows, check_same_names
@@ -50,7 +51,7 @@ class Gauges:
         named = named_places("Gauges", points)
         self.points = {name: point(f"Gauges: {name!r}", place) for name, place in named.items()}
         self._rows = TimeRows()
-        self._nodes, self._weights, self._solid_fraction = np.empty((0, 4), int), np.empty((0, 4)), np.nan
+        self._nodes, self._weights, self._setup = np.empty((0, 4), int), np.empty((0, 4)), None
 
     def prepare(self, grid: Any, setup: Any) -> None:
         """Find the nodes around each gauge.
@@ -72,7 +73,7 @@ class Gauges:
             np.array([nodes for nodes, _ in found]),
             np.array([weights for _, weights in found]),
         )
-        self._solid_fraction = np.nan if setup.two_phases else 1.0 - setup.material.porosity
+        self._setup = setup
 
     def observe(self, flow: Any) -> None:
         """Read the gauges.
@@ -94,18 +95,12 @@ class Gauges:
             amount = np.sum(weights * depth * values, axis=1)
             return np.divide(amount, mean_depth, out=np.full(mean_depth.shape, np.nan), where=mean_depth > 0.0)
 
-        speed, solid = flow_mean(around(f"{OUTPUT_PREFIX}speed")), self._solid_fraction
-        if np.isnan(solid):
-            fraction = np.divide(
-                around(f"{OUTPUT_PREFIX}solid_depth"), depth, out=np.zeros(depth.shape), where=depth > 0.0
-            )
-        else:
-            fraction = np.full(depth.shape, solid)
+        speed = flow_mean(around(f"{OUTPUT_PREFIX}speed"))
         self._rows.add(
             flow.elapsed_time, depth=mean_depth, speed=speed,
             discharge_per_width=np.where(mean_depth > 0.0, mean_depth * speed, 0.0),
             basal_excess_pore_pressure=flow_mean(around(f"{OUTPUT_PREFIX}basal_excess_pore_pressure")),
-            solid_fraction=flow_mean(fraction),
+            solid_fraction=flow_mean(_solid_fraction(self._setup, depth, around)),
             bed_elevation=np.sum(weights * around("topographic__elevation"), axis=1),
         )  # fmt: skip
 
@@ -145,6 +140,19 @@ class Gauges:
         """
         check_same_names("Gauges", state, self.points)
         self._rows.restore({name: values for name, values in state.items() if name != "names"})
+
+
+def _solid_fraction(setup, depth, around):
+    """Return the volume of grains over that of the flow at nodes, of the shape of `depth` [m] there [-].
+
+    `around` returns the values of a field at these nodes, by its name.
+    """
+    if setup.has_dilatancy:
+        return around(OUTPUT_PREFIX + SOLID_FRACTION)
+    if setup.two_phases:
+        grains = around(f"{OUTPUT_PREFIX}solid_depth")
+        return np.divide(grains, depth, out=np.zeros(depth.shape), where=depth > 0.0)
+    return np.full(depth.shape, 1.0 - setup.material.porosity)
 
 
 def _around(grid, name, place):

@@ -107,9 +107,9 @@ class MapSeries:
         InputError
             If a variable is one that only a flow of two phases has, or one with dilatancy.
         """
-        written = {field.name.removeprefix(OUTPUT_PREFIX) for field in output_fields(setup)}
+        written = {field.name for field in output_fields(setup)}
         if lacking := [name for name in self.variables if FIELDS[name].optional and name not in written]:
-            kind = "columns with dilatancy" if lacking[0] == SOLID_FRACTION else "flows of two phases"
+            kind = "columns with dilatancy" if lacking[0] == OUTPUT_PREFIX + SOLID_FRACTION else "flows of two phases"
             raise InputError(f"MapSeries: {lacking[0]} is in {kind} only; leave it out of variables")
         self._attributes = file_attributes() | setup.to_attributes()
         self._grid, self._window = grid, None

@@ -6,7 +6,7 @@ import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 from landlab_debrisflow import ParameterError, solve_column
-from landlab_debrisflow.exact.dilatancy import equilibrium_stress, stress_after_strain
+from landlab_debrisflow.exact.dilatancy import equilibrium_solid_fraction, equilibrium_stress, stress_after_strain
 from landlab_debrisflow.laws import Dilatancy
 
 LOADING = 9000.0
@@ -54,6 +54,13 @@ def test_diagnostics_follow_from_the_state():
     assert_allclose(column.basal_peclet_number, 0.01 * thickness / now)
     assert_allclose(column.dilatancy_angle[0, 0], np.degrees(np.arctan(0.62 - 0.64)), rtol=1e-12)
     assert np.all(now[1] != now[0])
+    # of the state at the base, where collisions of grains count
+    stress, packing = (
+        LOADING * thickness[1, 1] - column.basal_excess_pore_pressure[1, 1],
+        column.solid_fraction[1, 1, 0],
+    )
+    dilatancy = float(packing) - equilibrium_solid_fraction(float(stress), 30.0)
+    assert_allclose(column.dilatancy_angle[1, 1], np.degrees(np.arctan(dilatancy)), rtol=1e-9)
     for name in ("solid_fraction", "dilatancy_angle", "coefficient_of_consolidation"):
         assert column[name].attrs["units"] and column[name].attrs["long_name"]
     assert column.solid_fraction.dims == ("time", "column", "level")

@@ -84,6 +84,17 @@ def test_a_ratio_of_the_bed_outside_0_to_1(slope, flow, value):
     assert "bed__excess_pore_pressure_ratio must lie in [0, 1]" in message and f"node {INSIDE} " in message
 
 
+@pytest.mark.parametrize("name", [Z, SOIL, RELEASE, "bed__degree_of_saturation"])
+def test_several_values_per_node(slope, name):
+    """Landlab takes fields of layers or components, too."""
+    values = slope.at_node[name] if name in slope.at_node else np.ones(slope.number_of_nodes)
+    if name in slope.at_node:
+        slope.delete_field("node", name)
+    slope.add_field(name, np.stack([values, values], axis=1), at="node")
+    with pytest.raises(InputError, match=rf"{name} must have one value per node, the shape \(1200,\), got \(1200, 2\)"):
+        DebrisFlow(slope, numerics=COARSE).run_one_step(1.0)
+
+
 @pytest.mark.parametrize("value", [-0.1, 1.1, np.nan, -9999.0])
 def test_a_degree_of_saturation_of_the_bed_outside_0_to_1(slope, flow, value):
     slope.add_full("bed__degree_of_saturation", 0.5, at="node")[INSIDE] = value

@@ -103,6 +103,9 @@ def test_the_solid_fraction_is_that_of_dilatant_debris_and_does_not_stay_for_oth
     depth = grid.at_node["debris_flow__depth"]
     assert np.sum(depth * grid.at_node[name]) / depth.sum() == pytest.approx(expected, rel=1e-12)
     assert 0.5 < expected < 0.7 and name in dilatant.maps
+    words = dilatant.maps.attrs
+    assert words["column_dilatancy_permeability"] == 5e-9 and words["column_dilatancy_permeability_units"] == "m2"
+    assert not [name for name in words if "coefficient_of_consolidation" in name]
     reset(grid)
     other = DebrisFlow(grid, numerics=COARSE)
     other.run_one_step(1.0)

@@ -53,6 +53,15 @@ def test_a_gauge_shows_what_the_maps_show():
     assert 0 < wet < len(maps.kept)
 
 
+def test_a_gauge_has_the_solid_fraction_of_columns_with_dilatancy():
+    gauges = Gauges({"at a node": (WEST + 60.0, SOUTH + 60.0)}, 1.0)
+    flow = slope(gauges, column={"law": "ale", "dilatancy": {}}, erosion="none")
+    flow.run_one_step(5.0)
+    node = float(flow.maps.debris_flow__solid_fraction.sel(x=WEST + 60.0, y=SOUTH + 60.0))
+    assert float(gauges.dataset.solid_fraction[-1, 0]) == pytest.approx(node, rel=1e-12)
+    assert abs(node - 0.6) > 1e-3  # grains have moved together or apart since the start
+
+
 @pytest.mark.slow
 def test_a_gauge_tells_grains_from_water():
     gauges = Gauges({"a": (WEST + 60.0, SOUTH + 60.0)}, 1.0)

@@ -11,7 +11,7 @@ import xarray as xr
 from landlab_debrisflow import DebrisFlow, InputError
 from landlab_debrisflow.record import MapSeries, Snapshots, combine_maps
 from landlab_debrisflow.record import map_series as module
-from validation.grids import inclined, release_slab
+from validation.grids import COARSE, inclined, release_slab
 
 DEPTHS = "debris_flow__depth", "debris_flow__eroded_depth", "debris_flow__deposit_depth"
 
@@ -163,8 +163,22 @@ def test_refusals(tmp_path, arguments, words):
 
 
 def test_a_map_of_two_phases_is_refused_for_one(tmp_path):
+    with pytest.raises(InputError, match="debris_flow__solid_fraction is in columns with dilatancy only"):
+        DebrisFlow(inclined((5, 5), 5.0, 0.0), observers=MapSeries(1.0, tmp_path, ["solid_fraction"]))
     with pytest.raises(InputError, match="debris_flow__solid_depth is in flows of two phases only"):
         flow_with(MapSeries(1.0, tmp_path, ["solid_depth"]))
+
+
+@pytest.mark.parametrize(
+    ("laws", "name"),
+    [({"flow": "two_phase"}, "solid_depth"), ({"column": {"law": "ale", "dilatancy": {}}}, "solid_fraction")],
+)
+def test_a_map_that_only_some_flows_have(tmp_path, laws, name):
+    grid = inclined((20, 40), 5.0, 0.5)
+    release_slab(grid, (30.0, 48.0), 8.0, 1.0)
+    DebrisFlow(grid, observers=MapSeries(1.0, tmp_path, [name]), numerics=COARSE, **laws).run_one_step(1.0)
+    with xr.open_dataset(max(tmp_path.iterdir())) as written:
+        assert float(written[f"debris_flow__{name}"].max()) > 0.0
 
 
 def test_what_cannot_be_combined(tmp_path):

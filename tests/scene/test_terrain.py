@@ -239,6 +239,14 @@ def test_zones_change_soil_pressure_and_parameters(tmp_path):
     assert np.count_nonzero(wet == 0.4) == 100 and np.count_nonzero(wet == 1.0) == wet.size - 100
     told = scene(tmp_path, soil_depth=1.0, bed_pressure_ratio=0.2, zones=zones).terrain
     assert at(told, "bed__excess_pore_pressure_ratio", 20.0, 20.0) == 0.2 and told.attrs["notes"] == []
+    told = scene(tmp_path, soil_depth=1.0, bed_degree_of_saturation=0.8, zones=zones).terrain[
+        "bed__degree_of_saturation"
+    ]
+    assert np.count_nonzero(told == 0.4) == 100 and np.count_nonzero(told == 0.8) == told.size - 100
+    wet = {"material": {"bed_degree_of_saturation": 0.7, "bed_pressure_ratio": 0.1}}
+    told = scene(tmp_path, soil_depth=1.0, zones=zones, laws=wet | {"friction": "voellmy"}).terrain
+    assert at(told, "bed__degree_of_saturation", 20.0, 20.0) == 0.7
+    assert at(told, "bed__excess_pore_pressure_ratio", 20.0, 20.0) == 0.1
     assert (
         at(terrain, "erosion__growth_rate", 60.0, 20.0) == 0.0
         and at(terrain, "erosion__growth_rate", 20.0, 20.0) == 3e-3
@@ -292,6 +300,8 @@ def test_parameters_as_rasters(tmp_path):
         ({"friction": {"basal_friction_angle": "high"}}, "must be a number"),
         ({"friction": 35}, "a mapping of words"),
         ({"soil_depth": -1.0}, r"soil_depth must lie in \[0, inf\] m"),
+        ({"bed_degree_of_saturation": 1.5}, r"bed_degree_of_saturation must lie in \[0, 1\], got 1.5"),
+        ({"bed_degree_of_saturation": "wet"}, "bed_degree_of_saturation must be a number"),
         ({}, "give soil_depth, bed_pressure_ratio, bed_degree_of_saturation, friction or erosion"),
         ({"soil": 1.0}, "unknown key 'soil'"),
     ],

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
+from landlab_debrisflow.exact.dilatancy import DilatantDebris, equilibrium_solid_fraction
 from landlab_debrisflow.physics.column.dilatancy import DENSEST, LOOSEST
 
-from .dilatant import LOADING, WATER_TO_BUOYANT, dilatant_columns, mean, stresses
+from .dilatant import LOADING, SOLID_DENSITY, WATER_TO_BUOYANT, dilatant_columns, mean, stresses
 
 ETA = np.linspace(1.0, 0.0, 11)
+DEBRIS = DilatantDebris(solid_density=SOLID_DENSITY)
 
 
 def within_bounds(columns):
@@ -41,6 +43,28 @@ def test_no_step_leaves_the_bounds(permeability, dt):
             liquefaction_pressure=LOADING * thickness,
         )  # fmt: skip
         within_bounds(columns)
+
+
+@pytest.mark.parametrize("permeability", [1e-11, 5e-9, 1e-7])
+@pytest.mark.parametrize("dt", [1e-3, 0.1, 10.0])
+def test_levels_between_their_bounds_obey_the_law_also_beside_levels_on_a_bound(permeability, dt):
+    """With m_new = m/(1 + x): x (1 + m gd dt) = gd dt (m - m_eq) - a ln((s_new + s_0)/(s + s_0))/m, at s_new > 50 Pa.
+
+    Below, m_eq changes within less than 1 Pa, the change of (s + s_0) that is not iterated.
+    """
+    columns, strain = dilatant_columns({"permeability": permeability}, THICKNESS, FRACTION, SHEAR), SHEAR[:, None] * dt
+    for _ in range(2):
+        before, old = np.maximum(stresses(columns), 0.0), columns.state.solid_fraction.copy()
+        columns.step(dt)
+        now, stress = columns.state.solid_fraction, stresses(columns)
+        most = (1.0 + WATER_TO_BUOYANT) * columns.forcing.liquefaction_pressure[:, None] * ETA
+        free = (stress > 50.0) & (stress < most * (1.0 - 1e-6)) & (now > LOOSEST) & (now < DENSEST)
+        tends = equilibrium_solid_fraction(np.maximum(stress, 0.0), SHEAR[:, None], DEBRIS)
+        gained = 0.017 / old * np.log((np.maximum(stress, 0.0) + 1000.0) / (before + 1000.0))
+        leaving = (strain * (old - tends) - gained) / (1.0 + old * strain)
+        assert free.sum() > 50
+        expected = old / np.maximum(1.0 + leaving, 0.5)  # a step doubles no solid fraction
+        assert_allclose(now[free], expected[free], rtol=0.0, atol=2e-6)
 
 
 @pytest.mark.parametrize("dt", [1e-6, 1e-3, 1.0, 1e3])

@@ -28,6 +28,18 @@ def test_soil_like_the_column_changes_nothing_but_its_thickness(contact, loading
         assert_allclose(columns.state.solid_fraction, 0.61, rtol=1e-12)
 
 
+@pytest.mark.parametrize("loading_source", ["overburden", "proportional", "none"])
+def test_a_column_that_thickens_is_loaded_as_one_without_dilatancy(loading_source):
+    """By strain, undrained, at rest: pressure rises by the load, in proportion to it, or not at all."""
+    profile, load = 0.4 * LOADING * ETA[None], 1.5 * LOADING * ETA
+    columns = dilatant_columns({"permeability": 0.0}, 1.0, 0.61, profile=profile, loading_source=loading_source)
+    columns.step(
+        0.1, thickness=np.array([1.5]), volume=np.array([1.0]), liquefaction_pressure=np.array([1.5 * LOADING])
+    )
+    gained = {"overburden": 0.5 * LOADING * ETA, "proportional": 0.4 * 0.5 * LOADING * ETA, "none": 0.0}[loading_source]
+    assert_allclose(columns.state.profile, np.minimum(profile + gained, load), rtol=1e-9, atol=1e-9)
+
+
 CONTACTS = {
     "dirichlet": {}, "flux": {"bed_contact": "flux"}, "sealed": {"base": BaseContact.IMPERMEABLE},
     "prescribed": {"base": BaseContact.PRESCRIBED},
@@ -85,6 +97,14 @@ def test_soil_brings_its_solid_fraction_and_its_pressure(kind):
         errors.append(mean(columns.state.solid_fraction)[0] - 0.63)
     errors = np.abs(errors)
     assert errors[0] < 0.06 * 0.5 / 10 and errors[3] < 0.35 * errors[0] + 1e-6
+
+
+@pytest.mark.parametrize("kind", CONTACTS)
+def test_soil_of_one_large_step_is_all_alike(kind):
+    """The column doubles: what lies below the middle is soil, as it lay in the bed."""
+    columns = after_erosion(21, kind, steps=1)
+    assert_allclose(columns.state.solid_fraction[0, :10], 0.66, rtol=1e-12)
+    assert_allclose(columns.state.solid_fraction[0, 10:], 0.6, rtol=1e-12)
 
 
 def test_a_drained_base_lets_water_out_below():

@@ -2,12 +2,14 @@
 
 import math
 from types import SimpleNamespace
+from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow, Material, ParameterError
 from landlab_debrisflow.core.parameters import on_nodes
+from landlab_debrisflow.laws import declared
 from landlab_debrisflow.model import entrainment
 from landlab_debrisflow.physics.bed_state import BedState
 from landlab_debrisflow.physics.contracts import BasalStress
@@ -175,6 +177,54 @@ def test_a_dry_bed_stays_and_a_half_wet_one_resists_from_a_saturation_on():
     """The flow bears p = rho_w g_n h_n = .5 of its weight; a liquefied bed of saturation S bears S of it."""
     eroded = [wet_bed(0.02, bed_pressure_ratio=1.0, bed_degree_of_saturation=s)[0][1] for s in (0.0, 0.45, 0.6, 1.0)]
     assert eroded[0] == eroded[1] == 0.0 < 0.1 * eroded[3] < eroded[2] < 0.4 * eroded[3]
+
+
+@declared
+class Recorder:
+    """e_R = 0: a law that keeps the states it is asked about."""
+
+    states: ClassVar[list] = []
+
+    def entrainment_rate(self, state, out):
+        self.states.append(state)
+        out[:] = 0.0
+
+
+def test_a_law_of_erosion_reads_traction_with_its_drag_and_the_water_of_the_bed():
+    grid = inclined((15, 40), 10.0, 1.0, soil=1.0)
+    release_cap(grid, (80.0, 70.0), (50.0, 50.0), 1.0, on_top=True)
+    west = grid.x_of_node < 80.0
+    grid.add_field("bed__degree_of_saturation", np.where(west, 0.25, 0.75), at="node")
+    grid.add_field("bed__drained", 1.0 * (grid.y_of_node < 70.0), at="node")
+    friction = {"law": "voellmy", "basal_friction_angle": 20.0, "turbulent_coefficient": 300.0, "cohesion": 50.0}
+    flow = place(
+        DebrisFlow(grid, friction=friction, erosion=Recorder(), numerics={"particle_count": 60, "settle": False})
+    )
+    throw(flow, (5.0, 0.0, -5.0))
+    Recorder.states.clear()
+    flow.run_one_step(1e-3)
+    state = Recorder.states[0]
+    tau = (
+        50.0 + state.stress.effective_normal * math.tan(math.radians(20.0)) + state.density * G * state.speed**2 / 300.0
+    )
+    # the drag is that of the speed before the kick of half a step
+    np.testing.assert_allclose(state.stress.shear, tau, rtol=1e-2)
+    np.testing.assert_array_equal(state.bed.degree_of_saturation, np.where(west, 0.25, 0.75)[state.bed.nodes])
+    drained = grid.y_of_node[state.bed.nodes] < 70.0
+    assert 0 < drained.sum() < drained.size
+    np.testing.assert_array_equal(state.bed.pressure_ratio, np.where(drained, 0.0, 0.65))
+
+
+def test_the_base_of_a_flow_that_erodes_a_half_wet_bed_has_its_lower_pressure():
+    """By another law of erosion, whose soil prescribes the base: S r_b - (1 - S) rho_w/rho'."""
+    grid = inclined((15, 40), 10.0, 0.6, soil=1.0)
+    release_cap(grid, (80.0, 70.0), (50.0, 50.0), 1.0, on_top=True)
+    flow = DebrisFlow(grid, material={"bed_degree_of_saturation": 0.6}, numerics={"particle_count": 60})
+    flow.run_one_step(1.0)
+    p = flow.particles.where(flow.particles.entrainment_rate > 0.0, drop=True)
+    expected = 0.6 * 0.65 - 0.4 * 1000.0 / 990.0
+    assert p.sizes["particle"] > 20
+    np.testing.assert_allclose(p.basal_excess_pore_pressure / p.liquefaction_pressure, expected, rtol=1e-9)
 
 
 @pytest.mark.slow

@@ -40,6 +40,25 @@ def test_cohesion_adds_to_friction_and_stays_without_normal_stress(law):
     np.testing.assert_allclose(yield_stress, [500.0, 10500.0], rtol=1e-14)
 
 
+@pytest.mark.parametrize("law", [Coulomb, Voellmy, Bingham, HerschelBulkley, MuI])
+def test_the_angle_of_dilatancy_adds_to_every_friction_angle(law):
+    """tan(45 deg + psi) = (1 + tan(psi))/(1 - tan(psi)); no less than 0, no more than tan(89 deg)."""
+    names = ("static_friction_angle", "limiting_friction_angle") if law is MuI else ("basal_friction_angle",)
+    flowing = law(**dict.fromkeys(names, 45.0), **({"yield_stress": 0.0} if law in (Bingham, HerschelBulkley) else {}))
+    state = base(np.ones(4))._replace(dilatancy=np.array([0.0, 0.1, -0.2, -5.0]))
+    np.testing.assert_allclose(ask(flowing, state)[0], 1e4 * np.array([1.0, 1.1 / 0.9, 0.8 / 1.2, 0.0]), rtol=1e-13)
+    locked = base(1.0)._replace(dilatancy=np.array([1.5]))
+    assert ask(flowing, locked)[0] == pytest.approx(1e4 * math.tan(math.radians(89.0)), rel=1e-13)
+
+
+def test_dilatancy_adds_to_both_angles_of_mu_i():
+    """Between the two curves the resistance is a mean of theirs, as without dilatancy."""
+    law, dilatancy = MuI(static_friction_angle=20.0, limiting_friction_angle=30.0), math.tan(math.radians(5.0))
+    steeper = MuI(static_friction_angle=25.0, limiting_friction_angle=35.0)
+    state = base(3.0)._replace(dilatancy=np.array([dilatancy]))
+    np.testing.assert_allclose(ask(law, state), ask(steeper, base(3.0)), rtol=1e-13)
+
+
 def test_voellmy_does_not_know_of_slip():
     drag = ask(Voellmy(turbulent_coefficient=500.0), base(10.0, slip_ratio=0.5))[1]
     assert drag[0] == pytest.approx(DENSITY * G * 10.0 / 500.0, rel=1e-14)
