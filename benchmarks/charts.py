@@ -98,8 +98,7 @@ CHARTS = {
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
 } | {
-    f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}",
-                                dpi=80 if name == "olivares" else style.DPI)
+    f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}")
     for name in events.EVENTS
 }  # fmt: skip
 """Figures of docs/figures by name; beside them stand those of `RUNS`."""

@@ -63,24 +63,24 @@ def targets(name: str) -> str:
 
 
 def scores(name: str) -> str:
-    """Return the scores of every set ever scored, with references, noise and twice the particles."""
+    """Return the last scores of every set, with references, noise and twice the particles."""
     event = find_event(name)
     kept = record.read_scores(event.folder)
     columns = [key for key, measure in event.measures.items() if measure.tabulated]
     rows = [
         (words, "", *_cells(event, found, columns)) for words, found in record.read_references(event.folder).items()
     ]
-    for row in kept:
-        if not row["change"] and row["particles"] == event.particle_count:
-            rows.append((f"`{row['set']}`", row["commit"], *_cells(event, row["scores"], columns)))
-    for set_name in dict.fromkeys(row["set"] for row in kept):
+    sets = list(dict.fromkeys(row["set"] for row in kept))
+    for set_name in sets:
+        if row := record.latest(kept, set_name, event.particle_count):
+            rows.append((f"`{set_name}`", row["commit"], *_cells(event, row["scores"], columns)))
+    for set_name in sets:
         if finer := record.latest(kept, set_name, 2 * event.particle_count):
             cells = _cells(event, finer["scores"], columns)
             rows.append((f"`{set_name}`, {2 * event.particle_count} particles", finer["commit"], *cells))
         if found := record.noise(kept, set_name, event.particle_count):
             cells = ["±" + cell.lstrip("+") if cell else "" for cell in _cells(event, found, columns)]
             rows.append((f"`{set_name}`, noise", "", *cells))
-    rows = list(dict.fromkeys(map(tuple, rows)))  # runs again with a later engine that moved no digit shown
     return _table(["run", "set committed in", *(event.measures[key].words for key in columns)], rows)
 
 
