@@ -12,7 +12,7 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import inner, kernel
 from ..core.structs import struct
-from ..spatial.raster import CLOSED, CORE, nearest_node
+from ..spatial.raster import CLOSED, CORE, is_walled, nearest_node, nearest_place
 
 
 @struct
@@ -128,7 +128,7 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
         number.
     """
     x, y, z = position
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, walled = raster
     exit_node = np.full(velocity_ratio.size, NO_EXIT)
     for i in range(exit_node.size):
         expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
@@ -136,15 +136,19 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
             velocity[k, i] *= velocity_ratio[i]
-        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
-        if _is_blocked(here, node, columns, status):  # `stop_at_walls` tested another starting point
-            touched_wall[i] = 1
-            new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
-            velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
-        x[i], y[i] = new_x, new_y
-        if node < 0:
+        if not (abs(new_x) < np.inf and abs(new_y) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
             exit_node[i] = NOWHERE
-        elif status[node] != CORE:
+            continue
+        row, column = nearest_place(new_y, dy, rows), nearest_place(new_x, dx, columns)
+        node = row * columns + column
+        if is_walled(row, column, walled, columns):
+            here = nearest_node(x[i], y[i], dx, dy, columns, rows)
+            if _is_blocked(here, node, columns, status):  # `stop_at_walls` tested another starting point
+                touched_wall[i] = 1
+                new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
+        x[i], y[i] = new_x, new_y
+        if status[node] != CORE:
             exit_node[i] = node
     return exit_node
 
@@ -175,10 +179,16 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
         Set to 1 where a closed node stopped the particle; as long as there are particles to stop.
     """
     _, slope_x, slope_y, _, _, _ = sample
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, walled = raster
     for i in range(touched_wall.size):
+        if not (abs(x[i]) < np.inf and abs(y[i]) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
+            continue
+        row, column = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
+        if not is_walled(row, column, walled, columns):
+            continue
+        here = row * columns + column
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
-        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
+        node = nearest_node(new_x, new_y, dx, dy, columns, rows)
         if _is_blocked(here, node, columns, status):
             touched_wall[i] = 1
             # the rest is the projection on the direction along the wall, which is never faster

@@ -186,7 +186,7 @@ def _record_walls(nodes, sums, least, raster, peaks):
     peaks : PeakFields
         Fields of the peaks, written in place.
     """
-    status, columns, rows, _, _ = raster
+    status, columns, rows, _, _, _ = raster
     max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
     for k in range(nodes.size):
         n = nodes[k]

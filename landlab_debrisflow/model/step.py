@@ -106,7 +106,7 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
     """
     awake = slice(p.awake)
     if p.entrained_volume[awake].any():  # erosion has lowered the bed: the flow does not gain energy by this fall
-        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
+        bed.surface.elevation_into(p.x[awake], p.y[awake], p.z[awake])
     position = p.x, p.y, p.z
     exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
     if exit_node.size and exit_node.min() == NOWHERE:
