@@ -16,6 +16,19 @@ from ..spatial.raster import CLOSED, CORE, is_walled, nearest_node, nearest_plac
 
 
 @struct
+class Place(NamedTuple):
+    """Place of n particles on the bed, arrays of shape (n,)."""
+
+    x: np.ndarray  # (n,) map coordinates [m]
+    y: np.ndarray  # (n,) [m]
+    z: np.ndarray  # (n,) elevation of the bed below [m]; written
+    cosine: np.ndarray  # (n,) of the slope of the bed [-]; written
+    lowest_z: np.ndarray  # (n,) lowest bed that each has come over [m]; written
+    nearest_node: np.ndarray  # (n,) int; written
+    expected_elevation: np.ndarray  # (n,) at which the kicks leave each [m], from `drift`
+
+
+@struct
 class Resistance(NamedTuple):
     """Resistance of the base to the motion of n particles.
 
@@ -35,11 +48,6 @@ class Resistance(NamedTuple):
     drag: np.ndarray
     mass: np.ndarray
     rest_speed: np.ndarray
-
-
-STILL = 1e-3
-"""Displacement over smoothing length, and relative change of volume, below which the sums over neighbours are not
-computed again: their error is of this order."""
 
 
 @inner
@@ -123,13 +131,13 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
 
     Returns
     -------
-    ndarray of int, shape (m,)
+    ndarray of int, shape (m,), or shape (0,) if all stay
         Open node over which a particle left, `NO_EXIT` if the particle stays, `NOWHERE` if its position is not a
         number.
     """
     x, y, z = position
     status, columns, rows, dx, dy, walled = raster
-    exit_node = np.full(velocity_ratio.size, NO_EXIT)
+    exit_node, leave = np.full(velocity_ratio.size, NO_EXIT), False
     for i in range(exit_node.size):
         expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
         step = 0.5 * dt * (1.0 + velocity_ratio[i])
@@ -137,7 +145,7 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
         for k in range(3):
             velocity[k, i] *= velocity_ratio[i]
         if not (abs(new_x) < np.inf and abs(new_y) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
-            exit_node[i] = NOWHERE
+            exit_node[i], leave = NOWHERE, True
             continue
         row, column = nearest_place(new_y, dy, rows), nearest_place(new_x, dx, columns)
         node = row * columns + column
@@ -149,8 +157,8 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
         x[i], y[i] = new_x, new_y
         if status[node] != CORE:
-            exit_node[i] = node
-    return exit_node
+            exit_node[i], leave = node, True
+    return exit_node if leave else exit_node[:0]
 
 
 NO_EXIT, NOWHERE = -1, -2
@@ -222,20 +230,39 @@ def _is_blocked(here, node, columns, status):
 
 
 @kernel
-def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
-    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
+def follow_bed(sample, velocity, place, raster, gravity, dt):
+    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane, and write the place of the particles on it.
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the vertical
     velocity. This is the trapezoid rule for the true work g (z - z'), apart from a term g_t^2 dt^2/8 that cancels from
     step to step. The difference between true and done work is added to the kinetic energy. Without this correction a
     bed that bends within a step gives a particle energy at every crossing: 1600 m of head in a pit 100 m deep and one
-    node wide (`expected_elevation`, shape (n,) [m], is from `drift`; an empty one means that no particle drifted).
-    `sample` is the `SurfaceSample` of the n particles now; gravity is in m s-2, dt in s.
+    node wide.
+
+    Parameters
+    ----------
+    sample : SurfaceSample
+        Surface of the bed below the n particles now.
+    velocity : ndarray, shape (3, n)
+        Changed in place [m s-1].
+    place : Place
+        Place of the particles, written.
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    gravity : float
+        Acceleration by gravity [m s-2].
+    dt : float
+        Duration of the drift [s]; 0 if only the bed has changed, which is neither rise nor fall of the flow.
     """
     elevation, slope_x, slope_y, _, _, _ = sample
+    x, y, z, cosine, lowest_z, nearest, expected_elevation = place
+    _, columns, rows, dx, dy, _ = raster
     for i in range(cosine.size):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
-        cosine[i], z[i] = c, elevation[i]
+        if dt == 0.0:
+            lowest_z[i] += elevation[i] - z[i]
+        cosine[i], z[i], lowest_z[i] = c, elevation[i], min(lowest_z[i], elevation[i])
+        nearest[i] = nearest_place(y[i], dy, rows) * columns + nearest_place(x[i], dx, columns)
         nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz
@@ -243,47 +270,7 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
         u, v, w = u - across * nx, v - across * ny, w - across * nz
         along2 = u * u + v * v + w * w
         factor = np.sqrt(speed2 / along2) if along2 > 1e-12 * speed2 else 0.0
-        if i < expected_elevation.size and speed2 > 0.0:
+        if dt > 0.0 and speed2 > 0.0:
             missing = expected_elevation[i] - z[i] + 0.5 * dt * w * factor
             factor *= np.sqrt(max(0.0, 1.0 + 2.0 * gravity * missing / speed2))
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
-
-
-@kernel
-def count_still_steps(position, volume, smoothing_length, reference_position, reference_volume, still_steps):
-    """Count the steps since each particle moved or grew noticeably, in place.
-
-    Parameters
-    ----------
-    position : Position
-        Position of the particles [m].
-    volume, smoothing_length : ndarray, shape (n,)
-        [m3] and [m]
-    reference_position, reference_volume : ndarray, shape (3, n) and (n,)
-        Position [m] and volume [m3] when the particle last counted as changed.
-    still_steps : ndarray of int, shape (n,)
-    """
-    x, y, z = position
-    for i in range(x.size):
-        at = reference_position[:, i]
-        moved = (x[i] - at[0]) ** 2 + (y[i] - at[1]) ** 2 + (z[i] - at[2]) ** 2
-        grown = abs(volume[i] - reference_volume[i])
-        if moved > (STILL * smoothing_length[i]) ** 2 or grown > STILL * volume[i]:
-            at[0], at[1], at[2], reference_volume[i] = x[i], y[i], z[i], volume[i]
-            still_steps[i] = 0
-        else:
-            still_steps[i] += 1
-
-
-@kernel
-def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
-    """Let particles at x, y [m] within the support [m] of particles that have gone count as changed, in place.
-
-    `x`, `y`, `support` have shape (n,), `gone_x`, `gone_y`, `gone_support` shape (m,), all in m; `still_steps`, int,
-    shape (n,), is set to 0 for these particles.
-    """
-    for k in range(gone_x.size):
-        for i in range(x.size):
-            reach = max(support[i], gone_support[k])
-            if (x[i] - gone_x[k]) ** 2 + (y[i] - gone_y[k]) ** 2 < reach * reach:
-                still_steps[i] = 0

@@ -95,15 +95,17 @@ class PeakMaps:
         """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         mixture = () if self._solid_fraction is None else (self._solid_fraction,)
-        for field in (*self._current, *self._phases, *mixture):
+        for field in (*self._phases, *mixture):
             field[self._under] = 0.0
         if p.count == 0:
+            for field in self._current:
+                field[self._under] = 0.0
             self._under = self._under[:0]
             return
+        density = density if np.shape(density) == p.volume.shape else np.full(p.count, density)
         matter = Matter(
-            volume=p.volume, density=np.broadcast_to(density, p.count), phase=p.phase, velocity=p.velocity,
-            run_up=p.z - p.lowest_z + p.depth,
-        )  # fmt: skip
+            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, run_up=p.z - p.lowest_z + p.depth
+        )
         base = Base(
             pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
             peclet_number=p.basal_peclet_number,
@@ -112,7 +114,7 @@ class PeakMaps:
         _weight_by_volume(matter, base, self._walled, values)
         if self._solid_fraction is not None:
             values[:, -1] = p.volume * depth_mean(p.solid_fraction)
-        self._under = scatter(footprints, values, self._sums, self._scratch).copy()
+        left, self._under = self._under, scatter(footprints, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._raster.area
             _record_walls(self._under, self._sums, least, self._raster, self._peaks)
@@ -120,7 +122,7 @@ class PeakMaps:
         if self._solid_fraction is not None:
             self._solid_fraction[self._under] = self._sums[self._under, -1] / self._sums[self._under, VOLUME]
         area = self._raster.area
-        _record(self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
+        _record(left, self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 
     def _show_phases(self, at):
         for field in self._phases[:1]:
@@ -207,11 +209,13 @@ def _record_walls(nodes, sums, least, raster, peaks):
 
 
 @kernel
-def _record(nodes, sums, area, time, arrival_depth, current, peaks):
+def _record(left, nodes, sums, area, time, arrival_depth, current, peaks):
     """Record the flow now and its peaks at nodes under it, and clear their sums.
 
     Parameters
     ----------
+    left : ndarray of int, shape (m,)
+        Nodes under the flow at the update before.
     nodes : ndarray of int, shape (k,)
         Nodes under the flow.
     sums : ndarray, shape (nodes, m)
@@ -229,6 +233,9 @@ def _record(nodes, sums, area, time, arrival_depth, current, peaks):
     """
     depth, speed, pressure, peclet = current
     max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks
+    for k in range(left.size):
+        n = left[k]
+        depth[n] = speed[n] = pressure[n] = peclet[n] = 0.0
     for k in range(nodes.size):
         n = nodes[k]
         volume = sums[n, VOLUME]
