@@ -257,12 +257,15 @@ def follow_bed(sample, velocity, place, raster, gravity, dt):
     elevation, slope_x, slope_y, _, _, _ = sample
     x, y, z, cosine, lowest_z, nearest, expected_elevation = place
     _, columns, rows, dx, dy, _ = raster
+    # loops of few arrays each: of many, the compiler cannot tell whether they overlap, and makes no vector code
+    for i in range(cosine.size):
+        before = lowest_z[i] + elevation[i] - z[i] if dt == 0.0 else lowest_z[i]
+        lowest_z[i] = min(before, elevation[i])
+    for i in range(cosine.size):
+        nearest[i] = nearest_place(y[i], dy, rows) * columns + nearest_place(x[i], dx, columns)
     for i in range(cosine.size):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
-        if dt == 0.0:
-            lowest_z[i] += elevation[i] - z[i]
-        cosine[i], z[i], lowest_z[i] = c, elevation[i], min(lowest_z[i], elevation[i])
-        nearest[i] = nearest_place(y[i], dy, rows) * columns + nearest_place(x[i], dx, columns)
+        cosine[i], z[i] = c, elevation[i]
         nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
         across = u * nx + v * ny + w * nz

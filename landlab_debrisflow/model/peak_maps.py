@@ -158,17 +158,24 @@ def _weight_by_volume(matter, base, walled, values):
     volume, density, phase, velocity, run_up = matter
     pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
-        m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
+        m, u, v = volume[i], velocity[0, i], velocity[1, i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        grains = m if phase[i] != WATER else 0.0  # grains carry the columns
-        to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
-        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
-        to[PECLET] = grains * peclet_number[i]
-        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * run_up[i]
+        speed, grains = np.sqrt(speed2), m if phase[i] != WATER else 0.0  # grains carry the columns
+        values[i, VOLUME], values[i, WAY], values[i, GRAINS], values[i, GRAIN_WAY] = (
+            m,
+            m * speed,
+            grains,
+            grains * speed,
+        )
+        values[i, PRESSURE], values[i, LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
+        values[i, PECLET] = grains * peclet_number[i]
+        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * run_up[i]
         if walled:
             momentum = m * density[i]
-            to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
-            to[TOWARDS + 2], to[TOWARDS + 3] = momentum * max(v, 0.0) ** 2, momentum * min(v, 0.0) ** 2
+            values[i, TOWARDS] = momentum * max(u, 0.0) ** 2
+            values[i, TOWARDS + 1] = momentum * min(u, 0.0) ** 2
+            values[i, TOWARDS + 2] = momentum * max(v, 0.0) ** 2
+            values[i, TOWARDS + 3] = momentum * min(v, 0.0) ** 2
 
 
 @kernel

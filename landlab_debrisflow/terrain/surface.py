@@ -180,14 +180,15 @@ def _between(v0, v1, v2, v3, s, most):
 def _elevation(values, dx, dy, x, y, elevation):
     """Write the elevation of points [m], as `_sample` does; parameters as there."""
     rows, columns = values.shape[0] - 2, values.shape[1] - 2
-    along = np.empty(4)
+    v = np.empty(4)  # on four rows
     for i in range(x.size):
         p, q = x[i] / dx, y[i] / dy
         c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
         for b in range(4):
-            row = values[r + b]
-            along[b] = _between(row[c], row[c + 1], row[c + 2], row[c + 3], p - c, dx)
-        elevation[i] = _between(along[0], along[1], along[2], along[3], q - r, dy)
+            v[b] = _between(
+                values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3], p - c, dx
+            )  # fmt: skip
+        elevation[i] = _between(v[0], v[1], v[2], v[3], q - r, dy)
 
 
 @kernel
