@@ -72,8 +72,8 @@ class BasalLaw(NamedTuple):
         Parameters in SI units (`core.parameters.on_nodes`).
     material : Material
         Densities, porosity and gravity.
-    spacing : float
-        Smaller node spacing of the raster [m].
+    weighing : tuple
+        Constants by which the flow weighs on the bed, a `Weighing`.
     variables : tuple of Variable
         Variables per particle that the law brought.
     varies : bool
@@ -85,7 +85,7 @@ class BasalLaw(NamedTuple):
     law: Any
     parameters: Any
     material: Any
-    spacing: float
+    weighing: tuple
     variables: tuple
     varies: bool
     dilatant_column: Any
@@ -115,10 +115,8 @@ def basal_state(
     depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
     load = BedLoad(thickness=thickness, density=density, pressure=pressure)
-    weighing = weighing_on(material, basal.spacing)
-    first = which.start or 0
     speed, normal_gravity, effective = press_on_bed(
-        first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
+        which.start or 0, p.velocity, p.surface_sample, p.cos_slope, load, basal.weighing
     )  # fmt: skip
     parameters = basal.parameters
     if basal.varies:

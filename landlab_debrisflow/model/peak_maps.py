@@ -95,15 +95,17 @@ class PeakMaps:
         """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         mixture = () if self._solid_fraction is None else (self._solid_fraction,)
-        for field in (*self._current, *self._phases, *mixture):
+        for field in (*self._phases, *mixture):
             field[self._under] = 0.0
         if p.count == 0:
+            for field in self._current:
+                field[self._under] = 0.0
             self._under = self._under[:0]
             return
+        density = density if np.shape(density) == p.volume.shape else np.full(p.count, density)
         matter = Matter(
-            volume=p.volume, density=np.broadcast_to(density, p.count), phase=p.phase, velocity=p.velocity,
-            run_up=p.z - p.lowest_z + p.depth,
-        )  # fmt: skip
+            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, run_up=p.z - p.lowest_z + p.depth
+        )
         base = Base(
             pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
             peclet_number=p.basal_peclet_number,
@@ -112,7 +114,7 @@ class PeakMaps:
         _weight_by_volume(matter, base, self._walled, values)
         if self._solid_fraction is not None:
             values[:, -1] = p.volume * depth_mean(p.solid_fraction)
-        self._under = scatter(footprints, values, self._sums, self._scratch).copy()
+        left, self._under = self._under, scatter(footprints, values, self._sums, self._scratch).copy()
         if self._walled:
             least = self._arrival_depth * self._raster.area
             _record_walls(self._under, self._sums, least, self._raster, self._peaks)
@@ -120,7 +122,7 @@ class PeakMaps:
         if self._solid_fraction is not None:
             self._solid_fraction[self._under] = self._sums[self._under, -1] / self._sums[self._under, VOLUME]
         area = self._raster.area
-        _record(self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
+        _record(left, self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 
     def _show_phases(self, at):
         for field in self._phases[:1]:
@@ -156,17 +158,24 @@ def _weight_by_volume(matter, base, walled, values):
     volume, density, phase, velocity, run_up = matter
     pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
-        m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
+        m, u, v = volume[i], velocity[0, i], velocity[1, i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        grains = m if phase[i] != WATER else 0.0  # grains carry the columns
-        to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
-        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
-        to[PECLET] = grains * peclet_number[i]
-        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * run_up[i]
+        speed, grains = np.sqrt(speed2), m if phase[i] != WATER else 0.0  # grains carry the columns
+        values[i, VOLUME], values[i, WAY], values[i, GRAINS], values[i, GRAIN_WAY] = (
+            m,
+            m * speed,
+            grains,
+            grains * speed,
+        )
+        values[i, PRESSURE], values[i, LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
+        values[i, PECLET] = grains * peclet_number[i]
+        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * run_up[i]
         if walled:
             momentum = m * density[i]
-            to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
-            to[TOWARDS + 2], to[TOWARDS + 3] = momentum * max(v, 0.0) ** 2, momentum * min(v, 0.0) ** 2
+            values[i, TOWARDS] = momentum * max(u, 0.0) ** 2
+            values[i, TOWARDS + 1] = momentum * min(u, 0.0) ** 2
+            values[i, TOWARDS + 2] = momentum * max(v, 0.0) ** 2
+            values[i, TOWARDS + 3] = momentum * min(v, 0.0) ** 2
 
 
 @kernel
@@ -186,7 +195,7 @@ def _record_walls(nodes, sums, least, raster, peaks):
     peaks : PeakFields
         Fields of the peaks, written in place.
     """
-    status, columns, rows, _, _ = raster
+    status, columns, rows, _, _, _ = raster
     max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
     for k in range(nodes.size):
         n = nodes[k]
@@ -207,11 +216,13 @@ def _record_walls(nodes, sums, least, raster, peaks):
 
 
 @kernel
-def _record(nodes, sums, area, time, arrival_depth, current, peaks):
+def _record(left, nodes, sums, area, time, arrival_depth, current, peaks):
     """Record the flow now and its peaks at nodes under it, and clear their sums.
 
     Parameters
     ----------
+    left : ndarray of int, shape (m,)
+        Nodes under the flow at the update before.
     nodes : ndarray of int, shape (k,)
         Nodes under the flow.
     sums : ndarray, shape (nodes, m)
@@ -229,6 +240,9 @@ def _record(nodes, sums, area, time, arrival_depth, current, peaks):
     """
     depth, speed, pressure, peclet = current
     max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks
+    for k in range(left.size):
+        n = left[k]
+        depth[n] = speed[n] = pressure[n] = peclet[n] = 0.0
     for k in range(nodes.size):
         n = nodes[k]
         volume = sums[n, VOLUME]

@@ -176,7 +176,7 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
         Copy of the five arrays of particles.
     footprints : Footprints
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     particles, half_width, area = np.empty((5, x.size)), np.empty(x.size), volume / depth
     most, found, cell = 0, 0, dx * dy
     for i in range(x.size):
