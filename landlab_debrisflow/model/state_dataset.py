@@ -82,8 +82,7 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
             f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give a Dataset "
             "that to_dataset() of a run with the same setup wrote"
         )
-    for variable in p.variables:
-        setattr(p, variable.name, np.array(read[prefix + variable.name], variable.dtype, order="C"))
+    p.restore({variable.name: read[prefix + variable.name] for variable in p.variables})
     p.awake, p.ever = int(read["awake"]), int(read["ever"])
     new.time, new.outdated = float(read["time"]), bool(read["outdated"])
     new.settled_solid = float(read["settled_solid"])
