@@ -14,11 +14,10 @@ from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.packing import Position
 from ...spatial.partners import find_partners
-from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
-from .exchange import distribute_soil_water, make_whole
-from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_both
+from .exchange import distribute_soil_water, leave_to_mixed, make_whole
+from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_grains, kick_water, pull_along_bed
 
 STEPS_BETWEEN_PROFILES = 16
 """Number of steps between two readings of the mean pore pressure from the columns. In between, the mean follows the
@@ -71,6 +70,10 @@ class TwoPhaseDynamics:
                  scratch=True),
         Variable("bed_drag", "m-1", "drag of the bed on water, over its mass and speed squared", written=False,
                  scratch=True),
+        Variable("pull", "m s-2", "acceleration along the bed by gravity and pressure", components=3, written=False,
+                 scratch=True),
+        Variable("water_pull", "m s-2", "of grains: mean of that of the water around", components=3, written=False,
+                 scratch=True),
         Variable("drainage_rate", "s-1", "rate at which the mean pressure drains", written=False, scratch=True),
     )  # fmt: skip
 
@@ -106,9 +109,10 @@ class TwoPhaseDynamics:
             p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
         if p.generation != exchange.generation or exchange.age == STEPS_WITH_PARTNERS:
             partners = find_partners(*cells, Position(p.x, p.y, p.z), p.volume, p.smoothing_length)
-            make_whole(partners, p.porosity, p.volume)
-            exchange.partners, exchange.generation, exchange.age = partners, p.generation, 0
+            make_whole(tuple(partners), p.porosity, p.volume)
+            exchange.keep(partners, p.phase, p.generation)
         exchange.age += 1
+        pull_along_bed(tuple(exchange.partners), p.thrust, _motion(p, p.velocity), material.gravity)
 
     def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
@@ -127,15 +131,8 @@ class TwoPhaseDynamics:
             Duration of the step [s].
         """
         material = self.material
-        motion = Motion(
-            velocity=velocity,
-            pressure_acceleration=p.thrust,
-            slope_x=p.slope_x,
-            slope_y=p.slope_y,
-            cos_slope=p.cos_slope,
-        )
+        motion = _motion(p, velocity)
         mixture = GrainsAndWater(
-            phase=p.phase,
             volume=p.volume,
             thickness=p.thickness,
             porosity=p.porosity,
@@ -149,36 +146,36 @@ class TwoPhaseDynamics:
             water_drag=p.bed_drag,
             rest_speed=rest_speed,
         )
-        kick_both(exchange.partners, motion, mixture, resistance, material.gravity, dt)
+        impulse = kick_grains(tuple(exchange.partners), motion, mixture, resistance, dt)
+        kick_water(tuple(exchange.grains), impulse, motion, mixture, resistance, dt)
         _hold_back(velocity, p.light)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
         """Return which grains friction and walls would hold at rest, which water drag, (n,); `which` is not used."""
         none, at_rest = np.zeros(p.count), np.zeros(1)
-        velocity, pull = np.zeros((2, 3, none.size))
+        velocity, pull = np.zeros((3, none.size)), p.pull.copy()
         self.kick(p, exchange, velocity, yield_stress, drag, at_rest, 1.0)
         free = _size(velocity)
         bear(p.x, p.y, velocity, p.surface_sample, walls)
         left = _size(velocity)
         leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # friction holds it along the wall
-        free = Resistance(yield_stress=none, drag=none, mass=none + 1.0, rest_speed=at_rest)
-        kick(pull, p.thrust, p.surface_sample, p.cos_slope, free, self.material.gravity, 1.0)
         bear(p.x, p.y, pull, p.surface_sample, walls)
         seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
         return np.where(p.phase == WATER, seeping <= p.rest_speed * p.phase_drag, leaning | (left == 0.0))
 
     def limit_entrainment(self, exchange, rate) -> None:
         """Set the erosion rate to 0, in place, for grains without water around to take the water of the soil."""
-        takes = np.zeros(rate.size, bool)
-        takes[exchange.partners.of[exchange.partners.count > 0]] = True
-        rate[~takes] = 0.0
+        leave_to_mixed(tuple(exchange.partners), exchange.grains.of, rate)
 
     def share_entrained(self, p, exchange) -> None:
         """Give the water of the entrained soil to the water; porosity then changes by the flow alone."""
         if p.entrained_volume.any():
             water_ratio = 1.0 / self.solid_fraction - 1.0  # water over grains, by volume
             exponent = 1.0 - self.material.basal_slip_ratio
-            distribute_soil_water(exchange.partners, p.entrained_volume, water_ratio, p.volume, p.velocity, exponent)
+            distribute_soil_water(
+                tuple(exchange.partners), tuple(exchange.grains), p.entrained_volume, water_ratio, p.volume, p.velocity,
+                exponent,
+            )  # fmt: skip
         p.porosity_before[:] = p.porosity
 
     def column_forcing(self, p, forcing, prescribed, dt: float):
@@ -230,6 +227,14 @@ class TwoPhaseDynamics:
         lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
         x = dt * p.phase_drag / (p.thickness * n * n) * lightness
         return self.law.stiffness * lightness * _reached(x) * _reached(dt * p.drainage_rate)
+
+
+def _motion(p, velocity):
+    """Return the `Motion` of the particles `p` with a `velocity`, shape (3, n) [m s-1]."""
+    return Motion(
+        velocity=velocity, pull=p.pull, water_pull=p.water_pull, slope_x=p.slope_x, slope_y=p.slope_y,
+        cos_slope=p.cos_slope,
+    )  # fmt: skip
 
 
 def _size(vectors):
