@@ -5,11 +5,8 @@ is dragged along. Momentum and soil are exchanged between grains and their partn
 (`spatial.partners.find_partners`), with weights that sum to 1, so that no digit is lost.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ...core.jit import kernel
 from ...core.variables import Variable
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.packing import Position
@@ -17,36 +14,15 @@ from ...spatial.partners import find_partners
 from ..time_step import NOT_STIFF
 from ..walls import bear
 from .exchange import distribute_soil_water, leave_to_mixed, make_whole
+from .mixture import PoreWater, find_mixture, follow_source, pressure_by_porosity, stiffen
 from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_grains, kick_water, pull_along_bed
 
 STEPS_BETWEEN_PROFILES = 16
 """Number of steps between two readings of the mean pore pressure from the columns. In between, the mean follows the
 changes of porosity, which can be fast, and drains at `DRAINAGE`."""
 
-DRAINAGE = 3.0
-"""Rate at which the mean drains between readings, over c_v/h^2: a steady source S gives S h^2/(3 c_v), as in a
-column."""
-
 STEPS_WITH_PARTNERS = 4
 """Number of steps for which grains keep their partners among the water: so few that no particle moves far."""
-
-LEAST_FRACTION = 1e-6
-"""Least fraction of the volume that is assumed for either phase [-]."""
-
-
-class PoreWater(NamedTuple):
-    """Depth mean of the excess pore pressure at n particles, and its bounds and drainage; arrays of shape (n,).
-
-    Phase (MIXTURE, which are the grains, or WATER), slope-normal thickness of both phases [m], cosine of the slope [-],
-    liquefaction pressure [Pa], rate at which the mean drains [s-1], and the mean [Pa], of grains changed in place.
-    """
-
-    phase: np.ndarray
-    thickness: np.ndarray
-    cos_slope: np.ndarray
-    liquefaction_pressure: np.ndarray
-    drainage_rate: np.ndarray
-    mean_pressure: np.ndarray
 
 
 class TwoPhaseDynamics:
@@ -74,7 +50,7 @@ class TwoPhaseDynamics:
                  scratch=True),
         Variable("water_pull", "m s-2", "of grains: mean of that of the water around", components=3, written=False,
                  scratch=True),
-        Variable("drainage_rate", "s-1", "rate at which the mean pressure drains", written=False, scratch=True),
+        Variable("consolidation", "m2 s-1", "coefficient of consolidation of its column", written=False, scratch=True),
     )  # fmt: skip
 
     sleeps = False
@@ -95,15 +71,17 @@ class TwoPhaseDynamics:
 
     def coefficient_of_consolidation(self, p, which: slice):
         """Return c_v of the columns of some particles [m2 s-1]: it follows from the drag between the phases."""
-        return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
+        return p.consolidation[which]
 
     def after_summation(self, p, exchange, cells) -> None:
         """Write thickness, porosity and drag from the sums; `cells` are the cells of grains and of water."""
         material, law = self.material, self.law
-        _find_mixture(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
-        np.divide(p.own_thickness, p.share, out=p.thickness)
-        p.phase_drag[:] = law.drag_coefficient(p.porosity, material) * p.thickness
-        p.drainage_rate[:] = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
+        find_mixture(
+            p.phase, p.share, p.own_thickness, material.solid_density, material.water_density, p.porosity, p.density,
+            p.thickness,
+        )  # fmt: skip
+        np.multiply(law.drag_coefficient(p.porosity, material), p.thickness, out=p.phase_drag)
+        p.consolidation[:] = law.coefficient_of_consolidation(p.porosity, material)
         if law.manning_coefficient > 0.0:
             roughness = material.gravity * law.manning_coefficient**2
             p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
@@ -186,10 +164,9 @@ class TwoPhaseDynamics:
         """
         if dt == 0.0:
             return forcing
-        gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
-        gain[prescribed] = 0.0
-        gain[p.phase == WATER] = 0.0
-        return forcing._replace(porosity_source=gain / dt)
+        source = pressure_by_porosity(p.phase, p.porosity_before, p.porosity, self.law.stiffness, dt)
+        source[prescribed] = 0.0
+        return forcing._replace(porosity_source=source)
 
     def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
         """Update the depth mean of the pore pressure, on which the pressure of the flow depends [Pa].
@@ -203,30 +180,26 @@ class TwoPhaseDynamics:
             dt = 0.0
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.stores_pressure else 0.0
-        pore_water = PoreWater(
-            phase=p.phase,
-            thickness=p.thickness,
-            cos_slope=p.cos_slope,
-            liquefaction_pressure=p.liquefaction_pressure,
-            drainage_rate=p.drainage_rate,
-            mean_pressure=p.mean_excess_pore_pressure,
-        )
-        _follow_source(pore_water, forcing.porosity_source, weight, gained)
+        follow_source(
+            _pore_water(p), p.cos_slope, p.liquefaction_pressure, forcing.porosity_source, weight, gained,
+            p.mean_excess_pore_pressure,
+        )  # fmt: skip
         exchange.steps += 1
 
     def celerity_squared(self, p, dt: float):
-        """Return the part of the squared celerity that is due to the stiffness of the skeleton, shape (n,) [m2 s-2].
-
-        Waves in which water moves against grains have K n (1/rho_w + n/((1 - n) rho_s)). Drag reduces the velocity that
-        a force reaches in a step of `dt` seconds, and drainage the pressure.
-        """
+        """Return the part of the squared celerity that is due to the stiffness of the skeleton, shape (n,) [m2 s-2]."""
         if not self.stores_pressure or p.count == 0:
             return NOT_STIFF
         material = self.material
-        n = p.porosity
-        lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
-        x = dt * p.phase_drag / (p.thickness * n * n) * lightness
-        return self.law.stiffness * lightness * _reached(x) * _reached(dt * p.drainage_rate)
+        return stiffen(_pore_water(p), material.solid_density, material.water_density, self.law.stiffness, dt)
+
+
+def _pore_water(p):
+    """Return the `PoreWater` of the particles `p`."""
+    return PoreWater(
+        phase=p.phase, porosity=p.porosity, thickness=p.thickness, phase_drag=p.phase_drag,
+        consolidation=p.consolidation,
+    )  # fmt: skip
 
 
 def _motion(p, velocity):
@@ -250,56 +223,3 @@ def _hold_back(velocity, light) -> None:
         speed = _size(velocity)
         fastest = speed[~light].max(initial=0.0)
         velocity[:, light] *= np.minimum(1.0, fastest / np.maximum(speed[light], 1e-300))
-
-
-def _reached(x):
-    """Return (1 - exp(-x))/x [-]: the fraction left of a constant gain during which x e-foldings of decay pass."""
-    x = np.maximum(x, 1e-12)
-    return -np.expm1(-x) / x
-
-
-@kernel
-def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity, density):
-    """Write porosity and density of the mixture at each particle, and keep the fraction of its phase within (0, 1).
-
-    Parameters
-    ----------
-    phase : ndarray of int8, shape (n,)
-        MIXTURE, which are the grains, or WATER.
-    phase_fraction : ndarray, shape (n,)
-        Fraction of the thickness that belongs to the particle's own phase, changed in place [-].
-    solid_density, water_density : float
-        Densities of grains and water [kg m-3].
-    porosity, density : ndarray, shape (n,)
-        Written [-], [kg m-3].
-    """
-    for i in range(phase.size):
-        phase_fraction[i] = min(max(phase_fraction[i], LEAST_FRACTION), 1.0 - LEAST_FRACTION)
-        porosity[i] = phase_fraction[i] if phase[i] == WATER else 1.0 - phase_fraction[i]
-        # water has no buoyant weight, so that its liquefaction pressure is 0
-        mixed = solid_density + porosity[i] * (water_density - solid_density)
-        density[i] = water_density if phase[i] == WATER else mixed
-
-
-@kernel
-def _follow_source(pore_water, source, unit_weight, dt):
-    """Add the source to the mean pressure of grains while it drains, and clip it between suction and liquefaction.
-
-    Parameters
-    ----------
-    pore_water : PoreWater
-    source : ndarray, shape (n,) or (1,)
-        [Pa s-1]
-    unit_weight : float
-        Unit weight of water [N m-3].
-    dt : float
-        Duration of the step [s].
-    """
-    phase, thickness, cosine, liquefaction_pressure, drainage, mean = pore_water
-    for i in range(phase.size):
-        if phase[i] != WATER:
-            x = dt * drainage[i]
-            lost = -np.expm1(-x)
-            gained = (1.0 - lost) * mean[i] + dt * source[min(i, source.size - 1)] * (lost / x if x > 1e-12 else 1.0)
-            lowest, highest = -0.5 * unit_weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
-            mean[i] = min(max(gained, lowest), highest)
