@@ -193,6 +193,9 @@ class Phases(Protocol):
     solid_fraction: float  # of the soil: volume that the eroding particle keeps, the grains of two phases, all of one
     sleeps: bool  # whether particles at rest may sleep
 
+    def bearing(self, particles) -> slice:
+        """Return the places of the particles awake that bear on the bed; none beyond has friction or a column."""
+
     def density(self, particles) -> Array:
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
 

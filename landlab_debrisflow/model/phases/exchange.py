@@ -125,12 +125,13 @@ def leave_to_mixed(partners, water, rate):
         Partners of the grains among the water.
     water : ndarray of int, shape (l,)
         Particles of water.
-    rate : ndarray, shape (n,)
-        Erosion rate of grains and water [m s-1].
+    rate : ndarray, shape (m,)
+        Erosion rate of grains and of water between them [m s-1].
     """
     of, first, _, _ = partners
     for k in range(of.size):
         if first[k] == first[k + 1]:
             rate[of[k]] = 0.0
     for i in water:
-        rate[i] = 0.0
+        if i < rate.size:
+            rate[i] = 0.0

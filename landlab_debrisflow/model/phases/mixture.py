@@ -7,6 +7,7 @@ import numpy as np
 from ...core.jit import inner, kernel
 from ...core.structs import struct
 from ...physics.contracts import WATER
+from .momentum import FORGOTTEN
 
 LEAST_FRACTION = 1e-6
 """Least fraction of the volume that is assumed for either phase [-]."""
@@ -14,6 +15,15 @@ LEAST_FRACTION = 1e-6
 DRAINAGE = 3.0
 """Rate at which the mean pressure drains between readings of the columns, over c_v/h^2: a steady source S gives
 S h^2/(3 c_v), as in a column."""
+
+
+@kernel
+def end_of_grains(phase):
+    """Return the place behind the last grain of particles, whose `phase` is MIXTURE or WATER, shape (n,) of int8."""
+    end = phase.size
+    while end > 0 and phase[end - 1] == WATER:
+        end -= 1
+    return end
 
 
 @kernel
@@ -160,6 +170,3 @@ def _reached(x):
 
 BRIEF = 1e-3
 """Number of e-foldings below which four terms of the series have all digits."""
-
-FORGOTTEN = 40.0
-"""Number of e-foldings after which nothing is left in double precision."""

@@ -15,6 +15,9 @@ from ...core.jit import inner, kernel
 from ...core.structs import struct
 from ..kinematics import along_bed
 
+FORGOTTEN = 40.0
+"""Number of e-foldings after which nothing is left in double precision."""
+
 
 @struct
 class Motion(NamedTuple):
@@ -178,7 +181,7 @@ def kick_grains(partners, motion, mixture, resistance, dt):
         # drag is per volume of water; these grains claim the fraction `taken` of it
         x = dt * phase_drag[i] * (taken / m_s + 1.0 / m_w)
         m_w *= 1.0 if alone else taken
-        lost = -np.expm1(-x)
+        lost = 1.0 if x > FORGOTTEN else -np.expm1(-x)
         left, response = 1.0 - lost, dt * (lost / x if x > 1e-12 else 1.0)
         water_fraction = m_w / (m_s + m_w)  # fraction of the mass
         compliance = (dt + m_w / m_s * response) / (m_s + m_w)

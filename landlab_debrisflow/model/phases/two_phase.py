@@ -8,20 +8,21 @@ is dragged along. Momentum and soil are exchanged between grains and their partn
 import numpy as np
 
 from ...core.variables import Variable
+from ...physics.column.driver import depth_mean
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.packing import Position
 from ...spatial.partners import find_partners
 from ..time_step import NOT_STIFF
 from ..walls import bear
 from .exchange import distribute_soil_water, leave_to_mixed, make_whole
-from .mixture import PoreWater, find_mixture, follow_source, pressure_by_porosity, stiffen
+from .mixture import PoreWater, end_of_grains, find_mixture, follow_source, pressure_by_porosity, stiffen
 from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_grains, kick_water, pull_along_bed
 
 STEPS_BETWEEN_PROFILES = 16
 """Number of steps between two readings of the mean pore pressure from the columns. In between, the mean follows the
 changes of porosity, which can be fast, and drains at `DRAINAGE`."""
 
-STEPS_WITH_PARTNERS = 4
+STEPS_WITH_PARTNERS = 8
 """Number of steps for which grains keep their partners among the water: so few that no particle moves far."""
 
 
@@ -60,6 +61,14 @@ class TwoPhaseDynamics:
         self.law, self.material, self.stores_pressure = law, material, stores_pressure
         self.phase_fractions = ((MIXTURE, 1.0 - material.porosity), (WATER, material.porosity))
         self.solid_fraction = 1.0 - material.soil_porosity
+
+    def bearing(self, p) -> slice:
+        """Return the places up to the last grain; water beyond has neither friction nor a column.
+
+        A release puts all of its grains before its water. Where several follow each other, water between them passes
+        through friction and columns, with results that nothing reads.
+        """
+        return slice(end_of_grains(p.phase))
 
     def density(self, p):
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
@@ -164,8 +173,11 @@ class TwoPhaseDynamics:
         """
         if dt == 0.0:
             return forcing
-        source = pressure_by_porosity(p.phase, p.porosity_before, p.porosity, self.law.stiffness, dt)
-        source[prescribed] = 0.0
+        bearing = forcing.volume.size
+        source = pressure_by_porosity(
+            p.phase[:bearing], p.porosity_before[:bearing], p.porosity[:bearing], self.law.stiffness, dt
+        )  # fmt: skip
+        source[prescribed[prescribed < bearing]] = 0.0
         return forcing._replace(porosity_source=source)
 
     def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
@@ -174,9 +186,8 @@ class TwoPhaseDynamics:
         The mean is read from the columns every few steps; in between it follows the source.
         """
         if exchange.steps % STEPS_BETWEEN_PROFILES == 0:
-            profile = profiles()
-            mean = (profile.sum(axis=1) - 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
-            np.copyto(p.mean_excess_pore_pressure, mean, where=p.phase != WATER)
+            mean = depth_mean(profiles())
+            np.copyto(p.mean_excess_pore_pressure[: mean.size], mean, where=p.phase[: mean.size] != WATER)
             dt = 0.0
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.stores_pressure else 0.0

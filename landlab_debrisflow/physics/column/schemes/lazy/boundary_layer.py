@@ -11,7 +11,8 @@ from .....core.jit import inner
 
 ROOT_PI = math.sqrt(math.pi)
 BEYOND = 6.0
-"""Distance from the layer, over its diffusive thickness, at which the layer is below the rounding of 1: erfc(6) is 2e-17."""
+"""Distance over the diffusive thickness of a layer from which on the layer is below the rounding of 1: erfc(6) is
+2e-17."""
 RESOLVED = 1.5  # least thickness of a layer that levels resolve [cells]
 
 
