@@ -162,7 +162,7 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
 
 
 def _erosion_state(p, bearing: slice, bed, erosion: BasalLaw, resistance):
-    """Return the base under particles `p[bearing]` as a law reads it, a `BasalState`; others as in `entrain`."""
+    """Return the base under particles `p[bearing]` as a law reads it, a `BasalState`; arguments as in `entrain`."""
     yield_stress, drag = resistance
     nodes = p.nearest_node[bearing]
     state = basal_state(p, bearing, erosion, eroded_depth=bed.eroded_in_event(nodes))

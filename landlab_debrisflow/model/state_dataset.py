@@ -46,7 +46,7 @@ def to_dataset(state, prefix: str = "") -> xr.Dataset:
     data["outflow_volume"] = ("exit_node", np.array(volumes, float))
     if state.exchange.partners is not None:
         of, first, index, weight = state.exchange.partners
-        data["partners_of"], data["partners_first"] = ("grain", of), ("grain_and_end", first)
+        data["partners_of"], data["partners_count"] = ("grain", of), ("grain", np.diff(first))
         data["partners_index"], data["partners_weight"] = ("pair", index), ("pair", weight)
         data["partners_generation"] = ("generation", np.array(state.exchange.generation, np.int64))
     return xr.Dataset(data)
@@ -105,7 +105,9 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     new.outflow._at = dict(volumes)
     new.exchange.partners = new.exchange.grains = new.exchange.generation = None
     if "partners_of" in read:
-        partners = Partners(*(np.array(read[f"partners_{name}"]) for name in Partners._fields))
+        of, count, index, weight = (read[f"partners_{name}"] for name in ("of", "count", "index", "weight"))
+        first = np.concatenate([[0], np.cumsum(count)])
+        partners = Partners(of=np.array(of), first=first, index=np.array(index, np.int32), weight=np.array(weight))
         age, generation = new.exchange.age, tuple(read["partners_generation"].tolist())
         new.exchange.keep(partners, p.phase, generation)
         new.exchange.age = age

@@ -194,7 +194,7 @@ class Phases(Protocol):
     sleeps: bool  # whether particles at rest may sleep
 
     def bearing(self, particles) -> slice:
-        """Return the places of the particles awake that bear on the bed; none beyond has friction or a column."""
+        """Return the places of the particles that bear on the bed: friction and columns are computed for them alone."""
 
     def density(self, particles) -> Array:
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""

@@ -66,7 +66,7 @@ def find_partners(targets: Cells, sources: Cells, position: Position, volume, sm
 
 
 def reverse(partners: Partners, others) -> Partners:
-    """Return the same pairs by the partners: each of these with the particles whose partner it is.
+    """Return the pairs of `partners` sorted by the partner, as the `Partners` of the other phase.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def _find(targets, sources, position, volume, length, partners):
 
 @kernel
 def _reverse(partners, reversed_partners):
-    """Write the pairs of `partners` by the partner, in the order of the particles whose partner it is.
+    """Write the pairs of `partners` sorted by the partner, and for one partner in the order of `partners`.
 
     `reversed_partners` are the `Partners` with room for all pairs, written except ``of``.
     """

@@ -30,7 +30,7 @@ class OnePhaseDynamics:
         self._coefficient = np.array([material.coefficient_of_consolidation])
 
     def bearing(self, p) -> slice:
-        """Return the places of the particles awake: all bear on the bed."""
+        """Return the places of the particles that bear on the bed: of all that are awake."""
         return slice(p.awake)
 
     def density(self, p):
