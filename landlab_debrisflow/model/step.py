@@ -76,7 +76,8 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     """
     if p.count == 0:  # all particles have left in this step, and the partners are still those of before
         return NO_RESISTANCE
-    yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
+    bearing, (yield_stress, drag) = phases.bearing(p), np.zeros((2, p.awake))
+    yield_stress[bearing], drag[bearing] = basal_resistance(p, bearing, friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
         stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
@@ -225,11 +226,12 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
     `p` are the particles, `exchange` is the state of the exchange between phases; `prescribed` are the places of
     particles whose motion is given in an inflow strip; `dt` is in s.
     """
-    awake, phases = slice(p.awake), columns.phases
-    forcing = column_forcing(p, awake, columns, p.entrained_volume[awake], p.entrained_ratio[awake])
+    phases = columns.phases
+    bearing = phases.bearing(p)
+    forcing = column_forcing(p, bearing, columns, p.entrained_volume[bearing], p.entrained_ratio[bearing])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
-    columns.law.advance(column_state(p, awake), forcing, dt, p.basal_excess_pore_pressure[awake])
-    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, slice(p.count), columns), dt)
+    columns.law.advance(column_state(p, bearing), forcing, dt, p.basal_excess_pore_pressure[bearing])
+    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, bearing, columns), dt)
 
 
 def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: float = 0.0) -> StepLimits:
