@@ -4,10 +4,10 @@ import argparse
 import dataclasses
 import importlib
 import json
+import os
 import sys
 from functools import partial
 
-import numba
 import numpy as np
 import pytest
 
@@ -87,7 +87,7 @@ def test_a_spread_is_that_of_a_sample():
 @pytest.mark.slow  # it starts a process
 def test_a_process_answers(grounds):
     side = Side(sys.executable, str(ratio_turns.result_files.ROOT), str(grounds))
-    side.environment = partial(side.environment, numba.config.CACHE_DIR or "cache")  # kernels compiled by other tests
+    side.environment = partial(side.environment, os.environ["NUMBA_CACHE_DIR"])  # kernels compiled by other tests
     side.begin(str(ratio_turns.PROGRAM), str(grounds))
     answer = json.loads(side.ask('["cap", {"count": 50, "duration": 0.05}]'))
     side.end()
