@@ -49,7 +49,7 @@ def find_partners(targets: Cells, sources: Cells, position: Position, volume, sm
     Parameters
     ----------
     targets, sources : Cells
-        Cells of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+        Cells of the two phases, made by `cells.cells_of_phase` of the same cells.
     position : Position
         Position of the n particles that have, or may be, partners; the cells may hold further particles.
     volume, smoothing_length : ndarray, shape (n,)
@@ -81,29 +81,24 @@ def _find(targets, sources, position, volume, length, partners):
     partners : Partners
         Written, except ``of``, which is in the order of the targets.
     """
-    columns, _, order, start, _, box, window, _, _ = targets
-    _, _, source_order, source_start, _, _, _, _, _ = sources
+    columns, rows, size, west, south, _, order, start, _, _, _, _, _ = targets
+    _, _, _, _, _, _, source_order, source_start, _, _, _, _, _ = sources
     x, y, z = position
     _, count, index, weight = partners
-    n, rows, row_of = x.size, (start.size - 1) // columns, 0
+    n, row_of = x.size, 0
     for cell in range(start.size - 1):
         if start[cell] == start[cell + 1]:
             continue
-        w = window[cell]
-        row, column = cell // columns, cell % columns
         for k in range(start[cell], start[cell + 1]):
             i = order[k]
             if i >= n:
                 continue
             radius, found, total = PARTNER_RADIUS * length[i], 0, 0.0
             nearest = (NEAREST * radius) ** 2
-            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                    d = r * columns + q
-                    gap_x = max(box[0, d] - x[i], x[i] - box[1, d], 0.0)
-                    gap_y = max(box[2, d] - y[i], y[i] - box[3, d], 0.0)
-                    if gap_x * gap_x + gap_y * gap_y > radius * radius:
-                        continue
+            low_row, high_row = int((y[i] - radius - south) / size), int((y[i] + radius - south) / size)
+            low, high = int((x[i] - radius - west) / size), int((x[i] + radius - west) / size)
+            for r in range(max(low_row, 0), min(high_row, rows - 1) + 1):
+                for d in range(r * columns + max(low, 0), r * columns + min(high, columns - 1) + 1):
                     for s in range(source_start[d], source_start[d + 1]):
                         j = source_order[s]
                         if j >= n:
