@@ -51,7 +51,7 @@ def find_partners(targets: Cells, sources: Cells, position: Position, volume, sm
     Parameters
     ----------
     targets, sources : Cells
-        Cells of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+        Cells of the two phases, made by `cells.cells_of_phase` of the same cells.
     position : Position
         Position of the n particles that have, or may be, partners; the cells may hold further particles.
     volume, smoothing_length : ndarray, shape (n,)
@@ -103,16 +103,12 @@ def _find(targets, sources, position, volume, length, partners):
     partners : Partners
         Written, except ``of``; has room for `MOST_PARTNERS` pairs of each.
     """
-    columns, size, order, start, _, _, window, _, _ = targets
-    _, _, source_order, source_start, _, _, _, _, _ = sources
+    columns, rows, size, west, south, _, _, _, _, _, _, _, _ = targets
+    _, _, _, _, _, _, source_order, source_start, _, _, _, _, _ = sources
     x, y, z = position
     of, first, index, weight = partners
-    n, rows, pair = x.size, (start.size - 1) // columns, 0
-    cell_of, packed = np.empty(n, np.int32), np.empty((4, source_order.size))
-    for cell in range(start.size - 1):
-        for k in range(start[cell], start[cell + 1]):
-            if order[k] < n:
-                cell_of[order[k]] = cell
+    n, pair = x.size, 0
+    packed = np.empty((4, source_order.size))
     for s in range(source_order.size):
         j = source_order[s]
         # a source without a place among the particles is out of reach
@@ -123,13 +119,14 @@ def _find(targets, sources, position, volume, length, partners):
     distance2, near2 = np.empty(source_order.size), np.empty(source_order.size + 1)
     near = np.empty(source_order.size + 1, np.int32)
     for k in range(of.size):
-        i, cell = of[k], cell_of[of[k]]
+        i, count = of[k], 0
         radius, px, py, pz = PARTNER_RADIUS * length[i], x[i], y[i], z[i]
         radius2, nearest, total = radius * radius, (NEAREST * radius) ** 2, 0.0
-        w, row, column = min(window[cell], int(np.ceil(radius / size))), cell // columns, cell % columns
-        west, east, count = max(column - w, 0), min(column + w, columns - 1), 0
-        for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-            begin, end = source_start[r * columns + west], source_start[r * columns + east + 1]
+        low_row, high_row = int((py - radius - south) / size), int((py + radius - south) / size)
+        low, high = int((px - radius - west) / size), int((px + radius - west) / size)
+        low, high = max(low, 0), min(high, columns - 1)
+        for r in range(max(low_row, 0), min(high_row, rows - 1) + 1):
+            begin, end = source_start[r * columns + low], source_start[r * columns + high + 1]
             at_x, at_y, at_z = packed[0, begin:end], packed[1, begin:end], packed[2, begin:end]
             for s in range(at_x.size):
                 dx, dy, dz = px - at_x[s], py - at_y[s], pz - at_z[s]

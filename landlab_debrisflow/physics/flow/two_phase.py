@@ -5,7 +5,8 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, cells_of_phase, sum_over_other_phase
+from ...spatial.cells import cells_of_phase
+from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, sum_over_other_phase
 from ...spatial.summation import SummationInput, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
 from .mixture import OverOther, Phased, mix, press
@@ -142,8 +143,7 @@ class TwoPhase:
         cross_sums = CrossPhaseSums(
             thickness=np.zeros(n), cross_term=written.cross_term, mean=np.zeros(n), force=np.zeros((3, n))
         )
-        for phase_cells in of_phases:
-            sum_over_neighbours(phase_cells, given, shock_viscosity, sums, threads)
+        sum_over_neighbours(cells, given, shock_viscosity, sums, threads, of_phases)
         sum_over_other_phase(*of_phases, given_cross, cross_sums, threads)
         found = OverOther(
             own_thickness=plain_thickness(state.volume[:n], state.smoothing.length[:n], sums),
