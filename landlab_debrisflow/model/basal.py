@@ -112,7 +112,7 @@ def basal_state(
         Whether the call is no part of a step: the law's variables are then copies.
     """
     material = basal.material
-    depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
+    thickness, density = p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
     load = BedLoad(thickness=thickness, density=density, pressure=pressure)
     speed, normal_gravity, effective = press_on_bed(
@@ -123,7 +123,7 @@ def basal_state(
         here = (values if values.size == 1 else values[p.nearest_node[which]] for values in parameters)
         parameters = type(parameters)(*here)
     return BasalState(
-        depth=depth,
+        depth=p.depth[which],
         thickness=thickness,
         speed=speed,
         density=density,

@@ -104,8 +104,9 @@ class PeakMaps:
             return
         density = density if np.shape(density) == p.volume.shape else np.full(p.count, density)
         matter = Matter(
-            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, run_up=p.z - p.lowest_z + p.depth
-        )
+            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, z=p.z, lowest_z=p.lowest_z,
+            depth=p.depth,
+        )  # fmt: skip
         base = Base(
             pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
             peclet_number=p.basal_peclet_number,
@@ -155,7 +156,7 @@ def _weight_by_volume(matter, base, walled, values):
     values : ndarray, shape (n, k)
         Written; in the order of `VOLUME` and those that follow.
     """
-    volume, density, phase, velocity, run_up = matter
+    volume, density, phase, velocity, z, lowest_z, depth = matter
     pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
         m, u, v = volume[i], velocity[0, i], velocity[1, i]
@@ -169,7 +170,7 @@ def _weight_by_volume(matter, base, walled, values):
         )
         values[i, PRESSURE], values[i, LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
         values[i, PECLET] = grains * peclet_number[i]
-        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * run_up[i]
+        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
         if walled:
             momentum = m * density[i]
             values[i, TOWARDS] = momentum * max(u, 0.0) ** 2
@@ -196,7 +197,7 @@ def _record_walls(nodes, sums, least, raster, peaks):
         Fields of the peaks, written in place.
     """
     status, columns, rows, _, _, _ = raster
-    max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
+    _, _, _, _, _, max_impact, max_run_up = peaks
     for k in range(nodes.size):
         n = nodes[k]
         if not sums[n, VOLUME] > least:
