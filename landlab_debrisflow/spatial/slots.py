@@ -5,8 +5,8 @@ A flow covers a small part of a large raster. Its nodes get slots in the order i
 
 import numpy as np
 
-LEAST = 1024
-"""Slots at the start; their number is doubled when a flow needs more."""
+MOST_AT_START = 8192
+"""Slots at the start, if there are so many nodes; their number is doubled when a flow needs more."""
 
 
 class Slots:
@@ -36,7 +36,8 @@ class Slots:
     """
 
     def __init__(self, nodes: int):
-        self.of_node, self.node, self.used = np.zeros(nodes, np.int32), np.zeros(LEAST, np.int64), 1
+        self.of_node, self.used = np.zeros(nodes, np.int32), 1
+        self.node = np.zeros(min(nodes + 1, MOST_AT_START), np.int64)
 
     @property
     def count(self) -> int:

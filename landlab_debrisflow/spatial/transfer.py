@@ -22,7 +22,7 @@ import numpy as np
 from ..core.jit import inner, kernel
 from .footprints import Footprints
 from .raster import CORE, Raster
-from .slots import Slots, with_places
+from .slots import Slots
 
 WIDEST = 4.0
 """Largest half-width of a hat function in node spacings."""
@@ -85,7 +85,8 @@ class Cover:
     def _find(self, given) -> bool:
         """Find the footprints of particles; return whether there were slots enough."""
         slots = self.slots
-        self._area, self._touched = with_places(self._area, slots.count), with_places(self._touched, slots.count)
+        if self._area.size < slots.count:
+            self._area, self._touched = np.zeros(slots.count), np.empty(slots.count, np.int64)
         scratch = slots.of_node, slots.node, slots.used, self._area, self._touched
         *self._last, slots.used, are_enough = _find_footprints(self._raster, *given, *scratch)
         return are_enough

@@ -56,8 +56,8 @@ class Demand(NamedTuple):
     ----------
     volume : ndarray, shape (slots,)
         Soil asked for [m3]; 0 before and after.
-    granted : ndarray, shape (slots,)
-        Fraction of the demand that the soil can supply [-].
+    granted : ndarray, shape (slots, 2)
+        Fraction of the demand that the soil can supply, and its pore pressure ratio [-].
     touched : ndarray of int, shape (slots,)
         Slots of nodes with a demand, as many as there are, in order of first touch.
     """
@@ -103,9 +103,8 @@ class Bed:
         self.drained, self.pore_pressure = drained, pore_pressure
         self._earlier, self.saturation = earlier, saturation
         self._cover = Cover(raster)
-        # by slots: depth eroded in this call; soil, elevation, eroded depth of nodes that were lowered, before [m]
-        self._taken, self._before = np.zeros(0), np.empty((0, 3))
-        self._demand, self._granted, self._touched = np.zeros((0, 1)), np.empty(0), np.empty(0, np.int64)
+        self._taken, self._before = np.zeros(0), np.empty((0, 3))  # as in `NodeAccounts`
+        self._demand, self._granted, self._touched = np.zeros((0, 1)), np.empty((0, 2)), np.empty(0, np.int64)
 
     def copy(self) -> "Bed":
         """Return a bed with accounts of its own, on the same elevation, soil and surface."""
@@ -120,7 +119,7 @@ class Bed:
         """Make accounts and scratch as long as there are slots."""
         if self._taken.size < slots:
             self._taken, self._before = with_places(self._taken, slots), with_places(self._before, slots)
-            self._demand, self._granted = np.zeros((slots, 1)), np.empty(slots)
+            self._demand, self._granted = np.zeros((slots, 1)), np.empty((slots, 2))
             self._touched = np.empty(slots, np.int64)
 
     def _lowered(self):
@@ -282,8 +281,9 @@ def _erode(footprints, demanded, area, accounts, demand):
         node = nodes[slot]
         if taken[slot] == 0.0:
             before[slot, 0], before[slot, 1], before[slot, 2] = soil[node], elevation[node], eroded_depth[node]
-        granted[slot] = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
-        taken[slot] = min(taken[slot] + granted[slot] * volume[slot] / area, before[slot, 0])
+        part = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
+        granted[slot, 0], granted[slot, 1] = part, value_at(pressure_ratio, node)
+        taken[slot] = min(taken[slot] + part * volume[slot] / area, before[slot, 0])
         soil[node] = before[slot, 0] - taken[slot]
         elevation[node] = before[slot, 1] - taken[slot]
         eroded_depth[node] = before[slot, 2] + taken[slot]
@@ -292,9 +292,9 @@ def _erode(footprints, demanded, area, accounts, demand):
         if demanded[i] > 0.0:
             fraction, pressure = 0.0, 0.0
             for k in range(begin[i], end[i]):
-                given = weight[k] * granted[index[k]]
+                given = weight[k] * granted[index[k], 0]
                 fraction += given
-                pressure += given * value_at(pressure_ratio, nodes[index[k]])
+                pressure += given * granted[index[k], 1]
             entrained[i] = demanded[i] * fraction
             ratio[i] = pressure / fraction if fraction > 0.0 else 0.0
     return found, entrained, ratio
