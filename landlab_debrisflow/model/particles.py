@@ -1,5 +1,7 @@
 """The moving mass: a struct of arrays, one entry per particle, whose arrays are views of few blocks of memory."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from .particle_blocks import blocks_of
@@ -29,19 +31,19 @@ class Particles:
     (3, 6.0, (3, 3))
     """
 
-    _names: tuple[str, ...] = ()  # of the variables
+    _parts: ClassVar[dict] = {}  # index of every variable in its block
 
     def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
         self.levels, self.variables = levels, tuple(variables)
         self.awake = self.ever = 0  # number of particles awake; number of all particles made so far
         self.departed: Particles | None = None
         self._blocks = blocks_of(self.variables, levels)
-        self._names = tuple(variable.name for variable in self.variables)
+        self._parts = {name: part for block in self._blocks for name, part in block.parts.items()}
         self._put([block.new(0, {}) for block in self._blocks])
 
     def __setattr__(self, name, value):
         """Write the values of a variable into its block, of which the attribute is a view; set any other attribute."""
-        if name in self._names:
+        if name in self._parts:
             getattr(self, name)[...] = value
         else:
             object.__setattr__(self, name, value)
