@@ -15,7 +15,7 @@ if not __package__:  # run as a file: the package that is installed goes before 
 from benchmarks import ratio_scenes
 
 RULES = {
-    "exemption of waves": ("landlab_debrisflow.model.time_step", "NEGLIGIBLE_WAY", 0.0),
+    "exemption of waves": ("landlab_debrisflow.model.step_rule", "NEGLIGIBLE_WAY", 0.0),
 }
 """Rules: a module, a name in it, and the value with which the rule does nothing."""
 

@@ -173,7 +173,8 @@ def panel_of_surges(axis, rows, versions) -> None:
     axis.axvline(0.6, color="0.4", lw=1, ls=":")
     style.finish(
         axis, xscale="log", yscale="log", xlabel="Courant number (dotted: default)",
-        ylabel="error of the largest thickness [-]", title="A surge into a still body, pull over friction\n(lines end where a run blew up)",
+        ylabel="error of the largest thickness [-]",
+        title="A surge into a still body, pull over friction\n(lines end where a run blew up)",
     )  # fmt: skip
 
 
