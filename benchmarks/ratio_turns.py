@@ -1,5 +1,6 @@
 """Measure the rows of ratio_rows.py with several versions of the package, in turns."""
 
+import argparse
 import json
 import sys
 import tempfile
@@ -37,6 +38,20 @@ def write_grounds(folder, data=None) -> list[str]:
             status=grid.status_at_node, **{field: grid.at_node[field] for field in FIELDS},
         )  # fmt: skip
     return list(grids)
+
+
+def named_version(word: str) -> tuple[str, str]:
+    """Return name and path of another version, of a word of the command line.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        If either is absent.
+    """
+    name, _, path = word.partition("=")
+    if not (name and path):
+        raise argparse.ArgumentTypeError(f"write NAME=PATH, got {word!r}")
+    return name, path
 
 
 @contextmanager

@@ -19,7 +19,6 @@ from rich.table import Table
 
 from benchmarks import charts, ratio_turns, result_files
 from benchmarks.ratio_rows import COUNTS
-from benchmarks.ratios import revision
 from benchmarks.rules_off import RULES
 
 PROGRAM = Path(__file__).parent / "rules_off.py"
@@ -116,7 +115,7 @@ def report() -> str:
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--against", type=revision, required=True, metavar="REVISION=PYTHON")
+    parser.add_argument("--against", type=ratio_turns.named_version, required=True, metavar="REVISION=PYTHON")
     parser.add_argument("--data", metavar="FOLDER", help="of the rasters of S-1000; by default $DEBRISFLOW_DATA")
     parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     options = parser.parse_args()

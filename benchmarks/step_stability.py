@@ -22,7 +22,6 @@ from rich.console import Console
 from rich.table import Table
 
 from benchmarks import charts, ratio_turns, result_files, style
-from benchmarks.ratios import revision
 
 PROGRAM = Path(__file__).parent / "step_scenes.py"
 COMMAND = "python -m benchmarks.step_stability --against REVISION=PYTHON"
@@ -217,7 +216,9 @@ def report() -> str:
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--against", type=revision, action="append", required=True, metavar="REVISION=PYTHON")
+    parser.add_argument(
+        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
+    )
     options = parser.parse_args()
     found = measure(dict(options.against), Console(width=160).log)
     result_files.keep("step_stability", found, COMMAND)
