@@ -58,10 +58,15 @@ SUMS = (
 
 
 class Count:
-    """Steps, particles advanced summed over the steps, and CPU time in sums over neighbours [s]."""
+    """Number and lengths of steps [s], particles advanced in all of them, and CPU time in sums over neighbours [s]."""
 
     def __init__(self):
-        self.steps, self.particle_steps, self.sums = 0, 0, 0.0
+        self.lengths, self.particle_steps, self.sums = [], 0, 0.0
+
+    @property
+    def steps(self) -> int:
+        """Number of steps."""
+        return len(self.lengths)
 
 
 @contextmanager
@@ -70,9 +75,9 @@ def counted():
     found, step = Count(), importlib.import_module("landlab_debrisflow.model.step")
     advance = step.advance
 
-    def one_step(simulation, *arguments):
-        advance(simulation, *arguments)
-        found.steps += 1
+    def one_step(simulation, dt):
+        advance(simulation, dt)
+        found.lengths.append(dt)
         found.particle_steps += simulation.particles.awake
 
     def timed(original):
@@ -100,7 +105,7 @@ def measured(work, *arguments) -> dict[str, float]:
         wall, cpu = time.perf_counter(), time.process_time()
         work(*arguments)
         cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
-    return {"cpu": cpu, "wall": wall, **vars(count)}
+    return {"cpu": cpu, "wall": wall, "steps": count.steps, "particle_steps": count.particle_steps, "sums": count.sums}
 
 
 # ---- flows ----
@@ -147,9 +152,13 @@ def cap_of(count, threads=1) -> DebrisFlow:
     return flow
 
 
+VALLEY = {"erosion": 3e-3}
+"""Keywords of `flow_on` in the valley."""
+
+
 def valley_of(count, **keywords) -> DebrisFlow:
     """Return the stand-in for Tsing Shan."""
-    return flow_on(grid_of("valley"), count=count, erosion=3e-3, **keywords)
+    return flow_on(grid_of("valley"), count=count, **VALLEY | keywords)
 
 
 # ---- scenes ----
@@ -178,9 +187,10 @@ def fixed(duration, counts=(50, 100, 200, 400, 800)):
     return {"start": float(start), "slope": float(slope)}
 
 
-def to_rest(count):
-    """Measure the event in the valley, placing and settling included."""
-    return event(valley_of(count))
+def to_rest(count, shorter=1):
+    """Measure the event in the valley, placing and settling included, in steps `shorter` so many times."""
+    numerics = {name: NUMERICS[name] / shorter for name in ("courant_number", "advective_courant_number")}
+    return event(valley_of(count, numerics=numerics))
 
 
 def s1000(friction, counts):
@@ -195,8 +205,8 @@ def s1000(friction, counts):
 
 
 def event(flow) -> dict[str, float]:
-    """Measure an event to rest: cost, end [s], distance of 99 % of the deposit from the top of the release [m], and
-    eroded volume [m3].
+    """Measure an event to rest: cost, end [s], eroded volume [m3], and the distance from the top of the release of 99 %
+    of the deposit and of its centre of mass [m].
     """
     grid = flow.grid
     failing = np.flatnonzero(grid.at_node["debris_flow__release_depth"])
@@ -204,9 +214,14 @@ def event(flow) -> dict[str, float]:
     found = measured(flow.run_until_rest)
     distance = np.hypot(grid.x_of_node - grid.x_of_node[top], grid.y_of_node - grid.y_of_node[top])
     order = np.argsort(distance)
-    behind = np.cumsum(grid.at_node["debris_flow__deposit_depth"][order])
+    deposit = grid.at_node["debris_flow__deposit_depth"][order]
+    behind = np.cumsum(deposit)
     front = distance[order][np.searchsorted(behind, 0.99 * behind[-1])]
-    return found | {"end": flow.elapsed_time, "run_out": float(front), "eroded": float(flow.budget["eroded"])}
+    centre = np.average(distance[order], weights=deposit)
+    return found | {
+        "end": flow.elapsed_time, "run_out": float(front), "centre": float(centre),
+        "eroded": float(flow.budget["eroded"]),
+    }  # fmt: skip
 
 
 def phases(count, begin, duration):
@@ -248,13 +263,13 @@ def memory(side):
 SCENES = {one.__name__: one for one in (cap, valley, fixed, to_rest, s1000, phases, memory)}
 
 
-def main() -> None:
-    """Answer requests."""
+def answer(scenes) -> None:
+    """Answer requests for some functions by name."""
     logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)
     for line in sys.stdin:
         name, keywords = json.loads(line)
-        print(json.dumps(SCENES[name](**keywords)), flush=True)
+        print(json.dumps(scenes[name](**keywords)), flush=True)
 
 
 if __name__ == "__main__":
-    main()
+    answer(SCENES)

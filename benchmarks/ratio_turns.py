@@ -1,10 +1,11 @@
 """Measure the rows of ratio_rows.py with several versions of the package, in turns."""
 
+import argparse
 import json
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -37,6 +38,33 @@ def write_grounds(folder, data=None) -> list[str]:
             status=grid.status_at_node, **{field: grid.at_node[field] for field in FIELDS},
         )  # fmt: skip
     return list(grids)
+
+
+def named_version(word: str) -> tuple[str, str]:
+    """Return name and path of another version, of a word of the command line.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        If either is absent.
+    """
+    name, _, path = word.partition("=")
+    if not (name and path):
+        raise argparse.ArgumentTypeError(f"write NAME=PATH, got {word!r}")
+    return name, path
+
+
+@contextmanager
+def versions(others: Mapping[str, str], data=None) -> Iterator[tuple[list[Side], str, list[str]]]:
+    """Open this version and others; yields them, the folder with the grounds, and the names of the grounds.
+
+    `others` are interpreters by name; `data` is the folder of the data of S-1000.
+    """
+    places = [(sys.executable, str(result_files.ROOT)), *((python, "") for python in others.values())]
+    with ExitStack() as stack:
+        grounds, *folders = (stack.enter_context(tempfile.TemporaryDirectory()) for _ in range(len(places) + 1))
+        names = write_grounds(grounds, data)
+        yield [Side(*place, folder) for place, folder in zip(places, folders, strict=True)], grounds, names
 
 
 def turns(sides: Sequence, count: int, measure: Callable, first: int = 0) -> list[list]:
@@ -199,12 +227,7 @@ def measure(others: Mapping[str, str], *, data, peer, words, quick, say) -> dict
         named = not words or any(word in row.name for word in words for row in work.rows)
         return named and (work.quick or not quick) and (work.function != "s1000" or "s1000" in there)
 
-    with ExitStack() as stack:
-        folders = [stack.enter_context(tempfile.TemporaryDirectory()) for _ in range(len(others) + 2)]
-        grounds = folders.pop()
-        there = write_grounds(grounds, data)
-        places = [(sys.executable, str(result_files.ROOT)), *((python, "") for python in others.values())]
-        sides = [Side(*place, folder) for place, folder in zip(places, folders, strict=True)]
+    with versions(others, data) as (sides, grounds, there):
         tasks = [of_a_scene(work) for work in rows.works() if wanted(work)]
         tasks += [of_threads()] if wanted(rows.THREADS) else []
         for radius, size in rows.PEERS.items() if peer else ():

@@ -92,18 +92,12 @@ def chart():
     return figure
 
 
-def revision(word: str) -> tuple[str, str]:
-    """Return name and interpreter of another version."""
-    name, sign, python = word.partition("=")
-    if not (name and sign and python):
-        raise argparse.ArgumentTypeError(f"write REVISION=PYTHON, got {word!r}")
-    return name, python
-
-
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--against", type=revision, action="append", required=True, metavar="REVISION=PYTHON")
+    parser.add_argument(
+        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
+    )
     parser.add_argument("--data", metavar="FOLDER", help="of the rasters of S-1000; by default $DEBRISFLOW_DATA")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     parser.add_argument("--rows", metavar="WORD", nargs="+", default=[], help="words of the rows to be measured")

@@ -95,9 +95,9 @@ def test_a_process_answers(grounds):
 
 
 def test_a_revision_is_named():
-    assert ratios.revision("1.0=/some/python") == ("1.0", "/some/python")
-    with pytest.raises(argparse.ArgumentTypeError, match="write REVISION=PYTHON, got '/some/python'"):
-        ratios.revision("/some/python")
+    assert ratio_turns.named_version("1.0=/some/python") == ("1.0", "/some/python")
+    with pytest.raises(argparse.ArgumentTypeError, match="write NAME=PATH, got '/some/python'"):
+        ratio_turns.named_version("/some/python")
 
 
 def test_rows_are_shown(capsys):
