@@ -1,4 +1,9 @@
-"""Entrainment: the soil that a flow asks of the bed, takes, and mixes in."""
+"""Entrainment: the soil that a flow asks of the bed, takes, and mixes in.
+
+A particle asks for soil, and gets it, where it is in the middle of the step: halfway along its drift. Soil taken where
+the step begins would lie half a step too far back, and make erosion of first order in the time step wherever the ground
+changes: at an edge of erodible soil by half a step of travel.
+"""
 
 from typing import NamedTuple
 
@@ -9,6 +14,7 @@ from ..core.jit import kernel
 from ..core.structs import struct
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
+from ..spatial.raster import CORE, nearest_node
 from .basal import BasalLaw, basal_state
 
 
@@ -100,13 +106,17 @@ class Erosion(NamedTuple):
     peclet_number: np.ndarray
 
 
+EROSION_TIME = 0.5
+"""Time within a step at which soil is taken, over the length of the step: the middle makes it second-order."""
+
+
 def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance, time: float, dt: float):
     """Take soil from the bed into the particles that are awake.
 
     Parameters
     ----------
     p : Particles
-        All particles.
+        All particles, before their drift; their nearest nodes become those of the middle of the step.
     exchange : Exchange
         State of the exchange between grains and water.
     bed : Bed
@@ -128,6 +138,9 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
         Velocity after over velocity before [-].
     """
     bearing, material = phases.bearing(p), erosion.material
+    x, y = p.x.copy(), p.y.copy()
+    if bed.soil is not None:
+        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
     rate = np.zeros(bearing.stop)
     demanded = np.empty(rate.size)
     erosion.law.entrainment_rate(_erosion_state(p, bearing, bed, erosion, resistance), rate)
@@ -137,7 +150,7 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
     demanded *= dt
     p.entrained_volume[bearing] = p.entrained_ratio[bearing] = 0.0
     if bed.soil is not None and demanded.any():
-        footprints = bed.footprints(p)
+        footprints = bed.footprints(p, x, y)
         p.entrained_volume[bearing], p.entrained_ratio[bearing] = bed.erode(footprints, demanded)
         if bed.saturation is not None:
             dry_pores(p, bed, material)
@@ -195,6 +208,31 @@ def dry_pores(p, bed, material) -> None:
     saturation = _bed_state(bed, p.nearest_node[taken]).degree_of_saturation
     water_to_buoyant = material.bearing_density / material.buoyant_density
     p.entrained_ratio[taken] = saturation * p.entrained_ratio[taken] - (1.0 - saturation) * water_to_buoyant
+
+
+@kernel
+def _go(x, y, velocity, raster, time, nearest):
+    """Move points along straight ways for a time [s], in place, unless they end outside of core nodes.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Position of the particles, of which the first m move [m].
+    velocity : ndarray, shape (3, n)
+        Their velocity [m s-1].
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    time : float
+        Duration of the motion [s].
+    nearest : ndarray of int, shape (m,)
+        Node nearest to each, changed in place.
+    """
+    status, columns, rows, dx, dy = raster
+    for i in range(nearest.size):
+        new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
+        node = nearest_node(new_x, new_y, dx, dy, columns, rows)
+        if node >= 0 and status[node] == CORE:
+            x[i], y[i], nearest[i] = new_x, new_y, node
 
 
 @kernel

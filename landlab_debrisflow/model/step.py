@@ -253,7 +253,8 @@ def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 
     elif yield_stress is None:
         yield_stress, _ = basal_resistance(p, slice(p.awake), surroundings.friction, asking=True)
     gravity = surroundings.friction.material.gravity
-    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress)
+    ground = surroundings.bed.surface, surroundings.walls
+    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

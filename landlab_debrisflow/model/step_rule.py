@@ -16,6 +16,14 @@ STEADY = 0.25
 """Change of the thrust in a step over the deceleration by friction, up to which friction is sure to stop a particle in
 the next step, too: where a flow comes near, the change grows up to fourfold from step to step."""
 
+EVEN, MOST_EVEN = 1.9, 0.95
+"""Way in a step where the ground is even, over that where it is not; and its most, over the node spacing: with the
+default of half a node a step crosses .95 of one."""
+
+TURN = 0.04
+"""Largest turn of the surface on the way of a step, where the ground counts as even, over the nodes that a step may
+cross anywhere [rad]: 0.02 rad with the default of half a node."""
+
 LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
 """Angular frequency of the fastest wave on a lattice of particles, and the rate at which a shock viscosity of 1 damps
 it, both over celerity / smoothing length (docs/decisions.md, Flow 2)."""
@@ -47,7 +55,11 @@ class StepRule(NamedTuple):
     courant_number : float
         Time step over smoothing length / celerity, reduced for the shock viscosity [-].
     way : float
-        Longest way of a particle in a step [m]: a longer one would skip terrain.
+        Way of a particle in a step that is short enough anywhere [m]: a longer one may skip terrain.
+    longest_way : float
+        Longest way in a step, over even ground far from walls [m].
+    turn : float
+        Largest turn of the surface on the way of a step over even ground [rad].
     negligible_way : float
         Way in a step over smoothing length of a particle whose waves do not count if friction stops it [-].
     steady : float
@@ -56,15 +68,20 @@ class StepRule(NamedTuple):
 
     courant_number: float
     way: float
+    longest_way: float
+    turn: float
     negligible_way: float
     steady: float
 
 
 def step_rule(numerics, spacing: float) -> StepRule:
     """Return the rule by the choices of `numerics`, a `Numerics`, on nodes whose smaller spacing is `spacing` [m]."""
+    nodes = numerics.advective_courant_number
     return StepRule(
         courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
-        way=numerics.advective_courant_number * spacing,
+        way=nodes * spacing,
+        longest_way=max(nodes, min(EVEN * nodes, MOST_EVEN)) * spacing,
+        turn=TURN * nodes,
         negligible_way=NEGLIGIBLE_WAY,
         steady=STEADY,
     )

@@ -7,6 +7,7 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import inner, kernel
 from ..core.structs import struct
+from .crossing import find_time_across, time_over
 from .step_rule import GROWTH, StepRule
 
 NOT_STIFF = np.zeros(1)
@@ -124,7 +125,7 @@ class Growth(NamedTuple):
 
 
 def reduce_particles(
-    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION
+    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION, ground=None
 ):
     """Return the `StepLimits` of all particles that are awake.
 
@@ -146,6 +147,8 @@ def reduce_particles(
         Length of the last step [s]; 0 before the first one, when every particle counts.
     yield_stress : ndarray, shape (awake,) or (1,)
         Shear stress that holds a body at rest [Pa].
+    ground : tuple, optional
+        `Surface` below the particles, and `Raster` with walls or None; by default no ground counts as even.
     """
     p = particles
     waves = Waves(
@@ -158,8 +161,10 @@ def reduce_particles(
     wave_rate, growth_rate, across, energy, fastest, broken = _reduce(
         p.awake, waves, motion, friction, growth, p.basal_excess_pore_pressure, gravity, tuple(rule), step
     )
-    longest = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300), across)
-    return StepLimits(longest, energy, fastest, broken)
+    others = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300))
+    if ground is not None and across < others and rule.way < rule.longest_way and broken < 0:
+        across = find_time_across(p, *ground, rule, gravity, others)
+    return StepLimits(min(others, across), energy, fastest, broken)
 
 
 @inner
@@ -171,7 +176,7 @@ def _stays(i, speed, step, motion, waves, friction, rule):
     _, thrust, earlier, _ = motion
     _, _, _, thickness, _, _, smoothing_length, _ = waves
     yield_stress, density = friction
-    _, _, negligible_way, steady = rule
+    _, _, _, _, negligible_way, steady = rule
     if step == 0.0 or not speed * step < negligible_way * smoothing_length[i]:
         return False
     deceleration = value_at(yield_stress, i) / (density[i] * thickness[i])
@@ -217,7 +222,7 @@ def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, ste
     growth_rate : float
         Highest rate of growth [s-1].
     across : float
-        Shortest time in which a particle may go the longest way [s].
+        Shortest time in which a particle may go the way that is short enough anywhere [s].
     energy, fastest, broken
         As in `StepLimits`.
     """
@@ -243,10 +248,7 @@ def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, ste
             if light[i]:
                 converging = min(converging, most / smoothing_length[i])
             wave_rate = max(wave_rate, fastest_wave / smoothing_length[i] + converging)
-        # v dt + 1/2 a dt^2 stays within the way, for particles that are not summed, too; a is the largest acceleration
-        # by thrust and gravity, or deceleration by friction, so that stopping is resolved to this way as well
-        gain = gravity + np.sqrt(push2)
-        across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
+        across = min(across, time_over(way, speed2, gravity + np.sqrt(push2)))  # also of particles not summed
         if not light[i]:
             growth_rate = max(growth_rate, erosion_rate[i] / depth[i])
         energy += volume[i] * speed2

@@ -93,7 +93,7 @@ def particles():
 def look(particles, computed=None, **friction):
     computed = np.ones(6, bool) if computed is None else computed
     particles.summed, particles.cos_slope = computed, np.full(6, 0.8)
-    return reduce_particles(particles, G, StepRule(COURANT, WAY, NEGLIGIBLE_WAY, STEADY), **friction)
+    return reduce_particles(particles, G, StepRule(COURANT, WAY, WAY, 0.0, NEGLIGIBLE_WAY, STEADY), **friction)
 
 
 CELERITY = math.sqrt(G * 0.8 * 2.0)
