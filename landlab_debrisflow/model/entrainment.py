@@ -227,7 +227,7 @@ def _go(x, y, velocity, raster, time, nearest):
     nearest : ndarray of int, shape (m,)
         Node nearest to each, changed in place.
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     for i in range(nearest.size):
         new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
         node = nearest_node(new_x, new_y, dx, dy, columns, rows)
