@@ -18,6 +18,10 @@ NO_SOURCE = np.zeros(1)
 """Pressure by a change of porosity [Pa s-1]: one phase has none."""
 
 
+PER_COLUMN = ColumnForcing._fields[: ColumnForcing._fields.index("water_to_buoyant")]
+"""Members of a `ColumnForcing` that may have a number for each column."""
+
+
 class ColumnPhysics(NamedTuple):
     """Law, material and boundary by which the columns under particles are advanced in a call.
 
@@ -90,6 +94,16 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
         bounded=True,
         shearing=_shearing(p, which, columns) if is_dilatant(columns.law) else None,
     )
+
+
+def forcing_of(forcing: ColumnForcing, which: slice) -> ColumnForcing:
+    """Return the part of a forcing that belongs to the columns at `which`; numbers of all columns stay as they are."""
+
+    def part(value):
+        return value[which] if isinstance(value, np.ndarray) and value.size > 1 else value
+
+    shearing = None if forcing.shearing is None else Shearing(*map(part, forcing.shearing))
+    return forcing._replace(shearing=shearing, **{name: part(getattr(forcing, name)) for name in PER_COLUMN})
 
 
 def _shearing(p, which: slice, columns: ColumnPhysics) -> Shearing:

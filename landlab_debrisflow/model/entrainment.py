@@ -1,116 +1,27 @@
-"""Entrainment: the soil that a flow asks of the bed, takes, and mixes in.
+"""Entrainment: the soil that a flow asks of the bed and takes.
 
 A particle asks for soil, and gets it, where it is in the middle of the step: halfway along its drift. Soil taken where
 the step begins would lie half a step too far back, and make erosion of first order in the time step wherever the ground
 changes: at an edge of erodible soil by half a step of travel.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ..core.arrays import value_at
 from ..core.jit import kernel
-from ..core.structs import struct
+from ..core.threads import over_particles
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
 from ..spatial.raster import CORE, nearest_node
 from .basal import BasalLaw, basal_state
-
-
-@struct
-class Soil(NamedTuple):
-    """Soil that a flow takes up.
-
-    Attributes
-    ----------
-    solid_fraction : float
-        Part of its volume that a particle of grains keeps [-].
-    slip_ratio : float
-        Velocity at which it enters, over that of the flow [-].
-    porosity : float
-        Porosity of the soil [-].
-    solid_density : float
-        Density of its grains [kg m-3].
-    bearing_density : float
-        Density of the water in its pores [kg m-3].
-    """
-
-    solid_fraction: float
-    slip_ratio: float
-    porosity: float
-    solid_density: float
-    bearing_density: float
-
-
-@struct
-class Layer(NamedTuple):
-    """Flow over the bed, at n particles.
-
-    Attributes
-    ----------
-    depth : ndarray, shape (n,)
-        Vertical depth [m].
-    thickness : ndarray, shape (n,)
-        Slope-normal thickness [m].
-    share : ndarray, shape (n,)
-        Fraction of the thickness that belongs to the particle's own phase [-].
-    cosine : ndarray, shape (n,)
-        Cosine of the slope of the bed [-].
-    coefficient_of_consolidation : ndarray, shape (n,) or (1,)
-        c_v [m2 s-1].
-    """
-
-    depth: np.ndarray
-    thickness: np.ndarray
-    share: np.ndarray
-    cosine: np.ndarray
-    coefficient_of_consolidation: np.ndarray
-
-
-@struct
-class Mixture(NamedTuple):
-    """Matter of n particles, changed in place.
-
-    Attributes
-    ----------
-    volume : ndarray, shape (n,)
-        Volume of the particle [m3].
-    porosity : ndarray, shape (n,)
-        Pores over the whole [-].
-    density : ndarray, shape (n,)
-        Density of the mixture [kg m-3].
-    """
-
-    volume: np.ndarray
-    porosity: np.ndarray
-    density: np.ndarray
-
-
-@struct
-class Erosion(NamedTuple):
-    """Record of the erosion by n particles, written in place.
-
-    Attributes
-    ----------
-    rate : ndarray, shape (n,)
-        Erosion rate per map area [m s-1].
-    first_time : ndarray, shape (n,)
-        Time of the first erosion [s]; NaN before.
-    peclet_number : ndarray, shape (n,)
-        Basal Péclet number of the last erosion [-].
-    """
-
-    rate: np.ndarray
-    first_time: np.ndarray
-    peclet_number: np.ndarray
-
+from .mixing import Erosion, Layer, Mixture, Soil, mix
 
 EROSION_TIME = 0.5
 """Time within a step at which soil is taken, over the length of the step: the middle makes it second-order."""
 
 
-def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance, time: float, dt: float):
+def entrain(
+    p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance, time: float, dt: float, threads: int = 1
+):
     """Take soil from the bed into the particles that are awake.
 
     Parameters
@@ -131,6 +42,8 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
         Yield stress [Pa] and drag [Pa s m-1] of the friction law in this step.
     time, dt : float
         Beginning and length of the step [s].
+    threads : int
+        Number of threads.
 
     Returns
     -------
@@ -143,7 +56,11 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
         _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
     rate = np.zeros(bearing.stop)
     demanded = np.empty(rate.size)
-    erosion.law.entrainment_rate(_erosion_state(p, bearing, bed, erosion, resistance), rate)
+
+    def ask_some(which: slice) -> None:
+        erosion.law.entrainment_rate(_erosion_state(p, which, bed, erosion, resistance), rate[which])
+
+    over_particles(ask_some, rate.size, threads)
     rate[prescribed[prescribed < rate.size]] = 0.0
     phases.limit_entrainment(exchange, rate)
     np.divide(rate * p.volume[bearing], p.depth[bearing] * p.share[bearing], out=demanded)
@@ -160,16 +77,21 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
         solid_fraction=phases.solid_fraction, slip_ratio=slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,
     )  # fmt: skip
-    layer = Layer(
-        depth=p.depth, thickness=p.thickness, share=p.share, cosine=p.cos_slope,
-        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, bearing),
-    )  # fmt: skip
-    mixture = Mixture(volume=p.volume, porosity=p.porosity, density=p.density)
-    erosion_record = Erosion(
-        rate=p.entrainment_rate, first_time=p.first_erosion_time, peclet_number=p.basal_peclet_number
-    )
     velocity_ratio = np.ones(p.awake)
-    velocity_ratio[bearing] = _mix(p.entrained_volume[bearing], soil, layer, mixture, erosion_record, time, dt)
+
+    def mix_some(which: slice) -> None:
+        layer = Layer(
+            depth=p.depth[which], thickness=p.thickness[which], share=p.share[which], cosine=p.cos_slope[which],
+            coefficient_of_consolidation=phases.coefficient_of_consolidation(p, which),
+        )  # fmt: skip
+        mixture = Mixture(volume=p.volume[which], porosity=p.porosity[which], density=p.density[which])
+        erosion_record = Erosion(
+            rate=p.entrainment_rate[which], first_time=p.first_erosion_time[which],
+            peclet_number=p.basal_peclet_number[which],
+        )  # fmt: skip
+        velocity_ratio[which] = mix(p.entrained_volume[which], soil, layer, mixture, erosion_record, time, dt)
+
+    over_particles(mix_some, rate.size, threads)
     phases.share_entrained(p, exchange)
     return velocity_ratio
 
@@ -233,59 +155,3 @@ def _go(x, y, velocity, raster, time, nearest):
         node = nearest_node(new_x, new_y, dx, dy, columns, rows)
         if node >= 0 and status[node] == CORE:
             x[i], y[i], nearest[i] = new_x, new_y, node
-
-
-@kernel
-def _mix(entrained, soil, layer, mixture, erosion, time, dt):
-    """Add entrained soil to the matter of particles, in place.
-
-    The soil enters with the basal velocity v_b = `slip_ratio` v, and the flow accelerates it to v:
-    d(v)/dt = - (v - v_b) dm/dt / m, so v goes like m^(slip_ratio - 1), m being the mass.
-
-    Parameters
-    ----------
-    entrained : ndarray, shape (m,)
-        Soil taken by the m particles that bear on the bed; changed to the volume that their own phase keeps [m3].
-    soil : Soil
-        Soil that the flow takes up.
-    layer : Layer
-        Flow over the bed, at n particles.
-    mixture : Mixture
-        Matter of the n particles, changed in place.
-    erosion : Erosion
-        Record of the erosion, written in place.
-    time, dt : float
-        Beginning and length of the step [s].
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Velocity after over velocity before [-].
-    """
-    solid_fraction, slip_ratio, soil_porosity, solid_density, bearing_density = soil
-    depth, thickness, share, cosine, coefficient_of_consolidation = layer
-    volume, porosity, density = mixture
-    erosion_rate, first_time, peclet_number = erosion
-    velocity_ratio = np.empty(entrained.size)
-    for i in range(entrained.size):
-        rate, before = entrained[i] * depth[i] * share[i] / (volume[i] * dt), volume[i]
-        erosion_rate[i] = rate
-        velocity_ratio[i] = 1.0
-        if entrained[i] > 0.0:
-            taken = entrained[i]
-            entrained[i] = solid_fraction * taken
-            volume[i] = before + entrained[i]
-            velocity_ratio[i] = before / volume[i]
-            if porosity[i] != soil_porosity:
-                whole, old_density = before / share[i], density[i]
-                porosity[i] = (porosity[i] * whole + soil_porosity * taken) / (whole + taken)
-                density[i] = (1.0 - porosity[i]) * solid_density + porosity[i] * bearing_density
-                if solid_fraction == 1.0:
-                    velocity_ratio[i] *= old_density / density[i]
-            if slip_ratio > 0.0:
-                velocity_ratio[i] **= 1.0 - slip_ratio
-            # as `column.diagnostics.basal_peclet_number`, without its arrays: this is done in every step
-            peclet_number[i] = rate * cosine[i] * thickness[i] / value_at(coefficient_of_consolidation, i)
-            if np.isnan(first_time[i]):
-                first_time[i] = time
-    return velocity_ratio

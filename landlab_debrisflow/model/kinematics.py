@@ -64,7 +64,7 @@ def along_bed(i, push, slope_x, slope_y, cosine, gravity):
 
 
 @kernel
-def kick(velocity, push, sample, cosine, resistance, gravity, dt):
+def kick(first, velocity, push, sample, cosine, resistance, gravity, dt):
     """Accelerate particles along the bed for `dt` seconds, friction included, in place.
 
     Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
@@ -73,21 +73,24 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
 
     Parameters
     ----------
-    velocity, push : ndarray, shape (3, n)
+    first : int
+        Place of the first particle to kick.
+    velocity, push : ndarray, shape (3, all)
         Velocity [m s-1], and acceleration by forces between particles [m s-2].
     sample : SurfaceSample
-        Surface of the bed below the particles.
-    cosine : ndarray, shape (n,)
+        Surface of the bed below all particles.
+    cosine : ndarray, shape (all,)
         Cosine of the slope of the bed [-].
     resistance : Resistance
-        Its mass is as long as there are particles to kick; the other arrays may be longer. A particle that falls below
-        its speed of rest stays if friction can hold it there; if that speed is infinite, whether or not.
+        At the n particles to kick. A particle that falls below its speed of rest stays if friction can hold it there;
+        if that speed is infinite, whether or not.
     gravity : float
         Acceleration by gravity [m s-2].
     """
     yield_stress, drag, mass, rest_speed = resistance
     _, slope_x, slope_y, _, _, _ = sample
-    for i in range(mass.size):
+    for k in range(mass.size):
+        i = first + k
         ax, ay, az = along_bed(i, push, slope_x, slope_y, cosine, gravity)
         u, v, w = velocity[0, i] + dt * ax, velocity[1, i] + dt * ay, velocity[2, i] + dt * az
         speed = np.sqrt(u * u + v * v + w * w)
@@ -95,12 +98,12 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
             factor = 0.0
         else:
             before2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
-            deceleration = yield_stress[i] / mass[i]
+            deceleration = yield_stress[k] / mass[k]
             slowed = speed - dt * deceleration
             if slowed < 0.0:  # not max(), which would drop a NaN that the check after the step must find
                 slowed = 0.0
-            slowed /= 1.0 + dt * drag[i] / mass[i]
-            least = value_at(rest_speed, i)
+            slowed /= 1.0 + dt * drag[k] / mass[k]
+            least = value_at(rest_speed, k)
             held = slowed * slowed < before2 and ax * ax + ay * ay + az * az <= deceleration * deceleration
             resting = slowed < least and (held or least == np.inf)
             factor = 0.0 if resting else slowed / speed
@@ -108,13 +111,15 @@ def kick(velocity, push, sample, cosine, resistance, gravity, dt):
 
 
 @kernel
-def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, touched_wall):
+def drift(first, position, velocity, velocity_ratio, raster, dt, expected_elevation, touched_wall, exit_node):
     """Move particles for `dt` seconds, slowed by the soil they took up; none gets into closed nodes.
 
     Parameters
     ----------
+    first : int
+        Place of the first particle to move.
     position : Position
-        Position of the particles: x and y are changed in place; z is the present elevation of the bed at the old x and
+        Position of all particles: x and y are changed in place; z is the present elevation of the bed at the old x and
         y.
     velocity : ndarray, shape (3, n)
         Multiplied by `velocity_ratio` [m s-1]; the drift uses the mean of before and after, which keeps the pair
@@ -128,24 +133,27 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
         `follow_bed`.
     touched_wall : ndarray of int8, shape (n,)
         Set to 1 where a closed node stopped the particle.
+    exit_node : ndarray of int, shape (m,)
+        Written: open node over which a particle left, `NO_EXIT` if the particle stays, `NOWHERE` if its position is not
+        a number.
 
     Returns
     -------
-    ndarray of int, shape (m,), or shape (0,) if all stay
-        Open node over which a particle left, `NO_EXIT` if the particle stays, `NOWHERE` if its position is not a
-        number.
+    bool
+        Whether any particle does not stay.
     """
     x, y, z = position
     status, columns, rows, dx, dy, walled = raster
-    exit_node, leave = np.full(velocity_ratio.size, NO_EXIT), False
-    for i in range(exit_node.size):
+    leave = False
+    for m in range(exit_node.size):
+        i, exit_node[m] = first + m, NO_EXIT
         expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
-        step = 0.5 * dt * (1.0 + velocity_ratio[i])
+        step = 0.5 * dt * (1.0 + velocity_ratio[m])
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
-            velocity[k, i] *= velocity_ratio[i]
+            velocity[k, i] *= velocity_ratio[m]
         if not (abs(new_x) < np.inf and abs(new_y) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
-            exit_node[i], leave = NOWHERE, True
+            exit_node[m], leave = NOWHERE, True
             continue
         row, column = nearest_place(new_y, dy, rows), nearest_place(new_x, dx, columns)
         node = row * columns + column
@@ -157,12 +165,12 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
                 velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
         x[i], y[i] = new_x, new_y
         if status[node] != CORE:
-            exit_node[i], leave = node, True
-    return exit_node if leave else exit_node[:0]
+            exit_node[m], leave = node, True
+    return leave
 
 
 NO_EXIT, NOWHERE = -1, -2
-"""Exit nodes, as `drift` returns them, of a particle that stays on the raster and of one whose position is not a
+"""Exit nodes, as `drift` writes them, of a particle that stays on the raster and of one whose position is not a
 number."""
 
 
@@ -230,7 +238,7 @@ def _is_blocked(here, node, columns, status):
 
 
 @kernel
-def follow_bed(sample, velocity, place, raster, gravity, dt):
+def follow_bed(first, last, sample, velocity, place, raster, gravity, dt):
     """Turn velocities, shape (3, n) [m s-1], into the new tangent plane, and write the place of the particles on it.
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the vertical
@@ -241,6 +249,8 @@ def follow_bed(sample, velocity, place, raster, gravity, dt):
 
     Parameters
     ----------
+    first, last : int
+        Place of the first particle to treat, and the place behind the last.
     sample : SurfaceSample
         Surface of the bed below the n particles now.
     velocity : ndarray, shape (3, n)
@@ -258,12 +268,12 @@ def follow_bed(sample, velocity, place, raster, gravity, dt):
     x, y, z, cosine, lowest_z, nearest, expected_elevation = place
     _, columns, rows, dx, dy, _ = raster
     # loops of few arrays each: of many, the compiler cannot tell whether they overlap, and makes no vector code
-    for i in range(cosine.size):
+    for i in range(first, last):
         before = lowest_z[i] + elevation[i] - z[i] if dt == 0.0 else lowest_z[i]
         lowest_z[i] = min(before, elevation[i])
-    for i in range(cosine.size):
+    for i in range(first, last):
         nearest[i] = nearest_place(y[i], dy, rows) * columns + nearest_place(x[i], dx, columns)
-    for i in range(cosine.size):
+    for i in range(first, last):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
         cosine[i], z[i] = c, elevation[i]
         nx, ny, nz = -c * slope_x[i], -c * slope_y[i], c

@@ -8,6 +8,7 @@ changed neighbours are examined for all particles, to find those that must wake 
 import numpy as np
 
 from ..core.errors import SimulationError
+from ..core.threads import over_particles
 from ..physics.contracts import FlowState, MixtureState, MixtureSums, Position, Smoothing
 from ..spatial.cells import sort_into_cells
 from ..spatial.raster import Raster
@@ -15,7 +16,7 @@ from ..spatial.summation import SMOOTHING_RATIO, Sums
 from . import activity
 from .basal import BasalLaw, basal_resistance
 from .bed_load import load_bed
-from .column_forcing import ColumnPhysics, column_forcing, column_state, present_profiles
+from .column_forcing import ColumnPhysics, column_forcing, column_state, forcing_of, present_profiles
 from .entrainment import entrain
 from .kinematics import NOWHERE, Place, drift, follow_bed, stop_at_walls
 from .layer import Layer, follow_thickness
@@ -40,52 +41,56 @@ def advance(simulation, dt: float) -> None:
     state, phases, setup = simulation.state, simulation.phases, simulation.setup
     p, exchange, inflow, end = state.particles, state.exchange, state.inflow, state.time + dt
     bed, walls, friction, erosion, columns, _ = simulation.surroundings
-    material = setup.material
+    material, threads = setup.material, setup.numerics.threads
     clock = state.counters.clock()
-    resistance = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
+    resistance = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt, threads)
     inflow.prescribe_velocity(p, state.time + 0.5 * dt)
     clock.lap(KICK)
     prescribed = inflow.prescribed(p)
-    velocity_ratio = entrain(p, exchange, bed, erosion, phases, prescribed, resistance, state.time, dt)
+    velocity_ratio = entrain(p, exchange, bed, erosion, phases, prescribed, resistance, state.time, dt, threads)
     clock.lap(ENTRAINMENT)
-    move(p, bed, velocity_ratio, state.outflow, phases, state.time, dt)
+    move(p, bed, velocity_ratio, state.outflow, phases, state.time, dt, threads)
     inflow.enter(p, bed.surface, columns, end)
-    sample_bed(p, bed, material.gravity, dt)
+    sample_bed(p, bed, material.gravity, dt, threads)
     clock.lap(DRIFT)
     interact(p, exchange, setup.flow, setup.numerics, columns, inflow, walls, state.time)
     activity.wake(p, activity.disturbed(p))
     clock.lap(SUMMATION)
     load_bed(p, bed, material, end, dt)
-    consolidate(p, exchange, columns, inflow.prescribed(p), dt)
+    consolidate(p, exchange, columns, inflow.prescribed(p), dt, threads)
     clock.lap(COLUMNS)
-    yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
+    yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt, threads)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, yield_stress)
+    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, yield_stress, threads)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)
 
 
-def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float):
+def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | None, dt: float, threads: int = 1):
     """Accelerate by gravity along the bed, pressure and basal resistance (implicit in time).
 
     Returned are yield stress [Pa] and drag [Pa s m-1] of the friction law, each of shape (awake,).
 
     `p` are the particles, whose velocities of the awake ones are changed [m s-1]; `exchange` is the state of the
-    exchange between phases; `walls` is None where no node is closed; `dt` is in s.
+    exchange between phases; `walls` is None where no node is closed; `dt` is in s; `threads` is the number of threads.
     """
     if p.count == 0:  # all particles have left in this step, and the partners are still those of before
         return NO_RESISTANCE
-    bearing, (yield_stress, drag) = phases.bearing(p), np.zeros((2, p.awake))
-    yield_stress[bearing], drag[bearing] = basal_resistance(p, bearing, friction)
-    phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
+    yield_stress, drag = np.zeros((2, p.awake))
+
+    def resist(which: slice) -> None:
+        yield_stress[which], drag[which] = basal_resistance(p, which, friction)
+
+    over_particles(resist, phases.bearing(p).stop, threads)
+    phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt, threads)
     if walls is not None:
         stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
     return yield_stress, drag
 
 
-def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> None:
+def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float, threads: int = 1) -> None:
     """Drift along the bed; particles over an open boundary are taken out and counted.
 
     Parameters
@@ -102,19 +107,26 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
         Stages of a step that depend on the number of phases.
     time, dt : float
         Beginning and length of the step [s].
+    threads : int
+        Number of threads.
 
     Raises
     ------
     SimulationError
         If a position is not a number.
     """
-    awake = slice(p.awake)
-    if p.entrained_volume[awake].any():  # erosion has lowered the bed: the flow does not gain energy by this fall
-        bed.surface.elevation_into(p.x[awake], p.y[awake], p.z[awake])
-    position = p.x, p.y, p.z
-    exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
+    eroded, position, exit_node = p.entrained_volume[: p.awake].any(), (p.x, p.y, p.z), np.empty(p.awake, np.int64)
+
+    def drift_some(which: slice) -> bool:
+        if eroded:  # the bed is lower: the flow does not gain energy by this fall
+            bed.surface.elevation_into(p.x[which], p.y[which], p.z[which])
+        return drift(
+            which.start, position, p.velocity, velocity_ratio[which], bed.raster, dt, p.expected_elevation,
+            p.touched_wall, exit_node[which],
+        )  # fmt: skip
+
     p.departed = None
-    if exit_node.size == 0:
+    if not any(over_particles(drift_some, p.awake, threads)):
         return
     if exit_node.min() == NOWHERE:
         place = int(np.argmin(exit_node))
@@ -129,23 +141,26 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
     p.keep(stay)
 
 
-def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
+def sample_bed(p, bed, gravity: float, dt: float = 0.0, threads: int = 1) -> None:
     """Read the terrain under all particles and turn their velocities into its tangent plane, after a drift or not.
 
     `bed` is the `Bed` of the call, `gravity` is in m s-2; `dt` is the duration of the drift [s], 0 if nothing drifted:
     then only the bed has changed. Written are elevation, cosine, nearest node and velocity of the particles `p`.
+    `threads` is the number of threads.
     """
     sample = np.empty(p.count), *p.surface_sample[1:]  # p.z itself is updated by `follow_bed`
-    bed.surface.sample_into(p.x, p.y, sample)
     place = Place(
         x=p.x, y=p.y, z=p.z, cosine=p.cos_slope, lowest_z=p.lowest_z, nearest_node=p.nearest_node,
         expected_elevation=p.expected_elevation,
     )  # fmt: skip
-    follow_bed(sample, p.velocity, place, bed.raster, gravity, dt)
-    position = p.x, p.y, p.z
-    count_still_steps(
-        position, p.volume, p.smoothing_length, p.reference_position, p.reference_volume, p.still_steps
-    )  # fmt: skip
+    position, reference = (p.x, p.y, p.z), (p.reference_position, p.reference_volume)
+
+    def sample_some(which: slice) -> None:
+        bed.surface.sample_into(p.x[which], p.y[which], tuple(values[which] for values in sample))
+        follow_bed(which.start, which.stop, sample, p.velocity, place, bed.raster, gravity, dt)
+        count_still_steps(which.start, which.stop, position, p.volume, p.smoothing_length, *reference, p.still_steps)
+
+    over_particles(sample_some, p.count, threads)
 
 
 def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls: Raster | None, time: float) -> None:
@@ -222,25 +237,33 @@ def _flow_state(p, material) -> FlowState:
     )
 
 
-def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> None:
+def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float, threads: int = 1) -> None:
     """Advance the pore-pressure columns by the forcing of the step.
 
     `p` are the particles, `exchange` is the state of the exchange between phases; `prescribed` are the places of
-    particles whose motion is given in an inflow strip; `dt` is in s.
+    particles whose motion is given in an inflow strip; `dt` is in s; `threads` is the number of threads.
     """
     phases = columns.phases
     bearing = phases.bearing(p)
     forcing = column_forcing(p, bearing, columns, p.entrained_volume[bearing], p.entrained_ratio[bearing])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
-    columns.law.advance(column_state(p, bearing), forcing, dt, p.basal_excess_pore_pressure[bearing])
+
+    def advance_some(which: slice) -> None:
+        base = p.basal_excess_pore_pressure[which]
+        columns.law.advance(column_state(p, which), forcing_of(forcing, which), dt, base)
+
+    over_particles(advance_some, bearing.stop, threads)
     phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, bearing, columns), dt)
 
 
-def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, yield_stress=None) -> StepLimits:
+def find_limits(
+    p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, yield_stress=None, threads: int = 1
+) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
     `p` are the particles, `phases` gives the stiffness beside weight; `dt` is 0 before the first step; `yield_stress`,
-    shape (awake,), is that of friction at the end of the step [Pa], None if it is still to be found.
+    shape (awake,), is that of friction at the end of the step [Pa], None if it is still to be found; `threads` is the
+    number of threads.
 
     Raises
     ------
@@ -254,7 +277,7 @@ def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 
         yield_stress, _ = basal_resistance(p, slice(p.awake), surroundings.friction, asking=True)
     gravity = surroundings.friction.material.gravity
     ground = surroundings.bed.surface, surroundings.walls
-    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground)
+    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground, threads)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

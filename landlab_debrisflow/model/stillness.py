@@ -8,11 +8,15 @@ computed again: their error is of this order."""
 
 
 @kernel
-def count_still_steps(position, volume, smoothing_length, reference_position, reference_volume, still_steps):
+def count_still_steps(
+    first, last, position, volume, smoothing_length, reference_position, reference_volume, still_steps
+):
     """Count the steps since each particle moved or grew noticeably, in place.
 
     Parameters
     ----------
+    first, last : int
+        Place of the first particle to treat, and the place behind the last.
     position : Position
         Position of the particles [m].
     volume, smoothing_length : ndarray, shape (n,)
@@ -22,7 +26,7 @@ def count_still_steps(position, volume, smoothing_length, reference_position, re
     still_steps : ndarray of int, shape (n,)
     """
     x, y, z = position
-    for i in range(x.size):
+    for i in range(first, last):
         at = reference_position[:, i]
         moved = (x[i] - at[0]) ** 2 + (y[i] - at[1]) ** 2 + (z[i] - at[2]) ** 2
         grown = abs(volume[i] - reference_volume[i])

@@ -7,6 +7,7 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import inner, kernel
 from ..core.structs import struct
+from ..core.threads import in_ranges, worth
 from .crossing import find_time_across, time_over
 from .step_rule import GROWTH, StepRule
 
@@ -125,8 +126,9 @@ class Growth(NamedTuple):
 
 
 def reduce_particles(
-    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION, ground=None
-):
+    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION,
+    ground=None, threads: int = 1,
+):  # fmt: skip
     """Return the `StepLimits` of all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
@@ -149,6 +151,8 @@ def reduce_particles(
         Shear stress that holds a body at rest [Pa].
     ground : tuple, optional
         `Surface` below the particles, and `Raster` with walls or None; by default no ground counts as even.
+    threads : int
+        Number of threads.
     """
     p = particles
     waves = Waves(
@@ -158,9 +162,14 @@ def reduce_particles(
     motion = Motion(velocity=p.velocity, thrust=p.thrust, earlier_thrust=p.earlier_thrust, volume=p.volume)
     friction = Friction(yield_stress=yield_stress, density=p.density)
     growth = Growth(rate=p.entrainment_rate, depth=p.depth)
-    wave_rate, growth_rate, across, energy, fastest, broken = _reduce(
-        p.awake, waves, motion, friction, growth, p.basal_excess_pore_pressure, gravity, tuple(rule), step
-    )
+    energies = np.zeros(p.awake // ENERGY_BLOCK + 1)
+    found = in_ranges(
+        _reduce, p.awake, worth(threads, p.awake), p.awake, waves, motion, friction, growth,
+        p.basal_excess_pore_pressure, gravity, tuple(rule), step, energies, unit=ENERGY_BLOCK,
+    )  # fmt: skip
+    wave_rates, growth_rates, times_across, speeds, places = zip(*found, strict=True)
+    wave_rate, growth_rate, across = max(wave_rates), max(growth_rates), min(times_across)
+    energy, fastest, broken = float(energies.sum()), max(speeds), max(places)
     others = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300))
     if ground is not None and across < others and rule.way < rule.longest_way and broken < 0:
         across = find_time_across(p, *ground, rule, gravity, others)
@@ -185,17 +194,22 @@ def _stays(i, speed, step, motion, waves, friction, rule):
     return speed <= step * deceleration and dx * dx + dy * dy + dz * dz <= most * most
 
 
+ENERGY_BLOCK = 4096
+"""Particles whose energy is one sum, so that the order of sums does not depend on the number of threads."""
+
 MOST_CONVERGENCE = 14.0 / 3.0
 """Largest rate of thickening, over largest speed / smoothing length, of even flow [-]: two speeds, times the integral
 of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow would thicken faster."""
 
 
 @kernel
-def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, step):
-    """Reduce the particles that are awake to the limits of the next step.
+def _reduce(first, last, count, waves, motion, friction, growth, pressure, gravity, rule, step, energies):
+    """Reduce the particles from place `first` to `last` - 1 to the limits of the next step.
 
     Parameters
     ----------
+    first, last : int
+        The first is a multiple of `ENERGY_BLOCK`.
     count : int
         Particles that are awake.
     waves : Waves
@@ -214,6 +228,8 @@ def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, ste
         Bounds of a step.
     step : float
         Length of the last step [s].
+    energies : ndarray, shape (blocks,)
+        Written, of the blocks of these particles: sum of volume times speed squared [m5 s-2].
 
     Returns
     -------
@@ -223,19 +239,19 @@ def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, ste
         Highest rate of growth [s-1].
     across : float
         Shortest time in which a particle may go the way that is short enough anywhere [s].
-    energy, fastest, broken
+    fastest, broken
         As in `StepLimits`.
     """
     summed, light, cosine, thickness, own_thickness, thickening, smoothing_length, stiffness = waves
     velocity, thrust, _, volume = motion
     erosion_rate, depth = growth
     way = rule[1]
-    wave_rate, growth_rate, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
+    wave_rate, growth_rate, across, fastest, broken = 0.0, 0.0, np.inf, 0.0, -1
     most = 0.0
     for i in range(count):
         most = max(most, velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
     most = MOST_CONVERGENCE * np.sqrt(most)
-    for i in range(count):
+    for i in range(first, last):
         speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
         push2 = thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2
         # not isfinite(), which reordering breaks (core/jit.py)
@@ -251,6 +267,6 @@ def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, ste
         across = min(across, time_over(way, speed2, gravity + np.sqrt(push2)))  # also of particles not summed
         if not light[i]:
             growth_rate = max(growth_rate, erosion_rate[i] / depth[i])
-        energy += volume[i] * speed2
+        energies[i // ENERGY_BLOCK] += volume[i] * speed2
         fastest = max(fastest, speed + celerity)
-    return wave_rate, growth_rate, across, energy, fastest, broken
+    return wave_rate, growth_rate, across, fastest, broken

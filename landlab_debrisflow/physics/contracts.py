@@ -208,7 +208,7 @@ class Phases(Protocol):
     def after_summation(self, particles, exchange, cells) -> None:
         """Write thickness and mixture of the particles from sums over neighbours; `cells` has a cell list per phase."""
 
-    def kick(self, particles, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+    def kick(self, particles, exchange, velocity, yield_stress, drag, rest_speed, dt: float, threads: int = 1) -> None:
         """Change `velocity`, (3, n) [m s-1], of particles awake by all forces along the bed in `dt` [s]."""
 
     def held_at_rest(self, particles, exchange, which: slice, yield_stress, drag, walls) -> Array:

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
 from ..core.lanes import LANES, lane_floats, lane_places
-from ..core.threads import in_ranges
+from ..core.threads import in_ranges, worth
 from .cells import Cells
 from .groups import find_candidates, group
 from .packing import empty_packed, pack_place, quantum_of
@@ -86,6 +86,7 @@ def sum_over_neighbours(
     packed, found = empty_packed(count, 10, quantum_of(cells)), np.empty((6, count), np.float32)
     plain = tuple(given.position), *given[1:]  # kernels are called faster with plain tuples (core/structs.py)
     _pack(plain, viscosity, packed)
+    threads = worth(threads, count)
     for of_phase in phases or (cells,):
         groups = group(of_phase)
         in_ranges(_sum, groups.first.size, threads, tuple(groups), tuple(of_phase), packed, found)

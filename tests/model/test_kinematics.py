@@ -16,6 +16,7 @@ def kicked(velocity, yield_stress, drag, mass, dt=0.1):
     state = np.array(velocity, float)[:, None]
     one = np.ones(1)
     kick(
+        0,
         state,
         np.zeros((3, 1)),
         SurfaceSample(*ground),

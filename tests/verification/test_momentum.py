@@ -109,9 +109,9 @@ def test_soil_that_is_picked_up_brings_no_momentum(monkeypatch):
     flow = thrown(grid, (12.0, -3.0), **keywords)
     sums, bend, follow_bed = Sums(flow, monkeypatch), np.zeros(3), step.follow_bed
 
-    def watched(ground, velocity, *rest):  # the reaction of a bed that curves
+    def watched(first, last, ground, velocity, *rest):  # the reaction of a bed that curves
         was = velocity.copy()
-        follow_bed(ground, velocity, *rest)
+        follow_bed(first, last, ground, velocity, *rest)
         bend[:] += (flow._simulation.particles.volume * (velocity - was)).sum(axis=1)
 
     monkeypatch.setattr(step, "follow_bed", watched)
@@ -208,9 +208,9 @@ def test_what_leaves_takes_its_momentum_with_it(monkeypatch):
     flow = thrown(grid, (20.0, 1.0), **keywords)
     out, drift = np.zeros(3), step.drift
 
-    def watched(position, velocity, *rest):
-        left = drift(position, velocity, *rest)
-        p, gone = flow._simulation.particles, left >= 0
+    def watched(first, position, velocity, *rest):
+        left = drift(first, position, velocity, *rest)
+        p, gone = flow._simulation.particles, rest[-1] >= 0
         out[:] += (p.volume[gone] * velocity[:, gone]).sum(axis=1)
         return left
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...core.threads import over_particles
 from ...physics.column_contracts import is_dilatant
 from ...physics.contracts import MIXTURE
 from ..kinematics import Resistance, kick
@@ -57,17 +58,22 @@ class OnePhaseDynamics:
         """
         p.thickness[:] = p.own_thickness
 
-    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float, threads: int = 1) -> None:
         """Accelerate the particles that are awake along the bed for `dt` seconds, in place; see `kinematics.kick`.
 
         `velocity`, shape (3, n), is changed [m s-1]; `yield_stress` [Pa], `drag` [Pa s m-1] and `rest_speed` [m s-1]
-        have shape (n,); `exchange` is not used.
+        have shape (n,); `exchange` is not used; `threads` is the number of threads.
         """
-        m = p.awake
-        resistance = Resistance(
-            yield_stress=yield_stress, drag=drag, mass=p.density[:m] * p.thickness[:m], rest_speed=rest_speed
-        )
-        kick(velocity, p.thrust, p.surface_sample, p.cos_slope, resistance, self.material.gravity, dt)
+
+        def kick_some(which: slice) -> None:
+            resistance = Resistance(
+                yield_stress=yield_stress[which], drag=drag[which], mass=p.density[which] * p.thickness[which],
+                rest_speed=rest_speed[which] if rest_speed.size > 1 else rest_speed,
+            )  # fmt: skip
+            sample, gravity = p.surface_sample, self.material.gravity
+            kick(which.start, velocity, p.thrust, sample, p.cos_slope, resistance, gravity, dt)
+
+        over_particles(kick_some, p.awake, threads)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
         """Return whether friction and walls would hold each of some particles at rest, shape (n,).
@@ -80,7 +86,7 @@ class OnePhaseDynamics:
         sample = tuple(values[which] for values in p.surface_sample)
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
         free = Resistance(yield_stress=none, drag=none, mass=mass, rest_speed=np.zeros(1))
-        kick(pull, thrust, sample, p.cos_slope[which], free, self.material.gravity, 1.0)
+        kick(0, pull, thrust, sample, p.cos_slope[which], free, self.material.gravity, 1.0)
         bear(p.x[which], p.y[which], pull, sample, walls)
         return np.sqrt((pull**2).sum(axis=0)) <= yield_stress / mass
 

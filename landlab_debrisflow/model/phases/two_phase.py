@@ -101,7 +101,7 @@ class TwoPhaseDynamics:
         exchange.age += 1
         pull_along_bed(tuple(exchange.partners), p.thrust, _motion(p, p.velocity), material.gravity)
 
-    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
+    def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float, threads: int = 1) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
 
         Parameters
@@ -116,6 +116,8 @@ class TwoPhaseDynamics:
             As for `kinematics.kick`; the resistance is that of the mixture, and grains bear it.
         dt : float
             Duration of the step [s].
+        threads : int
+            Not used: the drag of pairs joins ranges of particles.
         """
         material = self.material
         motion = _motion(p, velocity)
