@@ -34,7 +34,7 @@ def find_time_across(p, surface, walls, rule, gravity: float, most: float) -> fl
     most : float
         Longest step by other limits [s].
     """
-    raster = (np.empty(0, np.uint8), 0, 0, 1.0, 1.0) if walls is None else walls
+    raster = (np.empty(0, np.uint8), 0, 0, 1.0, 1.0, np.empty(0, bool)) if walls is None else walls
     place, ahead = np.empty(p.awake, np.int64), np.empty((2, p.awake))
     motion = p.velocity, p.thrust, gravity
     found, shortest = _look_ahead(p.x, p.y, motion, tuple(raster), rule.way, rule.longest_way, most, place, ahead)
@@ -92,7 +92,7 @@ def _look_ahead(x, y, motion, raster, way, longest_way, most, place, ahead):
     shortest : float
         Longest step for the others, at most `most` [s].
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     velocity, found, shortest = motion[0], 0, most
     for i in range(place.size):
         speed2, gain = _pace(i, motion)

@@ -139,22 +139,23 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
     ndarray, shape (awake,)
         Velocity after over velocity before [-].
     """
-    awake, material = slice(p.awake), erosion.material
+    bearing, material = phases.bearing(p), erosion.material
     x, y = p.x.copy(), p.y.copy()
     if bed.soil is not None:
-        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[awake])
+        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
         if bed.pore_pressure is not None:  # soil at the front brings the pressure that the front has made there
             load_bed(p, bed, material, time + EROSION_TIME * dt, EROSION_TIME * dt, bed.footprints(p, x, y))
-    rate, demanded = np.zeros(p.awake), np.empty(p.awake)
-    erosion.law.entrainment_rate(_erosion_state(p, bed, erosion, resistance), rate)
-    rate[prescribed] = 0.0
+    rate = np.zeros(bearing.stop)
+    demanded = np.empty(rate.size)
+    erosion.law.entrainment_rate(_erosion_state(p, bearing, bed, erosion, resistance), rate)
+    rate[prescribed[prescribed < rate.size]] = 0.0
     phases.limit_entrainment(exchange, rate)
-    np.divide(rate * p.volume[awake], p.depth[awake] * p.share[awake], out=demanded)
+    np.divide(rate * p.volume[bearing], p.depth[bearing] * p.share[bearing], out=demanded)
     demanded *= dt
-    p.entrained_volume[awake] = p.entrained_ratio[awake] = 0.0
+    p.entrained_volume[bearing] = p.entrained_ratio[bearing] = 0.0
     if bed.soil is not None and demanded.any():
         footprints = bed.footprints(p, x, y)
-        p.entrained_volume[awake], p.entrained_ratio[awake] = bed.erode(footprints, demanded)
+        p.entrained_volume[bearing], p.entrained_ratio[bearing] = bed.erode(footprints, demanded)
         if bed.saturation is not None:
             dry_pores(p, bed, material)
     # the friction of the flow already contains the momentum of soil that a jump condition gives: as if it slipped along
@@ -165,23 +166,24 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
     )  # fmt: skip
     layer = Layer(
         depth=p.depth, thickness=p.thickness, share=p.share, cosine=p.cos_slope,
-        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, awake),
+        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, bearing),
     )  # fmt: skip
     mixture = Mixture(volume=p.volume, porosity=p.porosity, density=p.density)
     erosion_record = Erosion(
         rate=p.entrainment_rate, first_time=p.first_erosion_time, peclet_number=p.basal_peclet_number
     )
-    velocity_ratio = _mix(p.entrained_volume[awake], soil, layer, mixture, erosion_record, time, dt)
+    velocity_ratio = np.ones(p.awake)
+    velocity_ratio[bearing] = _mix(p.entrained_volume[bearing], soil, layer, mixture, erosion_record, time, dt)
     phases.share_entrained(p, exchange)
     return velocity_ratio
 
 
-def _erosion_state(p, bed, erosion: BasalLaw, resistance):
-    """Return the base under particles awake as a law of erosion reads it, a `BasalState`; arguments as in `entrain`."""
-    awake, (yield_stress, drag) = slice(p.awake), resistance
-    nodes = p.nearest_node[awake]
-    state = basal_state(p, awake, erosion, eroded_depth=bed.eroded_in_event(nodes))
-    shear = yield_stress + drag * state.speed
+def _erosion_state(p, bearing: slice, bed, erosion: BasalLaw, resistance):
+    """Return the base under particles `p[bearing]` as a law reads it, a `BasalState`; arguments as in `entrain`."""
+    yield_stress, drag = resistance
+    nodes = p.nearest_node[bearing]
+    state = basal_state(p, bearing, erosion, eroded_depth=bed.eroded_in_event(nodes))
+    shear = yield_stress[bearing] + drag[bearing] * state.speed
     return state._replace(stress=state.stress._replace(shear=shear), bed=_bed_state(bed, nodes))
 
 
@@ -229,7 +231,7 @@ def _go(x, y, velocity, raster, time, nearest):
     nearest : ndarray of int, shape (m,)
         Node nearest to each, changed in place.
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     for i in range(nearest.size):
         new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
         node = nearest_node(new_x, new_y, dx, dy, columns, rows)
@@ -247,7 +249,7 @@ def _mix(entrained, soil, layer, mixture, erosion, time, dt):
     Parameters
     ----------
     entrained : ndarray, shape (m,)
-        Soil taken by the m particles that are awake; changed to the volume that their own phase keeps [m3].
+        Soil taken by the m particles that bear on the bed; changed to the volume that their own phase keeps [m3].
     soil : Soil
         Soil that the flow takes up.
     layer : Layer

@@ -9,7 +9,7 @@ from ..physics.column_contracts import is_dilatant
 from ..physics.contracts import is_jump_condition
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
-from .basal import BasalLaw
+from .basal import BasalLaw, weighing_on
 from .column_forcing import BY_EROSION, SOIL_ALONE, ColumnPhysics
 from .step_rule import StepRule, step_rule
 
@@ -61,7 +61,7 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
             law=law,
             parameters=parameters[kind],
             material=material,
-            spacing=raster.spacing,
+            weighing=weighing_on(material, raster.spacing),
             variables=getattr(law, "variables", ()),
             varies=any(values.size > 1 for values in parameters[kind]),
             dilatant_column=setup.column if is_dilatant(setup.column) else None,
