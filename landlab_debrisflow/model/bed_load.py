@@ -5,7 +5,7 @@ import numpy as np
 from ..physics.contracts import WATER
 
 
-def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
+def load_bed(p, bed, material, time: float, dt: float | None = None, footprints=None) -> None:
     """Load the bed with the weight of the flow.
 
     Parameters
@@ -19,7 +19,9 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     time : float
         Now [s].
     dt : float, optional
-        Length of the step just taken [s]; without one the flow has lain there before.
+        Time since the bed was loaded last [s]; without one the flow has lain there before.
+    footprints : Footprints, optional
+        Nodes on which the particles lie; by default those of their positions.
     """
     if bed.pore_pressure is None or (p.count == 0 and dt is None):
         return
@@ -28,7 +30,7 @@ def load_bed(p, bed, material, time: float, dt: float | None = None) -> None:
     weight = p.volume / p.share * material.gravity * (p.thickness / p.depth) ** 2
     weight[p.phase == WATER] = 0.0
     force = np.stack([weight * p.density, weight * (p.density - material.bearing_density)], axis=1)
-    footprints = bed.footprints(p)
+    footprints = bed.footprints(p) if footprints is None else footprints
     if dt is None:
         bed.pore_pressure.stand(footprints, force, time)
     else:

@@ -10,10 +10,13 @@ wall one node thick.
 import numpy as np
 
 from ..core.jit import inner, kernel
-from ..spatial.raster import CLOSED, nearest_place
+from ..spatial.raster import CLOSED, Raster, is_walled, nearest_place
 
 WALL_NEAR = 2
 """Distance in nodes within which a closed node is near."""
+
+NO_WALLS = Raster(np.empty(0, np.uint8), 0, 0, 1.0, 1.0, np.empty(0, bool))
+"""A raster without nodes."""
 
 
 def find_time_across(p, surface, walls, rule, gravity: float, most: float) -> float:
@@ -34,10 +37,9 @@ def find_time_across(p, surface, walls, rule, gravity: float, most: float) -> fl
     most : float
         Longest step by other limits [s].
     """
-    raster = (np.empty(0, np.uint8), 0, 0, 1.0, 1.0, np.empty(0, bool)) if walls is None else walls
     place, ahead = np.empty(p.awake, np.int64), np.empty((2, p.awake))
     motion = p.velocity, p.thrust, gravity
-    found, shortest = _look_ahead(p.x, p.y, motion, tuple(raster), rule.way, rule.longest_way, most, place, ahead)
+    found, shortest = _look_ahead(p.x, p.y, motion, walls or NO_WALLS, rule.way, rule.longest_way, most, place, ahead)
     if found == 0:
         return float(shortest)
     there = surface.sample(ahead[0, :found], ahead[1, :found])
@@ -62,6 +64,16 @@ def _pace(i, motion):
     velocity, thrust, gravity = motion
     speed2 = velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2
     return speed2, gravity + np.sqrt(thrust[0, i] ** 2 + thrust[1, i] ** 2 + thrust[2, i] ** 2)
+
+
+@inner
+def _is_wall_near(row, column, status, columns, rows):
+    """Return whether a closed node lies within `WALL_NEAR` rows and columns of a node of a `Raster`."""
+    for r in range(max(row - WALL_NEAR, 0), min(row + WALL_NEAR + 1, rows)):
+        for c in range(max(column - WALL_NEAR, 0), min(column + WALL_NEAR + 1, columns)):
+            if status[r * columns + c] == CLOSED:
+                return True
+    return False
 
 
 @kernel
@@ -92,7 +104,7 @@ def _look_ahead(x, y, motion, raster, way, longest_way, most, place, ahead):
     shortest : float
         Longest step for the others, at most `most` [s].
     """
-    status, columns, rows, dx, dy, _ = raster
+    status, columns, rows, dx, dy, walled = raster
     velocity, found, shortest = motion[0], 0, most
     for i in range(place.size):
         speed2, gain = _pace(i, motion)
@@ -104,10 +116,8 @@ def _look_ahead(x, y, motion, raster, way, longest_way, most, place, ahead):
         # slower than what it may gain on the way, it may go anywhere
         short = speed2 < 2.0 * gain * way or over_map == 0.0
         if not short and status.size > 0:
-            r, c = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
-            for row in range(max(r - WALL_NEAR, 0), min(r + WALL_NEAR + 1, rows)):
-                for column in range(max(c - WALL_NEAR, 0), min(c + WALL_NEAR + 1, columns)):
-                    short = short or status[row * columns + column] == CLOSED
+            row, column = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
+            short = is_walled(row, column, walled, columns) and _is_wall_near(row, column, status, columns, rows)
         if short:
             shortest = min(shortest, time)
         else:

@@ -13,10 +13,12 @@ from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
 from ..spatial.raster import CORE, nearest_node
 from .basal import BasalLaw, basal_state
+from .bed_load import load_bed
 from .mixing import Erosion, Layer, Mixture, Soil, mix
 
 EROSION_TIME = 0.5
-"""Time within a step at which soil is taken, over the length of the step: the middle makes it second-order."""
+"""Time within a step at which soil is taken, and the bed below it loaded, over the length of the step: the middle makes
+erosion second-order."""
 
 
 def entrain(
@@ -54,6 +56,8 @@ def entrain(
     x, y = p.x.copy(), p.y.copy()
     if bed.soil is not None:
         _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
+        if bed.pore_pressure is not None:  # soil at the front brings the pressure that the front has made there
+            load_bed(p, bed, material, time + EROSION_TIME * dt, EROSION_TIME * dt, bed.footprints(p, x, y))
     rate = np.zeros(bearing.stop)
     demanded = np.empty(rate.size)
 

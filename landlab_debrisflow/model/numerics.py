@@ -50,7 +50,11 @@ class Numerics:
     )  # fmt: skip
     courant_number: float = parameter("-", "time step over smoothing length / celerity", None, (1e-6, 1.0))
     advective_courant_number: float = parameter(
-        "-", "longest way of a particle in a step over node spacing", None, (1e-6, MOST_NODES_PER_STEP)
+        "-",
+        "longest way of a particle in a step over node spacing where the ground bends or a wall is near; over even "
+        "ground up to 1.9 times this, but no more than 0.95 if it is less",
+        None,
+        (1e-6, MOST_NODES_PER_STEP),
     )
     shock_viscosity: float = parameter("-", "strength of the viscosity at shocks", 1.0, (0.5, 10.0))
     rest_energy: float = parameter("-", "kinetic energy over its peak at which all is at rest", None, (0.0, 1.0))

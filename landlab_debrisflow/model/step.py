@@ -13,7 +13,7 @@ from ..physics.contracts import FlowState, MixtureState, MixtureSums, Position, 
 from ..spatial.cells import sort_into_cells
 from ..spatial.raster import Raster
 from ..spatial.summation import SMOOTHING_RATIO, Sums
-from . import activity
+from . import activity, entrainment
 from .basal import BasalLaw, basal_resistance
 from .bed_load import load_bed
 from .column_forcing import ColumnPhysics, column_forcing, column_state, forcing_of, present_profiles
@@ -56,7 +56,7 @@ def advance(simulation, dt: float) -> None:
     interact(p, exchange, setup.flow, setup.numerics, columns, inflow, walls, state.time)
     activity.wake(p, activity.disturbed(p))
     clock.lap(SUMMATION)
-    load_bed(p, bed, material, end, dt)
+    load_bed(p, bed, material, end, dt if bed.soil is None else (1.0 - entrainment.EROSION_TIME) * dt)
     consolidate(p, exchange, columns, inflow.prescribed(p), dt, threads)
     clock.lap(COLUMNS)
     yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt, threads)

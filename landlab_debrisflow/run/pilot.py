@@ -9,6 +9,7 @@ import numpy as np
 
 from ..fidelity.event import with_count
 from ..fidelity.pilots import PilotOverError, run_event
+from ..model.step_rule import step_rule
 from ..record.measures import measures
 from .planning import event_of_scene
 from .scene import Scene
@@ -187,8 +188,8 @@ def run_pilot(scene: Scene, particles: int = PARTICLES, longest: float = LONGEST
     Pilot
     """
     event, setup = event_of_scene(scene), with_count(scene.setup, particles)
-    way = setup.numerics.advective_courant_number * min(event.grid.dx, event.grid.dy)
-    steps = _Steps(way, longest)
+    rule = step_rule(setup.numerics, min(event.grid.dx, event.grid.dy))
+    steps = _Steps(rule.longest_way, longest)
     run = run_event(event, setup, [steps])
     flow, found = run.flow, measures(run.flow)
     return Pilot(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from landlab_debrisflow.core.errors import ParameterError
+from landlab_debrisflow.core.errors import ParameterError, SimulationError
 from validation.cases import stability as scenes
 from validation.watch import Scene
 
@@ -51,9 +51,13 @@ def test_beyond_the_limit_it_does_blow_up():
     """What the bound protects from: twice the limit, put past the check."""
     scene = build(count=8000, spacing=20.0)
     object.__setattr__(scene.flow.setup.numerics, "courant_number", 2.44)
-    scene.run()
-    # measured .76, and part of it is thrown out of the bowl
-    assert scene.watch.gain > 0.3 * max(scene.watch.kinetic) and scene.flow.budget["outflow"] > 0.0
+    try:
+        scene.run()
+        # measured with steps of half a node at most: .76, and part of it is thrown out of the bowl
+        blown = scene.watch.gain > 0.3 * max(scene.watch.kinetic) and scene.flow.budget["outflow"] > 0.0
+    except SimulationError:  # measured: particles collapse at 5 s, and the step with them
+        blown = True
+    assert blown
 
 
 @pytest.mark.slow
