@@ -20,7 +20,8 @@ from .entrainment import entrain
 from .kinematics import NOWHERE, Place, drift, follow_bed, stop_at_walls
 from .layer import Layer, follow_thickness
 from .stillness import count_still_steps, disturb
-from .time_step import StepLimits, StepRule, reduce_particles
+from .surroundings import Surroundings
+from .time_step import NO_FRICTION, StepLimits, reduce_particles
 from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
@@ -38,7 +39,7 @@ def advance(simulation, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     state, phases, setup = simulation.state, simulation.phases, simulation.setup
     p, exchange, inflow, end = state.particles, state.exchange, state.inflow, state.time + dt
-    bed, walls, friction, erosion, columns, rule = simulation.surroundings
+    bed, walls, friction, erosion, columns, _ = simulation.surroundings
     material = setup.material
     clock = state.counters.clock()
     resistance = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
@@ -57,10 +58,10 @@ def advance(simulation, dt: float) -> None:
     load_bed(p, bed, material, end, dt)
     consolidate(p, exchange, columns, inflow.prescribed(p), dt)
     clock.lap(COLUMNS)
-    friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
+    yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, rule, material.gravity, state.time, dt)
+    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, yield_stress)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)
@@ -76,7 +77,8 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     """
     if p.count == 0:  # all particles have left in this step, and the partners are still those of before
         return NO_RESISTANCE
-    yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
+    bearing, (yield_stress, drag) = phases.bearing(p), np.zeros((2, p.awake))
+    yield_stress[bearing], drag[bearing] = basal_resistance(p, bearing, friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
         stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
@@ -184,6 +186,7 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
         acceleration=p.thrust,
         convergence=p.thickening,
     )
+    np.copyto(p.earlier_thrust, p.thrust)
     cells_of_phases = flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     inflow.prescribe_thickness(p, phases.phase_fractions)
     phases.after_summation(p, exchange, cells_of_phases)
@@ -225,18 +228,19 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
     `p` are the particles, `exchange` is the state of the exchange between phases; `prescribed` are the places of
     particles whose motion is given in an inflow strip; `dt` is in s.
     """
-    awake, phases = slice(p.awake), columns.phases
-    forcing = column_forcing(p, awake, columns, p.entrained_volume[awake], p.entrained_ratio[awake])
+    phases = columns.phases
+    bearing = phases.bearing(p)
+    forcing = column_forcing(p, bearing, columns, p.entrained_volume[bearing], p.entrained_ratio[bearing])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
-    columns.law.advance(column_state(p, awake), forcing, dt, p.basal_excess_pore_pressure[awake])
-    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, slice(p.count), columns), dt)
+    columns.law.advance(column_state(p, bearing), forcing, dt, p.basal_excess_pore_pressure[bearing])
+    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, bearing, columns), dt)
 
 
-def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: float = 0.0) -> StepLimits:
+def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, yield_stress=None) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
-    `p` are the particles, `phases` gives the stiffness beside weight, `rule` the bounds of a step; `gravity` is in m
-    s-2; `dt` is 0 before the first step.
+    `p` are the particles, `phases` gives the stiffness beside weight; `dt` is 0 before the first step; `yield_stress`,
+    shape (awake,), is that of friction at the end of the step [Pa], None if it is still to be found.
 
     Raises
     ------
@@ -244,7 +248,13 @@ def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: floa
         If the position or velocity of a particle is not finite.
     """
     stiff = phases.celerity_squared(p, dt)
-    limits = reduce_particles(p, gravity, rule, stiff)
+    if not phases.sleeps:  # water and its waves pass through grains that friction holds
+        yield_stress = NO_FRICTION
+    elif yield_stress is None:
+        yield_stress, _ = basal_resistance(p, slice(p.awake), surroundings.friction, asking=True)
+    gravity = surroundings.friction.material.gravity
+    ground = surroundings.bed.surface, surroundings.walls
+    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

@@ -11,7 +11,7 @@ from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
 from .basal import BasalLaw, weighing_on
 from .column_forcing import BY_EROSION, SOIL_ALONE, ColumnPhysics
-from .time_step import StepRule, viscous_share
+from .step_rule import StepRule, step_rule
 
 
 class Surroundings(NamedTuple):
@@ -80,8 +80,5 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         columns=ColumnPhysics(
             setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing, contact, drain_ratio
         ),
-        step_rule=StepRule(
-            courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
-            way=numerics.advective_courant_number * raster.spacing,
-        ),
+        step_rule=step_rule(numerics, raster.spacing),
     )
