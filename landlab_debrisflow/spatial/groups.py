@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.jit import inner, kernel
 from ..core.lanes import LANES, lane_places
+from ..core.scratch import scratch
 from .cells import BINS_PER_CELL, Cells
 
 CELLS_PER_GROUP = 8
@@ -45,8 +46,8 @@ class Groups(NamedTuple):
 
 
 def group(cells: Cells) -> Groups:
-    """Return the groups of the particles of a cell list in cells that are awake."""
-    found = np.empty((4, cells.order.size), np.int64)
+    """Return the groups of the particles of a cell list in cells that are awake, in scratch of this thread."""
+    found = scratch("groups", (4, cells.order.size), np.int64)
     count = _group(cells.columns, cells.start, cells.awake, found)
     return Groups(*found[:, :count])
 
