@@ -88,7 +88,7 @@ def _append_hits(context, builder, signature, arguments):
     )  # fmt: skip
     hit = builder.load(builder.bitcast(hits.data, lanes.as_pointer()), align=4 * LANES)
     first, count = builder.trunc(arguments[1], integer), arguments[3]
-    if LANES < max(REGISTERS.values()):
+    if max(REGISTERS.values()) > LANES:
         for lane in range(LANES):
             number = builder.add(first, ir.Constant(integer, lane))
             builder.store(number, builder.gep(found.data, [count]))
