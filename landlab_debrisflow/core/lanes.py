@@ -8,6 +8,7 @@ would be written to memory in every turn.
 import numpy as np
 from llvmlite import ir
 from numba import types
+from numba.core.cgutils import get_or_insert_function
 from numba.core.registry import cpu_target
 from numba.extending import lower_builtin, type_callable
 from numba.np.arrayobj import make_array, populate_array
@@ -60,6 +61,53 @@ def _on_the_stack(function, number):
             itemsize=constant(size), meminfo=None,
         )  # fmt: skip
         return array._getvalue()
+
+
+def append_hits(hits, first, found, count):
+    """Append ``first + lane`` to the numbers found for every lane that is hit, and return how many these are now.
+
+    `hits` are lanes of int32, 1 or 0; `found`, uint32, has `count` numbers and room for LANES more.
+    """
+    for lane in range(LANES):
+        found[count] = first + lane
+        count += hits[lane]
+    return count
+
+
+@type_callable(append_hits)
+def _type_of_count(context):
+    return lambda hits, first, found, count: types.intp
+
+
+@lower_builtin(append_hits, types.Array, types.Integer, types.Array, types.Integer)
+def _append_hits(context, builder, signature, arguments):
+    """Write all lanes that are hit with one store if the processor can move them together (vpcompressd)."""
+    integer, lanes = ir.IntType(32), ir.VectorType(ir.IntType(32), LANES)
+    hits, found = (
+        make_array(signature.args[k])(context, builder, arguments[k]) for k in (0, 2)
+    )  # fmt: skip
+    hit = builder.load(builder.bitcast(hits.data, lanes.as_pointer()), align=4 * LANES)
+    first, count = builder.trunc(arguments[1], integer), arguments[3]
+    if max(REGISTERS.values()) > LANES:
+        for lane in range(LANES):
+            number = builder.add(first, ir.Constant(integer, lane))
+            builder.store(number, builder.gep(found.data, [count]))
+            moved = builder.extract_element(hit, ir.Constant(integer, lane))
+            count = builder.add(count, builder.zext(moved, count.type))
+        return count
+    mask = builder.icmp_unsigned("!=", hit, ir.Constant(lanes, None))
+    numbers = ir.Constant(lanes, list(range(LANES)))
+    spread = builder.insert_element(ir.Constant(lanes, ir.Undefined), first, ir.Constant(integer, 0))
+    numbers = builder.add(
+        numbers, builder.shuffle_vector(spread, ir.Constant(lanes, ir.Undefined), ir.Constant(lanes, None))
+    )
+    name, compressed = f"llvm.x86.avx512.mask.compress.v{LANES}i32", ir.FunctionType(lanes, [lanes, lanes, mask.type])
+    compress = get_or_insert_function(builder.module, compressed, name)
+    together = builder.call(compress, [numbers, ir.Constant(lanes, None), mask])
+    place = builder.bitcast(builder.gep(found.data, [count]), lanes.as_pointer())
+    builder.store(together, place, align=4)
+    moved = builder.ctpop(builder.bitcast(mask, ir.IntType(LANES)))
+    return builder.add(count, builder.zext(moved, count.type))
 
 
 _on_the_stack(lane_floats, types.float32)

@@ -18,7 +18,7 @@ from ..core.lanes import LANES
 CELL_WIDTH = 1.3
 """Width of a cell over the harmonic mean of the supports: groups of 16 are then about as long as wide, and full."""
 
-BINS_PER_CELL = 4
+BINS_PER_CELL = 8
 """Bins along x into which the particles of a cell are sorted."""
 
 CELLS_PER_PARTICLE = 4

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import inner, kernel
-from ..core.lanes import LANES, lane_places
+from ..core.lanes import LANES, append_hits, lane_places
+from ..core.scratch import scratch
 from .cells import BINS_PER_CELL, Cells
 
 CELLS_PER_GROUP = 8
@@ -20,7 +21,7 @@ MARGIN = 1.0 + 1e-5
 distances in 32 bits, so that the pairs of a particle do not depend on its group."""
 
 _U64 = np.uint64
-_LANES, _NONE = _U64(LANES), _U64(0)  # unsigned: loops with an index that may be negative are not vectorised
+_LANES = _U64(LANES)  # unsigned: loops with an index that may be negative are not vectorised
 
 
 class Groups(NamedTuple):
@@ -45,8 +46,8 @@ class Groups(NamedTuple):
 
 
 def group(cells: Cells) -> Groups:
-    """Return the groups of the particles of a cell list in cells that are awake."""
-    found = np.empty((4, cells.order.size), np.int64)
+    """Return the groups of the particles of a cell list in cells that are awake, in scratch of this thread."""
+    found = scratch("groups", (4, cells.order.size), np.int64)
     count = _group(cells.columns, cells.start, cells.awake, found)
     return Groups(*found[:, :count])
 
@@ -108,7 +109,7 @@ def find_candidates(g, groups, sorted_places, cells, near):
     far, hits = 0.0, lane_places()
     for c in range(west[g], east[g] + 1):
         far = max(far, reach[c])
-    per_metre, m = 1.0 / size, _NONE
+    per_metre, m = 1.0 / size, 0
     columns_of_bins = BINS_PER_CELL * columns
     low_row = max(int((least_y - far - y0) * per_metre), 0)
     high_row = min(int((largest_y + far - y0) * per_metre), rows - 1)
@@ -123,8 +124,6 @@ def find_candidates(g, groups, sorted_places, cells, near):
                 gap_x, gap_y = max(least_x - x, x - largest_x, 0.0), max(least_y - y, y - largest_y, 0.0)
                 distance = max(support, distance)
                 hits[lane] = (gap_x * gap_x + gap_y * gap_y < distance * distance * MARGIN) & (lane < left)
-            for lane in range(_LANES):
-                near[m] = here + lane
-                m += _U64(hits[lane])
+            m = append_hits(hits, k, near, m)
             k += LANES
     return m

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import inner
+from ..core.scratch import scratch
 from ..core.structs import struct
 from .cells import Cells
 from .groups import CELLS_PER_GROUP
@@ -66,8 +67,12 @@ def quantum_of(cells: Cells) -> float:
 
 
 def empty_packed(count: int, values: int, quantum: float) -> tuple:
-    """Return a `Packed` with room for `count` particles, with so many values of each."""
-    return Packed(places=np.empty((3, count), np.int32), values=np.empty((values, count), np.float32), quantum=quantum)
+    """Return a `Packed` with room for `count` particles, with so many values of each, in scratch of this thread."""
+    return Packed(
+        places=scratch("places", (3, count), np.int32),
+        values=scratch("values", (values, count), np.float32),
+        quantum=quantum,
+    )
 
 
 @inner

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
 from ..core.lanes import LANES, lane_floats, lane_places
+from ..core.scratch import scratch
 from ..core.threads import in_ranges, worth
 from .cells import Cells
 from .groups import find_candidates, group
@@ -83,7 +84,7 @@ def sum_over_neighbours(
     length was set: one pass per time step is enough. The pressure coefficient has Omega of the pass before.
     """
     count = given.volume.size
-    packed, found = empty_packed(count, 10, quantum_of(cells)), np.empty((6, count), np.float32)
+    packed, found = empty_packed(count, 10, quantum_of(cells)), scratch("sums", (6, count), np.float32)
     plain = tuple(given.position), *given[1:]  # kernels are called faster with plain tuples (core/structs.py)
     _pack(plain, viscosity, packed)
     threads = worth(threads, count)

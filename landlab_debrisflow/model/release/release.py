@@ -11,6 +11,7 @@ from ...spatial.raster import CLOSED
 from ...spatial.summation import SMOOTHING_RATIO
 from ...terrain.surface import SurfaceSample
 from .placing import THICKNESS_RANGE, Placed, place_particles
+from .rows import in_rows
 from .sites import find_sites, share_particles, volume_below_lips
 
 log = logging.getLogger("landlab_debrisflow")
@@ -50,7 +51,7 @@ def release_particles(p, origins, nodes, depth, bed, phases, numerics, velocity=
     sites = find_sites(nodes, depth, bed.raster)
     _warn_of_pits(bed, sites, nodes, depth)
     counts = share_particles(sites.volume, _particle_volume(whole, bed.raster.area, nodes, depth, numerics))
-    placed = place_particles(sites, counts, bed.surface)
+    placed = in_rows(place_particles(sites, counts, bed.surface))
     below = bed.surface.sample(placed.x, placed.y)
     normal = placed.depth / np.sqrt(1.0 + below.slope_x**2 + below.slope_y**2)
     thickest = np.zeros(sites.volume.size)
