@@ -58,7 +58,7 @@ BESIDES = 2 * 8.0 + 2 * 8.0 + 8.0 + 4.0 + 1.0
 last call left it and as the surface it interpolates, depth eroded in the event, slot of a node, its status."""
 
 
-def held(nodes):
+def memory_besides_fields(nodes):
     """Return the memory of a component besides the fields that it adds, after a call [B]."""
     scene = {name: value for name, value in SCENE.items() if name != "particles"}
     grid = raster(nodes=nodes, offset=SHIFT, **scene)
@@ -75,7 +75,7 @@ def held(nodes):
 
 @pytest.mark.slow
 def test_memory_besides_the_fields_is_that_of_the_flow():
-    held(60)  # loads what the first call loads
-    small, large = held(300), held(600)
+    memory_besides_fields(60)  # loads what the first call loads
+    small, large = memory_besides_fields(300), memory_besides_fields(600)
     # of rows that the flow passes, values are kept in case of an error: some 25 rows of 17 arrays, 4 B per node here
     assert (large - small) / (600.0**2 - 300.0**2) < BESIDES + 5.0
