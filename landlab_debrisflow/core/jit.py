@@ -54,7 +54,7 @@ class Uncollected(events.Listener):
 
     A compilation makes some hundred thousand objects, most of which live as long as the kernel. The collector would go
     through them again and again and free next to nothing: a fifth of the first start of an event (`python -m
-    benchmarks.start`). After the compilation they count as old, so that only the next full collection goes through them.
+    benchmarks.start`). Afterwards they count as old, so that only the next full collection goes through them.
     Compilations are nested, because the functions that a kernel calls are compiled within it, and may run in several
     threads. numba also tells of the end of one that fails.
     """
