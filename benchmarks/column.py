@@ -1,4 +1,4 @@
-"""Accuracy of the pore-pressure columns against their cost: python -m benchmarks.column
+"""Accuracy of the pore-pressure columns against their cost: python -m benchmarks.column [--against NAME=FOLDER]
 
 Error: the basal pressure that friction sees at every stored flow step (all of the first 40 after a switch
 and every fifth), over the pressure of the bed, and the same of the depth mean; the worst of eight Peclet
@@ -6,18 +6,24 @@ numbers 1e-3 ... 1e4, against `validation/cases/column_reference.py`, a solver o
 400 flow steps per erosion time. Cost: CPU time of one thread per column and step over the whole history of
 a case, median of five; the schemes take turns, so that their ratios are of one run.
 
+With --against, NAME is a version and FOLDER its checkout, whose default scheme takes part in the turns with its own
+code: the figure then has its marks, too.
+
 Keeps benchmarks/results/column.json, from which benchmarks/column.txt and docs/figures/column.png are made.
 """
 
 import argparse
 import statistics
 import time
+from contextlib import nullcontext
 from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from benchmarks import charts, result_files, style
+from benchmarks.checkout_calls import checkouts
+from benchmarks.ratio_turns import named_version, turns
 from landlab_debrisflow.physics.column import ALE, Classical
 from landlab_debrisflow.physics.column.driver import Columns, depth_mean
 from validation.cases.column_reference import CASES, FILE, PER_UNIT
@@ -139,12 +145,34 @@ def cost(name, scheme, levels, peclet, repeats=5):
     return statistics.median(times)
 
 
+BEFORE, ONCE = "before", ("A_cold", "A_warm")
 COSTED = ("A_cold", "D_switches", "E_swing_overburden")
 """Cases whose CPU time is measured."""
 
 
-def measure():
-    """Yield a row of every error and cost: case, scheme, levels, and values by Péclet number."""
+def compare(asking):
+    """Yield rows of the default scheme, in turns with that of another checkout, which is called "before"."""
+    for name in COSTED:
+        for levels in LEVELS:
+            spent = []
+            for number in PECLET:
+                many = turns(
+                    asking, 5, lambda ask, n=levels, p=number: ask("column_cost", name, "default", n, float(p))
+                )
+                spent.append(np.median(many, axis=0))
+            for scheme, found in zip(("default", BEFORE), np.transpose(spent), strict=True):
+                yield {"case": name, "scheme": scheme, "levels": levels, "cost": found}
+    for name in ONCE:
+        for levels in LEVELS:
+            base, mean = np.array(asking[1]("column_errors", name, "default", levels))
+            yield {"case": name, "scheme": BEFORE, "levels": levels, "base": base, "mean": mean}
+
+
+def measure(asking=()):
+    """Yield a row of every error and cost: case, scheme, levels, and values by Péclet number.
+
+    `asking` are this and another checkout, whose default schemes are timed in turns.
+    """
     for name in CASES:
         for scheme in SCHEMES:
             for levels in LEVELS:
@@ -157,10 +185,15 @@ def measure():
             for scheme in SCHEMES:
                 if scheme == "lax_wendroff" and (levels == 41 or name != "A_cold"):
                     continue
+                if scheme == "default" and asking:
+                    continue
                 used = affordable(scheme, levels)
                 found = np.full(PECLET.size, np.nan)
                 found[used] = [cost(name, scheme, levels, number) for number in PECLET[used]]
                 yield {"case": name, "scheme": scheme, "levels": levels, "cost": found}
+
+    if asking:
+        yield from compare(asking)
 
 
 def cost_of_many() -> float:
@@ -212,30 +245,29 @@ def report() -> str:
 
 
 NAMES = {"default": "default", "every step": "default, updated at every step", "upwind": "upwind, implicit",
-         "lax_wendroff": "Lax–Wendroff (the paper's)"}  # fmt: skip
+         "lax_wendroff": "Lax–Wendroff (the paper's)", BEFORE: "default, earlier version"}  # fmt: skip
 
 
 def chart():
     """Return the figure: error against cost and against the Péclet number."""
     worst, dear, _ = kept()
     figure, axes = style.panels(2, 2, (12.0, 9.0))
-    colours = dict(zip(SCHEMES, (style.BLUE, style.SKY, style.ORANGE, style.RED), strict=True))
+    colours = dict(zip((*SCHEMES, BEFORE), (style.BLUE, style.SKY, style.ORANGE, style.RED, style.GREEN), strict=True))
     marks = {11: "o", 21: "s", 41: "^"}
-    once = ("A_cold", "A_warm")
     ordinary = [name for name in CASES if name[0] not in "EH"]
     shown = (
-        (axes[0, 1], once, 0, "Basal pressure after one stop of erosion"),
+        (axes[0, 1], ONCE, 0, "Basal pressure after one stop of erosion"),
         (axes[1, 0], ordinary, 0, "Basal pressure, all cases but swinging loads and the classical law"),
         (axes[1, 1], ordinary, 1, "Depth mean of the pressure, the same cases"),
     )
-    for scheme in SCHEMES:
+    for scheme in (*SCHEMES, BEFORE):
         for levels in LEVELS:
             mark = {"marker": marks[levels], "color": colours[scheme], "alpha": 0.8, "ms": 5}
             label = f"{NAMES[scheme]}, {levels} levels"
             if ("A_cold", scheme, levels) in dear:
-                error = np.nanmax([worst[name, scheme, levels][0] for name in once], axis=0)
+                error = np.nanmax([worst[name, scheme, levels][0] for name in ONCE], axis=0)
                 axes[0, 0].plot(dear["A_cold", scheme, levels], np.maximum(error, FLOOR), ls="", label=label, **mark)
-            for axis, names, which, _ in shown:
+            for axis, names, which, _ in shown if scheme in SCHEMES else ():
                 if all((name, scheme, levels) in worst for name in names):
                     error = np.nanmax([worst[name, scheme, levels][which] for name in names], axis=0)
                     axis.plot(PECLET, np.maximum(error, FLOOR), label=label, lw=1.0, **mark)
@@ -258,12 +290,17 @@ FLOOR = 1e-5
 
 
 def main() -> None:
-    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--against", metavar="NAME=FOLDER", type=named_version, help="another version and its checkout")
+    against = parser.parse_args().against
     rows = []
-    for row in measure():
-        print({name: np.nanmax(value) if isinstance(value, np.ndarray) else value for name, value in row.items()})
-        rows.append(row)
-    result_files.keep("column", {"rows": rows, "cost of many [ns]": cost_of_many()}, "python -m benchmarks.column")
+    with checkouts(dict([against])) if against else nullcontext(()) as asking:
+        for row in measure(asking):
+            print({name: np.nanmax(value) if isinstance(value, np.ndarray) else value for name, value in row.items()})
+            rows.append(row)
+    command = "python -m benchmarks.column" + (" --against NAME=FOLDER" if against else "")
+    data = {"before": against[0] if against else "", "rows": rows, "cost of many [ns]": cost_of_many()}
+    result_files.keep("column", data, command)
     charts.make("column")
 
 

@@ -6,6 +6,9 @@ interpreter that has avaframe 2.1, com1DFA. Norms are defined in validation/meas
 validation/cases. Keeps benchmarks/results/flow.json and, with --peer, flow_com1dfa.json, from which benchmarks/flow.txt
 and docs/figures/flow.png are made.
 
+With --against NAME=FOLDER, NAME is a version and FOLDER its checkout, whose own cases run with its own engine in turns with ours;
+CPU times of both are medians of three turns, and the figure has a curve more.
+
 One setting is not the default's: settling is off, so that there are particles to look at.
 
 Errors of ours are those at the particles; beside them stands what the raster shows. In the panels of dam breaks CPU
@@ -15,7 +18,9 @@ takes a whole body, and its errors are those of its raster.
 
 import argparse
 import math
-from dataclasses import asdict
+import statistics
+from contextlib import nullcontext
+from dataclasses import asdict, replace
 from functools import partial
 
 from rich.console import Console
@@ -23,6 +28,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from benchmarks import charts, result_files, style
+from benchmarks.checkout_calls import checkouts
+from benchmarks.ratio_turns import named_version, turns
 from validation import comparison
 from validation.cases import basins, blocks, planes
 from validation.measure import Norms, Result
@@ -52,6 +59,7 @@ def _cases():
 CASES = {name: rest for name, *rest in _cases()}
 MARKS = {
     "ours": (style.BLUE, "o", "this package"),
+    "before": (style.SKY, "v", "this package, an earlier version"),
     "fixed length": (style.ORANGE, "s", "SPH with a fixed smoothing length"),
     "finite volume": (style.GREEN, "^", "finite volumes, second order"),
     "com1DFA": (style.RED, "D", "AvaFrame com1DFA 2.1"),
@@ -69,19 +77,46 @@ def kept() -> list[Result]:
     """Return the results of the files, com1DFA between the cases of the chart and those without a rival."""
     rows, peer = (result_files.read(name)["results"] for name in ("flow", "flow_com1dfa"))
     rows = sorted([*rows, *peer], key=lambda row: (row["case"] not in CASES, row["method"] == "com1DFA"))
-    return [Result(**row | {"h": Norms(*row["h"]), "hu": Norms(*row["hu"])}) for row in rows]
+    return [result(row) for row in rows]
 
 
-def charted(quick, put):
-    """Run all methods on the cases of the chart."""
+def methods(results) -> dict[str, tuple[str, str, str]]:
+    """Return colour, mark and name of the methods that results have."""
+    there = {run.method for run in results}
+    return {method: mark for method, mark in MARKS.items() if method in there}
+
+
+TURNS = 3
+
+
+def in_turns(asking, case, numbers) -> list[Result]:
+    """Return the results of ours and of another checkout, taken in turns."""
     results = []
-    for ours, numbers, volumes, cells in CASES.values():
+    for number in numbers:
+        found = turns(asking, TURNS, lambda ask, number=number: ask("flow", case, number))
+        for k, method in enumerate(("ours", "before")):
+            run, cpu = result(found[0][k]), statistics.median(turn[k]["cpu"] for turn in found)
+            results.append(replace(run, method=method, cpu=cpu))
+    return sorted(results, key=lambda run: run.method != "ours")
+
+
+def result(row) -> Result:
+    """Return a result from its mapping."""
+    return Result(**row | {"h": Norms(*row["h"]), "hu": Norms(*row["hu"])})
+
+
+def charted(quick, put, asking=()):
+    """Run all methods on the cases of the chart; with `asking`, two checkouts, both engines in turns."""
+    results = []
+    for case, (ours, numbers, volumes, cells) in CASES.items():
         cut = slice(0, 2 if quick else None)
         ours(numbers[0])  # compiles
-        runs = [(ours, n) for n in numbers[cut]]
-        runs += [(partial(comparison.fixed, ours), n) for n in numbers[:2]]  # it does not converge
+        for ask in asking:
+            ask("flow", case, numbers[0])
+        runs = [(partial(comparison.fixed, ours), n) for n in numbers[:2]]  # it does not converge
         runs += [(volumes, n) for n in cells[cut]]
-        results += [put(run(n)) for run, n in runs]
+        own = in_turns(asking, case, numbers[cut]) if asking else (ours(n) for n in numbers[cut])
+        results += [*map(put, own), *(put(run(n)) for run, n in runs)]
     return results
 
 
@@ -148,7 +183,7 @@ def chart():
     results = kept()
     figure, axes = style.panels(2, 5, (15.5, 7.0), sharey=True, sharex=True)
     for axis, case in zip(axes.ravel(), CASES, strict=True):
-        for method, (colour, mark, words) in MARKS.items():
+        for method, (colour, mark, words) in methods(results).items():
             these = [r for r in results if (r.case, r.method) == (case, method)]
             times = [max(r.cpu, 1e-3) for r in these]
             mark_of = {"color": colour, "marker": mark, "ms": 5}
@@ -163,7 +198,7 @@ def chart():
     for axis in axes[1]:
         axis.set_xlabel("CPU time, one thread [s]")
     words = "Full lines and marks: thickness h. Dotted, open: momentum hu. More particles or cells to the right."
-    style.legend_below(figure, axes[0, 0], ncol=4, title=words)
+    style.legend_below(figure, axes[0, 0], ncol=5, title=words)
     return figure
 
 
@@ -171,6 +206,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
+    parser.add_argument("--against", metavar="NAME=FOLDER", type=named_version, help="another version and its checkout")
     options = parser.parse_args()
     console = Console(width=190)
 
@@ -178,12 +214,15 @@ def main() -> None:
         console.log(f"{result.case}, {result.method}, {result.along}: {result.cpu:.2f} CPU s")
         return result
 
-    results = [*charted(options.quick, put), *uncharted(options.quick, put)]
+    with checkouts(dict([options.against])) if options.against else nullcontext(()) as asking:
+        results = [*charted(options.quick, put, asking), *uncharted(options.quick, put)]
     peer = [put(result) for result in com1dfa.results(options.peer, options.quick)] if options.peer else []
     if options.quick:
         tables([*results, *peer], console)
         return
-    result_files.keep("flow", {"results": [asdict(r) for r in results]}, "python -m benchmarks.flow")
+    command = "python -m benchmarks.flow" + (" --against NAME=FOLDER" if options.against else "")
+    data = {"before": options.against[0] if options.against else "", "results": [asdict(r) for r in results]}
+    result_files.keep("flow", data, command)
     if peer:
         command = "python -m benchmarks.flow --peer PYTHON"
         result_files.keep("flow_com1dfa", {"results": [asdict(r) for r in peer]}, command)

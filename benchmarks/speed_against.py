@@ -45,28 +45,33 @@ class Side:
         kept = {"NUMBA_CACHE_DIR": os.path.join(self.folder, cache), "PYTHONPYCACHEPREFIX": f"{self.folder}/bytecode"}
         return {n: v for n, v in os.environ.items() if n != "PYTHONDONTWRITEBYTECODE"} | alone | kept
 
-    def begin(self):
-        """Start a process that waits for scenes."""
+    def begin(self, *program: str):
+        """Start a process that waits for scenes: a program and its arguments, by default that of this comparison."""
         self.worker = subprocess.Popen(
-            [self.python, "-P", str(PROGRAM)], cwd=self.folder, env=self.environment(), text=True,
+            [self.python, "-P", *(program or (str(PROGRAM),))], cwd=self.folder, env=self.environment(), text=True,
             stdin=subprocess.PIPE, stdout=subprocess.PIPE,
         )  # fmt: skip
 
+    def ask(self, request: str) -> str:
+        """Return the answer of the process to a line."""
+        print(request, file=self.worker.stdin, flush=True)
+        if not (answer := self.worker.stdout.readline()):
+            raise SystemExit(f"{self.python} could not run {request!r}")
+        return answer
+
     def scene(self, name: str) -> float:
         """Return the CPU time of a scene [s]."""
-        print(name, file=self.worker.stdin, flush=True)
-        if not (answer := self.worker.stdout.readline()):
-            raise SystemExit(f"{self.python} could not run the scene {name!r}")
-        return float(answer)
+        return float(self.ask(name))
 
     def end(self):
         self.worker.stdin.close()
+        self.worker.stdout.close()
         self.worker.wait()
 
-    def start(self, cache="cache") -> float:
-        """Return the CPU time of a process that imports all and runs a first step [s]."""
+    def start(self, cache="cache", program=EVENT) -> float:
+        """Return the CPU time of a process [s], by default of one that imports all and runs a first step."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        command = [self.python, "-P", "-c", EVENT]
+        command = [self.python, "-P", "-c", program]
         subprocess.run(command, cwd=self.folder, env=self.environment(cache), check=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -8,7 +8,6 @@ import numpy as np
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
 from landlab_debrisflow.record.observers import EVERY_STEP
-from landlab_debrisflow.spatial.partners import Partners
 from landlab_debrisflow.terrain.bed import Bed
 from validation.grids import inclined, release_slab
 
@@ -118,9 +117,6 @@ def _collect(place, value, found, seen):
         found[place] = repr(value)
     elif id(value) in seen or callable(value):
         return
-    elif isinstance(value, Partners):  # each has as many as it counts
-        filled = np.arange(value.index.shape[1]) < value.count[:, None]
-        _collect(place, [value.of, value.count, value.index[filled], value.weight[filled]], found, seen)
     elif isinstance(value, dict | list | tuple):
         items = dict(value) if isinstance(value, dict) else dict(enumerate(value))
         found[place] = repr(list(items))

@@ -54,6 +54,16 @@ class Particles:
         for block, array in zip(self._blocks, arrays, strict=True):
             vars(self).update({name: array[index] for name, index in block.indices.items()})
 
+    def __getstate__(self) -> dict:
+        """Return what a pickle holds: the blocks, not the views of them, which would be arrays of their own then."""
+        views = {name for block in self._blocks for name in block.indices}
+        return {name: value for name, value in vars(self).items() if name not in views}
+
+    def __setstate__(self, state) -> None:
+        """Take what a pickle held; attributes become views of its blocks."""
+        vars(self).update(state)
+        self._put(self._arrays)
+
     @property
     def count(self) -> int:
         """Number of particles."""

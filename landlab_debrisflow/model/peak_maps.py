@@ -96,14 +96,17 @@ class PeakMaps:
         """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         mixture = () if self._solid_fraction is None else (self._solid_fraction,)
-        for field in (*self._current, *self._phases, *mixture):
+        for field in (*self._phases, *mixture):
             field[self._under] = 0.0
         if p.count == 0:
+            for field in self._current:
+                field[self._under] = 0.0
             self._under = self._under[:0]
             return
+        density = density if np.shape(density) == p.volume.shape else np.full(p.count, density)
         matter = Matter(
-            volume=p.volume, density=np.broadcast_to(density, p.count), phase=p.phase, velocity=p.velocity,
-            run_up=p.z - p.lowest_z + p.depth,
+            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, z=p.z, lowest_z=p.lowest_z,
+            depth=p.depth,
         )  # fmt: skip
         base = Base(
             pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
@@ -117,7 +120,7 @@ class PeakMaps:
         if self._scratch.size < node.size:
             self._sums, self._scratch = with_places(self._sums, node.size), np.empty(node.size, np.int64)
         slots = scatter(footprints, values, self._sums, self._scratch)
-        self._under = node[slots]
+        left, self._under = self._under, node[slots]
         if self._walled:
             least = self._arrival_depth * self._raster.area
             _record_walls(self._under, slots, self._sums, least, self._raster, self._peaks)
@@ -125,7 +128,7 @@ class PeakMaps:
         if self._solid_fraction is not None:
             self._solid_fraction[self._under] = self._sums[slots, -1] / self._sums[slots, VOLUME]
         area = self._raster.area
-        _record(self._under, slots, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
+        _record(left, self._under, slots, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 
     def _show_phases(self, at, slots):
         for field in self._phases[:1]:
@@ -158,20 +161,27 @@ def _weight_by_volume(matter, base, walled, values):
     values : ndarray, shape (n, k)
         Written; in the order of `VOLUME` and those that follow.
     """
-    volume, density, phase, velocity, run_up = matter
+    volume, density, phase, velocity, z, lowest_z, depth = matter
     pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
-        m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
+        m, u, v = volume[i], velocity[0, i], velocity[1, i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        grains = m if phase[i] != WATER else 0.0  # grains carry the columns
-        to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
-        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
-        to[PECLET] = grains * peclet_number[i]
-        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * run_up[i]
+        speed, grains = np.sqrt(speed2), m if phase[i] != WATER else 0.0  # grains carry the columns
+        values[i, VOLUME], values[i, WAY], values[i, GRAINS], values[i, GRAIN_WAY] = (
+            m,
+            m * speed,
+            grains,
+            grains * speed,
+        )
+        values[i, PRESSURE], values[i, LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
+        values[i, PECLET] = grains * peclet_number[i]
+        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
         if walled:
             momentum = m * density[i]
-            to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
-            to[TOWARDS + 2], to[TOWARDS + 3] = momentum * max(v, 0.0) ** 2, momentum * min(v, 0.0) ** 2
+            values[i, TOWARDS] = momentum * max(u, 0.0) ** 2
+            values[i, TOWARDS + 1] = momentum * min(u, 0.0) ** 2
+            values[i, TOWARDS + 2] = momentum * max(v, 0.0) ** 2
+            values[i, TOWARDS + 3] = momentum * min(v, 0.0) ** 2
 
 
 @kernel
@@ -193,8 +203,8 @@ def _record_walls(nodes, slots, sums, least, raster, peaks):
     peaks : PeakFields
         Fields of the peaks, written in place.
     """
-    status, columns, rows, _, _ = raster
-    max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
+    status, columns, rows, _, _, _ = raster
+    _, _, _, _, _, max_impact, max_run_up = peaks
     for k in range(nodes.size):
         n, slot = nodes[k], slots[k]
         if not sums[slot, VOLUME] > least:
@@ -214,11 +224,13 @@ def _record_walls(nodes, slots, sums, least, raster, peaks):
 
 
 @kernel
-def _record(nodes, slots, sums, area, time, arrival_depth, current, peaks):
+def _record(left, nodes, slots, sums, area, time, arrival_depth, current, peaks):
     """Record the flow now and its peaks at nodes under it, and clear their sums.
 
     Parameters
     ----------
+    left : ndarray of int, shape (m,)
+        Nodes under the flow at the update before.
     nodes : ndarray of int, shape (k,)
         Nodes under the flow.
     slots : ndarray of int, shape (k,)
@@ -238,6 +250,9 @@ def _record(nodes, slots, sums, area, time, arrival_depth, current, peaks):
     """
     depth, speed, pressure, peclet = current
     max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks
+    for k in range(left.size):
+        n = left[k]
+        depth[n] = speed[n] = pressure[n] = peclet[n] = 0.0
     for k in range(nodes.size):
         n, slot = nodes[k], slots[k]
         volume = sums[slot, VOLUME]

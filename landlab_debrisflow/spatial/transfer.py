@@ -175,7 +175,7 @@ def _find_footprints(raster, x, y, volume, depth, fraction, slot_of, nodes, used
     are_enough : bool
         Whether there were slots enough; if not, footprints lack the nodes without one.
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     particles, half_width, area = np.empty((5, x.size)), np.empty(x.size), volume / depth
     most, found, cell = 0, 0, dx * dy
     for i in range(x.size):
