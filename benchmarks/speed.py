@@ -132,6 +132,14 @@ class Report:
         name = "node values kept in case of an error, whole rows"
         rows.append((name, *(f"{k}" for k in kept), f"{kept[1] / kept[0]:.1f}"))
         rows += [(f"CPU s of the {name}", f"{a:.3f}", f"{b:.3f}", f"{r:.2f}") for name, (a, b, r) in times.items()]
+        one, other = (grids.memory(**each) for each in (grids.SMALL, grids.LARGE))
+        for name, field in (
+            ("fields", "fields"),
+            ("after a call, besides", "after"),
+            ("in it at most, besides", "most"),
+        ):
+            here, there = getattr(one, field), getattr(other, field)
+            rows.append((f"bytes per node, {name}", f"{here:.0f}", f"{there:.0f}", f"{there / here:.2f}"))
         title = f"One event on 200 x 200 and on 2000 x 2000 nodes, medians of {pairs} turns"
         self.add(title, ("quantity", "200", "2000", "ratio"), rows)
 

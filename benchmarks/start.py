@@ -22,6 +22,7 @@ from rich.console import Console
 from rich.table import Column, Table
 
 WARM = 5
+WIDTH = 130  # of the tables [characters]
 LANDLAB = "from landlab import Component, RasterModelGrid"
 PACKAGE = f"{LANDLAB}\nimport landlab_debrisflow"
 EVENT = f"""{PACKAGE}
@@ -117,13 +118,13 @@ def main() -> None:
     parser.add_argument("--cold", type=int, default=1, metavar="N", help="number of cold starts")
     options = parser.parse_args()
     if not options.kernels:
-        Console().print(measure(options.cold))
+        Console(width=WIDTH).print(measure(options.cold))
     elif "NUMBA_CACHE_DIR" not in os.environ:  # numba reads it when it is imported
         with tempfile.TemporaryDirectory() as cache:
             environment = {**os.environ, "NUMBA_CACHE_DIR": cache}
             subprocess.run([sys.executable, "-m", "benchmarks.start", "--kernels"], check=True, env=environment)
     else:
-        Console().print(kernels())
+        Console(width=WIDTH).print(kernels())
 
 
 if __name__ == "__main__":

@@ -52,8 +52,9 @@ the cache."""
 class Uncollected(events.Listener):
     """Switches garbage collection off when compilations begin, and on again after the last, if it was on before.
 
-    A compilation makes some hundred thousand objects that live until its end. The collector would go through them again
-    and again and free next to nothing: a fifth of the first start of an event (`python -m benchmarks.start`).
+    A compilation makes some hundred thousand objects, most of which live as long as the kernel. The collector would go
+    through them again and again and free next to nothing: a fifth of the first start of an event (`python -m
+    benchmarks.start`). Afterwards they count as old, so that only the next full collection goes through them.
     Compilations are nested, because the functions that a kernel calls are compiled within it, and may run in several
     threads. numba also tells of the end of one that fails.
     """
@@ -74,6 +75,9 @@ class Uncollected(events.Listener):
         with self._lock:
             self._running -= 1
             if self._running == 0 and self._was_on:
+                if gc.get_freeze_count() == 0:  # what somebody else has frozen stays frozen
+                    gc.freeze()
+                    gc.unfreeze()
                 gc.enable()
 
 

@@ -12,14 +12,14 @@ class Block(NamedTuple):
     ----------
     axis : int
         Axis of the array along which particles are counted.
-    parts : dict of str to int or slice
+    indices : dict of str to int or slice
         Index of the values of each variable in the array: a row, the rows of a vector, or all.
     initial : ndarray, shape (rows, 1) or (1, width)
         Values of a new particle.
     """
 
     axis: int
-    parts: dict
+    indices: dict
     initial: np.ndarray
 
     def new(self, count: int, values) -> np.ndarray:
@@ -28,9 +28,9 @@ class Block(NamedTuple):
         `values` maps names of variables to numbers or arrays; other variables get their initial value.
         """
         array = np.repeat(self.initial, count, self.axis)
-        for name, part in self.parts.items():
+        for name, index in self.indices.items():
             if name in values:
-                array[part] = values[name]
+                array[index] = values[name]
         return array
 
 
@@ -47,7 +47,7 @@ def blocks_of(variables, levels: int) -> tuple[Block, ...]:
     --------
     >>> from .variables import PARTICLE_VARIABLES
     >>> blocks = blocks_of(PARTICLE_VARIABLES[:6], levels=11)
-    >>> blocks[1].parts
+    >>> blocks[1].indices
     {'x': 0, 'y': 1, 'z': 2, 'lowest_z': 3, 'velocity': slice(4, 7, None)}
     >>> blocks[1].initial.T
     array([[ 0.,  0.,  0., inf,  0.,  0.,  0.]])
@@ -65,9 +65,9 @@ def blocks_of(variables, levels: int) -> tuple[Block, ...]:
 
 def _rows(dtype: np.dtype, members) -> Block:
     """Return the block of numbers and vectors of one type, in the order of the variables."""
-    parts, initial = {}, []
+    indices, initial = {}, []
     for variable in members:
         first = len(initial)
         initial += [variable.initial] * max(variable.components, 1)
-        parts[variable.name] = slice(first, len(initial)) if variable.components else first
-    return Block(1, parts, np.array(initial, dtype)[:, None])
+        indices[variable.name] = slice(first, len(initial)) if variable.components else first
+    return Block(1, indices, np.array(initial, dtype)[:, None])

@@ -31,19 +31,19 @@ class Particles:
     (3, 6.0, (3, 3))
     """
 
-    _parts: ClassVar[dict] = {}  # index of every variable in its block
+    _indices: ClassVar[dict] = {}  # index of every variable in its block
 
     def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
         self.levels, self.variables = levels, tuple(variables)
         self.awake = self.ever = 0  # number of particles awake; number of all particles made so far
         self.departed: Particles | None = None
         self._blocks = blocks_of(self.variables, levels)
-        self._parts = {name: part for block in self._blocks for name, part in block.parts.items()}
+        self._indices = {name: index for block in self._blocks for name, index in block.indices.items()}
         self._put([block.new(0, {}) for block in self._blocks])
 
     def __setattr__(self, name, value):
         """Write the values of a variable into its block, of which the attribute is a view; set any other attribute."""
-        if name in self._parts:
+        if name in self._indices:
             getattr(self, name)[...] = value
         else:
             object.__setattr__(self, name, value)
@@ -52,11 +52,11 @@ class Particles:
         """Take the arrays of all blocks; attributes become views of these."""
         self._arrays = arrays
         for block, array in zip(self._blocks, arrays, strict=True):
-            vars(self).update({name: array[part] for name, part in block.parts.items()})
+            vars(self).update({name: array[index] for name, index in block.indices.items()})
 
     def __getstate__(self) -> dict:
         """Return what a pickle holds: the blocks, not the views of them, which would be arrays of their own then."""
-        views = {name for block in self._blocks for name in block.parts}
+        views = {name for block in self._blocks for name in block.indices}
         return {name: value for name, value in vars(self).items() if name not in views}
 
     def __setstate__(self, state) -> None:

@@ -285,9 +285,9 @@ def _erode(footprints, demanded, area, accounts, demand):
         node = nodes[slot]
         if taken[slot] == 0.0:
             before[slot, 0], before[slot, 1], before[slot, 2] = soil[node], elevation[node], eroded_depth[node]
-        part = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
-        granted[slot, 0], granted[slot, 1] = part, value_at(pressure_ratio, node)
-        taken[slot] = min(taken[slot] + part * volume[slot] / area, before[slot, 0])
+        supplied = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
+        granted[slot, 0], granted[slot, 1] = supplied, value_at(pressure_ratio, node)
+        taken[slot] = min(taken[slot] + supplied * volume[slot] / area, before[slot, 0])
         soil[node] = before[slot, 0] - taken[slot]
         elevation[node] = before[slot, 1] - taken[slot]
         eroded_depth[node] = before[slot, 2] + taken[slot]

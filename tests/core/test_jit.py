@@ -39,6 +39,28 @@ def test_as_before_after_an_error(collects):
     assert gc.isenabled() == collects
 
 
+def test_what_was_made_is_old_and_can_still_be_collected():
+    gc.collect()
+    with compiling():
+        made = [[] for _ in range(2000)]  # more than make a collection due
+    assert gc.isenabled() and gc.get_freeze_count() == 0
+    assert not any(one is made for one in gc.get_objects(generation=0))
+    made.append(made)
+    del made
+    assert gc.collect() > 0
+
+
+def test_what_somebody_has_frozen_stays_frozen():
+    gc.freeze()
+    try:
+        frozen = gc.get_freeze_count()
+        with compiling():
+            pass
+        assert gc.get_freeze_count() == frozen > 0
+    finally:
+        gc.unfreeze()
+
+
 def test_off_until_the_last_thread_has_compiled(collects):
     begun, may_end = Event(), Event()
 

@@ -1,12 +1,15 @@
 """What a flow tells its columns with dilatancy: load on curved ground, soil, inflow; and what it reads from them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from landlab_debrisflow import DebrisFlow, Material
-from landlab_debrisflow.laws import Dilatancy
+from landlab_debrisflow.laws import ALE, Dilatancy
 from landlab_debrisflow.model.basal import shear_per_speed
+from landlab_debrisflow.model.phases.one_phase import OnePhaseDynamics
 from validation.grids import COARSE, inclined, place, release_cap, throw
 
 TIGHT = {"law": "ale", "dilatancy": {"permeability": 0.0}}
@@ -44,6 +47,14 @@ def test_soil_brings_the_solid_fraction_of_the_bed():
     fraction = flow.columns.solid_fraction.values
     assert_allclose(fraction[:, -1], 0.6, rtol=1e-12)
     assert 0.61 < fraction[:, 0].max() <= 0.7
+
+
+def test_the_coefficient_of_consolidation_has_no_gaps():
+    """Kernels would be compiled twice: for the coefficient of a law, and for a part of the memory of columns."""
+    column = ALE(dilatancy={"permeability": 1e-10})
+    p = SimpleNamespace(column_memory=np.ones((3, column.memory_size)))
+    coefficient = OnePhaseDynamics(Material(), column).coefficient_of_consolidation(p, slice(3))
+    assert coefficient.shape == (3,) and coefficient.flags.c_contiguous
 
 
 def test_the_coefficient_of_consolidation_is_that_of_the_base():

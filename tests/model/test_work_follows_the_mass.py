@@ -1,10 +1,13 @@
 """The work of a step is that of the flow, whatever the raster around it."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
+from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.grid.fields import OUTPUT_PREFIX
-from validation.rasters import touched_by, valley
+from validation.rasters import raster, touched_by, valley
 
 SHIFT = 6
 SCENE = {"spacing": 4.0, "foot": 38, "axis": 38, "top": 35, "radius": 6.0, "particles": 150}
@@ -48,3 +51,31 @@ def test_nothing_else_changes(runs):
     for name in fresh.at_node:
         now, before = (grid.at_node[name].reshape(grid.shape)[outside] for grid in (large.grid, fresh))
         assert np.array_equal(now, before), name
+
+
+BESIDES = 2 * 8.0 + 2 * 8.0 + 8.0 + 4.0 + 1.0
+"""Bytes per node that a component may hold besides its fields: depths eroded and settled in all calls, elevation as the
+last call left it and as the surface it interpolates, depth eroded in the event, slot of a node, its status."""
+
+
+def memory_besides_fields(nodes):
+    """Return the memory of a component besides the fields that it adds, after a call [B]."""
+    scene = {name: value for name, value in SCENE.items() if name != "particles"}
+    grid = raster(nodes=nodes, offset=SHIFT, **scene)
+    before, _ = set(grid.at_node), grid.core_nodes  # which a fixture of all tests reads, and Landlab keeps
+    tracemalloc.start()
+    try:
+        flow = DebrisFlow(grid, numerics={"particle_count": 40})
+        flow.run_one_step(2.0)
+        assert flow.budget["eroded"] > 0.0
+        return tracemalloc.get_traced_memory()[0] - sum(grid.at_node[n].nbytes for n in set(grid.at_node) - before)
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.slow
+def test_memory_besides_the_fields_is_that_of_the_flow():
+    memory_besides_fields(60)  # loads what the first call loads
+    small, large = memory_besides_fields(300), memory_besides_fields(600)
+    # of rows that the flow passes, values are kept in case of an error: some 25 rows of 17 arrays, 4 B per node here
+    assert (large - small) / (600.0**2 - 300.0**2) < BESIDES + 5.0

@@ -48,7 +48,8 @@ class OnePhaseDynamics:
         `p` are all particles and `which` places of n.
         """
         if self._column is not None:
-            return self._column.at_base(p.column_memory[which]).coefficient_of_consolidation
+            # a copy without gaps: kernels are compiled for arrays without gaps, and anew for any other
+            return self._column.at_base(p.column_memory[which]).coefficient_of_consolidation.copy()
         return self._coefficient
 
     def after_summation(self, p, exchange, cells) -> None:
