@@ -21,7 +21,7 @@ COUNTS = 250, 500, 1000, 2000, 4000, 8000
 AROUND = 0.97, 0.985, 1.0, 1.015, 1.03
 FINEST, SHORTER = (15_700, 16_000, 16_300), 4
 MEASURES = {
-    "run_out": "run-out (99 % of the deposit) [m]", "centre": "centre of the deposit [m]", "eroded": "eroded volume [m³]"
+    "run_out": "run-out (99 % of the deposit) [m]", "centre": "centre of deposit [m]", "eroded": "eroded volume [m³]"
 }  # fmt: skip
 
 
