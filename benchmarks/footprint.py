@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from landlab_debrisflow.spatial.cells import sort_into_cells
+from landlab_debrisflow.spatial.footprints import on_nodes
 from landlab_debrisflow.spatial.packing import Position
 from landlab_debrisflow.spatial.raster import CORE, Raster
 from landlab_debrisflow.spatial.summation import SMOOTHING_RATIO, SummationInput, Sums, sum_over_neighbours
@@ -90,7 +91,7 @@ def sharpened(raster, x, y, volume, depth):
     """Return the volume at nodes, shape (nodes,) [m3], of particles with footprints that end at the edge."""
     sums = np.zeros((raster.status.size, 1))
     footprints = Cover(raster).footprints(x, y, volume, depth, np.ones(x.size))
-    scatter(footprints, volume[:, None], sums, np.empty(raster.status.size, np.int64))
+    scatter(on_nodes(footprints), volume[:, None], sums, np.empty(raster.status.size, np.int64))
     return sums[:, 0]
 
 

@@ -45,6 +45,14 @@ def steps(particles, duration, **keywords) -> float:
     return timed(flow.run_one_step, duration)
 
 
+def a_step(particles, **keywords) -> float:
+    """Time one of the steps of a second, two seconds after the release: all that a call does, over its steps."""
+    flow = gully(particles, **keywords)
+    flow.run_one_step(2.0)
+    before = flow.diagnostics.steps
+    return timed(flow.run_one_step, 1.0) / (flow.diagnostics.steps - before)
+
+
 def placing(particles) -> float:
     return timed(gully(particles, **BARE).run_one_step, 1e-9)
 
@@ -100,6 +108,8 @@ SCENES = {
     "steps of 1500": partial(steps, 1500, 20.0),
     "steps of 6000": partial(steps, 6000, 5.0),
     "two phases of 600": partial(steps, 600, 20.0, flow="two_phase"),
+    "a step of 10000 in one phase": partial(a_step, 10000),
+    "a step of 10000 in each of two phases": partial(a_step, 10000, flow="two_phase"),
     "event of 60 s, 800 particles": partial(event, 800),
     "either column, 41 levels, 60 s, 800": partial(both_columns, 800),
     "inflow": partial(inflow, 30.0),

@@ -14,18 +14,20 @@ import numpy as np
 
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.cli.demo import MATERIAL
+from landlab_debrisflow.core.lanes import LANES
 from landlab_debrisflow.grid import grid_bed, read, write
 from landlab_debrisflow.model import activity, peak_maps, simulation, step
 from landlab_debrisflow.model.release import release
 from landlab_debrisflow.physics.flow import one_phase
 from landlab_debrisflow.scene import tsing_shan_valley
 from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.packing import LANES, Position, copy_neighbourhood, empty_packed
+from landlab_debrisflow.spatial.groups import find_candidates, group
+from landlab_debrisflow.spatial.packing import Position, empty_packed, quantum_of
 from landlab_debrisflow.spatial.summation import SummationInput, Sums, _pack, sum_over_neighbours
 from landlab_debrisflow.terrain import bed
 from validation.cases.planes import similarity_body
 
-FLOPS = 63
+FLOPS = 64
 """Floating-point operations for a pair in summation._sum, minima and maxima among them, a reciprocal root as two."""
 
 
@@ -102,32 +104,29 @@ def sums(flow, repeats) -> SumRate:
 
 def pairs(cells, given):
     """Return how many pairs per particle are computed, and how many of them are in reach of one another."""
-    n, packed = given.volume.size, empty_packed(cells, values=10)
-    _pack(cells.order, (tuple(given.position), *given[1:]), packed)
-    found = _count(tuple(cells), packed)
-    return found[0] / n, found[1] / n
+    groups, packed = group(cells), empty_packed(given.volume.size, 10, quantum_of(cells))
+    _pack((tuple(given.position), *given[1:]), 1.0, packed)
+    found = _count(tuple(groups), tuple(cells), packed)
+    return found[0] / given.volume.size, found[1] / given.volume.size
 
 
 @numba.njit
-def _count(cells, packed):
-    _, _, _, start, _, _, _, _, _ = cells
-    places, values, quantum = packed
-    room = places.shape[1] + LANES
-    near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
-    scratch, computed, acting = (near_places, near, quantum), 0, 0
-    for cell in range(start.size - 1):
-        if start[cell] == start[cell + 1]:
-            continue
-        m = copy_neighbourhood(cell, cells, packed, scratch)
-        computed += m * (start[cell + 1] - start[cell])
-        for k in range(start[cell], start[cell + 1]):
-            for j in range(m):
-                r2 = 0.0
+def _count(groups, cells, packed):
+    first, last, _, _ = groups
+    order, sorted_places = cells[6], cells[9]
+    places, values, _ = packed
+    near, computed, acting = np.empty(order.size + LANES, np.uint32), 0, 0
+    for g in range(first.size):
+        m = find_candidates(g, groups, sorted_places, cells, near)
+        computed += m * LANES
+        for k in range(first[g], last[g]):
+            i = order[k]
+            for s in range(m):
+                r2, j = 0.0, order[near[s]]
                 for axis in range(3):
-                    r2 += float(np.int32(places[axis, k] - near_places[axis, j])) ** 2
-                inverse = values[3, k] if near[9, j] == 0.0 else min(values[3, k], near[3, j])
-                if near[9, j] != 0.0 and r2 * inverse * inverse < 1.0:
-                    acting += 1
+                    r2 += float(np.int32(places[axis, i] - places[axis, j])) ** 2
+                inverse = min(values[3, i], values[3, j])
+                acting += r2 * inverse * inverse < 1.0
     return computed, acting
 
 

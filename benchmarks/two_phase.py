@@ -2,13 +2,22 @@
 
 The strips and the errors are those of `validation.cases.two_phase_strips`. Keeps two_phase_errors.json and two_phase.nc
 in benchmarks/results, from which benchmarks/two_phase.txt and docs/figures/two_phase.png are made.
+
+``python -m benchmarks.two_phase --partners`` compares flows in which grains keep their partners for 1 to 32 steps,
+``--columns`` counts the columns that grow in a step.
 """
 
 import argparse
+import time
+from unittest import mock
 
+import numpy as np
 import xarray as xr
 
 from benchmarks import charts, result_files, style
+from benchmarks.speed_against_scenes import gully
+from landlab_debrisflow.model.phases import two_phase
+from landlab_debrisflow.physics.column.schemes.lazy import advance
 from validation.cases import two_phase_strips as strips
 
 COUNTS = (500, 2000, 8000)
@@ -88,6 +97,47 @@ def chart():
     return figure
 
 
+def compare_partners(counts=(500, 2000), kept=(1, 4, 8, 16, 32)) -> None:
+    """Print errors, and places of both phases against those with new partners in every step, by steps with partners."""
+    print(f"{'case':16s}{'N':>6s}{'steps':>7s}{'kept':>6s}" + "".join(f"{name:>9s}" for name in QUANTITIES)
+          + "   centre and 99 % of grains, of water, against kept 1 [mm]")  # fmt: skip
+    for name in strips.PLACES:
+        for count in counts:
+            start = None
+            for steps_kept in kept:
+                with mock.patch.object(two_phase, "STEPS_WITH_PARTNERS", steps_kept):
+                    flow, _, steps = strips.run(name, count)
+                found = [strips.profile(flow, phase) for phase in strips.PHASES]
+                places = np.array([(np.average(s, weights=v), np.quantile(s, 0.99)) for s, _, _, v in found]).ravel()
+                start = places if start is None else start
+                print(f"{name:16s}{count:6d}{steps:7d}{steps_kept:6d}"
+                      + "".join(f"{error:9.4f}" for error in strips.errors(flow, name))
+                      + "".join(f"{1e3 * moved:8.2f}" for moved in places - start), flush=True)  # fmt: skip
+
+
+def count_columns(particles=10_000) -> None:
+    """Print how many columns over eroding bases are updated in a step, and for readings of the mean, and the cost."""
+    grow = advance.grow
+    for law in ("one_phase", "two_phase"):
+        for begin in (2.0, 6.0):
+            flow, done = gully(particles, flow=law), {False: [0, 0.0], True: [0, 0.0]}
+            flow.run_one_step(begin)
+            before = flow.diagnostics.steps
+
+            def counted(columns, selected, present, ending, *others, done=done):
+                start = time.process_time()
+                grow(columns, selected, present, ending, *others)
+                spent = done[ending]
+                spent[0], spent[1] = spent[0] + selected.size, spent[1] + time.process_time() - start
+
+            with mock.patch.object(advance, "grow", counted):
+                flow.run_one_step(1.5)
+            per_step = 1.0 / (particles * (flow.diagnostics.steps - before))
+            words = (f"{100.0 * number * per_step:5.1f} % ({1e6 * cpu / max(number, 1):.2f} us each)"
+                     for number, cpu in done.values())  # fmt: skip
+            print(f"{law:10s} after {begin:g} s, of {particles}: updated {next(words)}, read or switched {next(words)}")
+
+
 def main(counts=COUNTS) -> None:
     """Measure, keep, and draw."""
     rows, flows = measure(counts)
@@ -104,4 +154,10 @@ def main(counts=COUNTS) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("counts", nargs="*", type=int, default=COUNTS, help="particles of each phase; keeps nothing")
-    main(tuple(parser.parse_args().counts))
+    parser.add_argument("--partners", action="store_true", help="compare numbers of steps with the same partners")
+    parser.add_argument("--columns", action="store_true", help="count the columns that grow in a step")
+    chosen = parser.parse_args()
+    if chosen.partners or chosen.columns:
+        compare_partners() if chosen.partners else count_columns()
+    else:
+        main(tuple(chosen.counts))

@@ -232,7 +232,8 @@ def mixed(tmp_path_factory):
         ("awake", lambda n: n - 1, "of two phases nothing sleeps"),
         ("partners_of", lambda n: n[::-1] * 0, "are not grains and the water around them"),
         ("partners_index", np.zeros_like, "are not grains and the water around them"),
-        ("partners_count", lambda n: n + 33, r"partners_count has numbers outside \[0, 33\)"),
+        ("partners_count", lambda n: -n, r"partners_count has numbers outside \[0, "),
+        ("partners_count", lambda n: n // 2, "partners_count does not fit partners_index"),
         ("particle_phase", lambda n: n + 1, r"particle_phase has numbers outside \[0, 2\)"),
     ],
 )

@@ -8,7 +8,7 @@ import numpy as np
 from landlab_debrisflow import DebrisFlow
 from landlab_debrisflow.model import step
 from landlab_debrisflow.record.observers import EVERY_STEP
-from landlab_debrisflow.spatial.partners import Partners
+from landlab_debrisflow.terrain.bed import Bed
 from validation.grids import inclined, release_slab
 
 SURGES = {
@@ -91,9 +91,9 @@ def build(name, observers=(), **grid):
     return DebrisFlow(make(**grid), **(keywords | {"numerics": numerics}), observers=observers)
 
 
-SCRATCH = {"_touched", "_granted", "_scratch", "_before", "_last", "cpu"}
-"""Arrays that are written before they are read, what was found last and is found anew if it does not fit, and what it
-took on this machine."""
+SCRATCH = {"_touched", "_granted", "_scratch", "_demand", "_sums", "_taken", "_before", "_cover", "_last", "cpu"}
+"""Arrays that are written before they are read, or 0 between two uses; what was found last and is found anew if it does
+not fit; accounts of a bed by slot, which are compared by node; and what it took on this machine."""
 
 HISTORY = {"interrupted", "interruption", "_interruption"}
 """What a flow may go back to, and what was the matter in its last call."""
@@ -117,9 +117,6 @@ def _collect(place, value, found, seen):
         found[place] = repr(value)
     elif id(value) in seen or callable(value):
         return
-    elif isinstance(value, Partners):  # each has as many as it counts
-        filled = np.arange(value.index.shape[1]) < value.count[:, None]
-        _collect(place, [value.of, value.count, value.index[filled], value.weight[filled]], found, seen)
     elif isinstance(value, dict | list | tuple):
         items = dict(value) if isinstance(value, dict) else dict(enumerate(value))
         found[place] = repr(list(items))
@@ -127,6 +124,8 @@ def _collect(place, value, found, seen):
             _collect(f"{place}[{key!r}]", each, found, seen)
     else:
         seen.add(id(value))
+        if isinstance(value, Bed):
+            _collect(f"{place}.variables", value.variables(), found, seen)
         attributes = {name: each for name, each in vars(value).items() if name not in SCRATCH | HISTORY}
         found[place] = repr(sorted(attributes))
         for name, each in attributes.items():

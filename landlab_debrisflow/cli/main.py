@@ -102,9 +102,12 @@ def _parser():
 def _demo(arguments):
     from rich.console import Console
 
+    from ..core.compilations import compilations
+    from ..record.monitor import COMPILING
     from .demo import run_demo  # matplotlib and landlab load slowly: `info` does without
 
-    run_demo(arguments.particles, arguments.output_dir, Console())
+    with compilations(lambda: print(COMPILING, file=sys.stderr, flush=True)):
+        run_demo(arguments.particles, arguments.output_dir, Console())
 
 
 if __name__ == "__main__":

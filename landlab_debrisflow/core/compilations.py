@@ -7,14 +7,16 @@ from .jit import events
 
 
 class _Listener(events.Listener):
-    """Calls a function when numba begins to compile a kernel that it did not find in its cache."""
+    """Calls a function once, when numba begins to compile the first kernel that it did not find in its cache."""
 
     def __init__(self, notify: Callable[[], None]):
-        self._notify = notify
+        self._notify, self._notified = notify, False
 
     def on_start(self, event):
-        """Notify of a compilation that begins."""
-        self._notify()
+        """Notify of the first compilation that begins."""
+        if not self._notified:
+            self._notified = True
+            self._notify()
 
     def on_end(self, event):
         """Let a compilation end."""
@@ -22,14 +24,15 @@ class _Listener(events.Listener):
 
 @contextmanager
 def compilations(notify: Callable[[], None]) -> Iterator[None]:
-    """Call `notify` whenever the compilation of a kernel begins within a block; kernels from the cache are loaded.
+    """Call `notify` when the first compilation of a kernel within a block begins; kernels from the cache are loaded.
 
     Examples
     --------
     >>> begun = []
     >>> with compilations(lambda: begun.append("compiling")):
-    ...     with events.trigger_event("numba:compile"):  # as numba does
-    ...         pass
+    ...     for kernel in range(2):
+    ...         with events.trigger_event("numba:compile"):  # as numba does
+    ...             pass
     >>> begun
     ['compiling']
     """

@@ -5,6 +5,7 @@ from collections import ChainMap
 import numpy as np
 
 from ..core.errors import InputError
+from ..model.state_dataset import LATER
 from ..model.time_step import StepLimits
 from ..physics.contracts import WATER
 
@@ -26,8 +27,8 @@ LOADED_BED = {
     "bed_pressure_load": ("y", "x"), "bed_pressure_ratio": ("y", "x"),
 }  # fmt: skip
 PARTNERS = {
-    "partners_of": ("grain",), "partners_count": ("grain",), "partners_index": ("grain", "partner"),
-    "partners_weight": ("grain", "partner"), "partners_generation": ("generation",),
+    "partners_of": ("grain",), "partners_count": ("grain",), "partners_index": ("pair",), "partners_weight": ("pair",),
+    "partners_generation": ("generation",),
 }  # fmt: skip
 SOIL_KEPT = {
     "budget_stretches": ("budget_stretch", "budget_begin_and_end"),
@@ -71,7 +72,9 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
     InputError
         If a variable is missing, of another type or shape, or has a number that cannot be.
     """
+    later = {prefix + name for name in LATER}
     names = [name for name in template.variables if "field" not in template[name].attrs]
+    names = [name for name in names if name in dataset or name not in later]
     for group in TOGETHER:
         names += group if any(name in dataset for name in group) else ()
     running = "call_end" in dataset
@@ -131,7 +134,7 @@ def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
         }  # fmt: skip
     if "partners_of" in read:
         ranges |= {"partners_of": (0, count), "partners_index": (0, max(count, 1))}
-        ranges["partners_count"] = (0, read["partners_index"].shape[1] + 1)
+        ranges["partners_count"] = (0, read["partners_index"].size + 1)
     for name, (least, end) in ranges.items():
         values = read.get(name, np.zeros(0, int))
         if values.dtype.kind not in "iub" or np.any((values < least) | (values >= end)):
@@ -153,10 +156,11 @@ def _check_numbers(read, prefix, raster_shape, inflow_rows, running) -> None:
 def _check_partners(read, prefix) -> None:
     """Refuse grains without their partners among the water, and two phases of which anything sleeps."""
     of, index, phase = read["partners_of"], read["partners_index"], read[f"{prefix}phase"]
-    filled = np.arange(index.shape[1]) < read["partners_count"][:, None]
+    if read["partners_count"].sum() != index.size:
+        _refuse("partners_count does not fit partners_index")
     if read["awake"] != phase.size:
         _refuse("of two phases nothing sleeps, but awake is not the number of particles")
-    if np.unique(of).size != of.size or np.any(phase[of] == WATER) or np.any(phase[index[filled]] != WATER):
+    if np.unique(of).size != of.size or np.any(phase[of] == WATER) or np.any(phase[index] != WATER):
         _refuse("partners_of and partners_index are not grains and the water around them")
 
 

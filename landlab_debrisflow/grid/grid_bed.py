@@ -135,7 +135,7 @@ class GridBed:
             bed.pore_pressure.set_variables(pressure)
         shape, closed = terrain.shape, terrain.status == CLOSED
         surface = Surface(bed.elevation_before.reshape(shape), terrain.spacing, closed.reshape(shape))
-        lowered = np.flatnonzero(bed.taken)
+        lowered, _ = bed.lowered
         surface.move_to(lowered, bed.elevation[lowered])
         self.surface = bed.surface = surface
         return bed
@@ -162,9 +162,9 @@ class GridBed:
         """Note elevation and erosion at the end of a call, which changed them at some nodes only."""
         self.elevation[nodes] = bed.elevation[nodes]
         if self.event_eroded is None:
-            self.event_eroded = bed.taken
-        else:
-            self.event_eroded[nodes] += bed.taken[nodes]
+            self.event_eroded = np.zeros(bed.elevation.size)
+        lowered, depth = bed.lowered
+        self.event_eroded[lowered] += depth
 
     def restore_surface(self, elevation, nodes: slice) -> None:
         """Move the surface to an elevation [m] at some nodes that was put back."""

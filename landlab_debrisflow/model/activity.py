@@ -15,10 +15,13 @@ from .column_forcing import ColumnPhysics, column_forcing, column_state, present
 STEPS_BETWEEN_CHECKS = 16
 """Number of steps between two searches for particles that may fall asleep: a search costs little, but not nothing."""
 
+NONE = np.empty(0, np.int64)
+"""Places of no particles."""
+
 
 def disturbed(p):
     """Return the places of particles asleep whose sums over neighbours are redone in this step."""
-    return p.awake + np.flatnonzero(p.summed[p.awake :])
+    return NONE if p.awake == p.count else p.awake + np.flatnonzero(p.summed[p.awake :])
 
 
 def wake(p, places) -> None:
@@ -47,6 +50,8 @@ def catch_up(p, time: float, columns: ColumnPhysics, places=None) -> None:
     `p` are all particles; `places` are sorted places of particles asleep, int; None: all of these.
     """
     places = np.arange(p.awake, p.count) if places is None else places
+    if places.size == 0:
+        return
     since = p.asleep_since[places]
     for began in np.unique(since[since < time]):
         for place in _stretches(places[since == began]):

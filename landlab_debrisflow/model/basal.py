@@ -72,8 +72,8 @@ class BasalLaw(NamedTuple):
         Parameters in SI units (`core.parameters.on_nodes`).
     material : Material
         Densities, porosity and gravity.
-    spacing : float
-        Smaller node spacing of the raster [m].
+    weighing : tuple
+        Constants by which the flow weighs on the bed, a `Weighing`.
     variables : tuple of Variable
         Variables per particle that the law brought.
     varies : bool
@@ -85,7 +85,7 @@ class BasalLaw(NamedTuple):
     law: Any
     parameters: Any
     material: Any
-    spacing: float
+    weighing: tuple
     variables: tuple
     varies: bool
     dilatant_column: Any
@@ -112,20 +112,18 @@ def basal_state(
         Whether the call is no part of a step: the law's variables are then copies.
     """
     material = basal.material
-    depth, thickness, density = p.depth[which], p.thickness[which], p.density[which]
+    thickness, density = p.thickness[which], p.density[which]
     pressure = p.basal_excess_pore_pressure[which] if pressure is None else pressure
     load = BedLoad(thickness=thickness, density=density, pressure=pressure)
-    weighing = weighing_on(material, basal.spacing)
-    first = which.start or 0
     speed, normal_gravity, effective = press_on_bed(
-        first, p.velocity, p.surface_sample, p.cos_slope, load, weighing
+        which.start or 0, p.velocity, p.surface_sample, p.cos_slope, load, basal.weighing
     )  # fmt: skip
     parameters = basal.parameters
     if basal.varies:
         here = (values if values.size == 1 else values[p.nearest_node[which]] for values in parameters)
         parameters = type(parameters)(*here)
     return BasalState(
-        depth=depth,
+        depth=p.depth[which],
         thickness=thickness,
         speed=speed,
         density=density,

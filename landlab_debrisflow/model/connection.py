@@ -37,7 +37,8 @@ def find_bodies(x, y, z, support):
     cells = sort_into_cells(x, y, support)
     parent = np.arange(x.size)
     spheres = Spheres(x=x, y=y, z=z, support=support)
-    _join(spheres, cells.columns, cells.order, cells.start, cells.window, parent)
+    window = np.ceil(cells.reach / cells.size).astype(int)
+    _join(spheres, cells.columns, cells.order, cells.start, window, parent)
     return np.unique(parent, return_inverse=True)[1]
 
 
@@ -84,8 +85,10 @@ def _join(spheres, columns, order, start, window, parent):
     Parameters
     ----------
     spheres : Spheres
-    columns, order, start, window
+    columns, order, start
         As in `spatial.cells.Cells`.
+    window : ndarray of int, shape (cells,)
+        Number of cells in x and in y within which neighbours may lie.
     parent : ndarray of int, shape (n,)
         Each particle itself, on entry.
     """

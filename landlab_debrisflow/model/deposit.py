@@ -34,8 +34,11 @@ def extent(p, origins, inflow, raster) -> tuple[float, float]:
     `p` are the particles, `origins` the places of mass that has never moved, `inflow` the inflow to come, `raster` the
     nodes.
     """
-    ends = [(p.y.min(), p.y.max())] if p.y.size else []
+    south, north = (p.y.min(), p.y.max()) if p.y.size else (np.inf, -np.inf)
     if nodes := origins.span:  # nodes to which mass that never moved may return
-        ends.append((nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy))
-    ends += [source.y_range for source in inflow.sources if not inflow.over]
-    return min((a for a, _ in ends), default=np.inf), max((b for _, b in ends), default=-np.inf)
+        first, last = nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy
+        south, north = min(south, first), max(north, last)
+    for source in () if inflow.over else inflow.sources:
+        first, last = source.y_range
+        south, north = min(south, first), max(north, last)
+    return south, north

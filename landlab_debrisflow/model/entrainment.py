@@ -1,4 +1,9 @@
-"""Entrainment: the soil that a flow asks of the bed, takes, and mixes in."""
+"""Entrainment: the soil that a flow asks of the bed, takes, and mixes in.
+
+A particle asks for soil, and gets it, where it is in the middle of the step: halfway along its drift. Soil taken where
+the step begins would lie half a step too far back, and make erosion of first order in the time step wherever the ground
+changes: at an edge of erodible soil by half a step of travel.
+"""
 
 from typing import NamedTuple
 
@@ -9,6 +14,7 @@ from ..core.jit import kernel
 from ..core.structs import struct
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
+from ..spatial.raster import CORE, nearest_node
 from .basal import BasalLaw, basal_state
 
 
@@ -100,13 +106,17 @@ class Erosion(NamedTuple):
     peclet_number: np.ndarray
 
 
+EROSION_TIME = 0.5
+"""Time within a step at which soil is taken, over the length of the step: the middle makes it second-order."""
+
+
 def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance, time: float, dt: float):
     """Take soil from the bed into the particles that are awake.
 
     Parameters
     ----------
     p : Particles
-        All particles.
+        All particles, before their drift; their nearest nodes become those of the middle of the step.
     exchange : Exchange
         State of the exchange between grains and water.
     bed : Bed
@@ -127,17 +137,21 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
     ndarray, shape (awake,)
         Velocity after over velocity before [-].
     """
-    awake, material = slice(p.awake), erosion.material
-    rate, demanded = np.zeros(p.awake), np.empty(p.awake)
-    erosion.law.entrainment_rate(_erosion_state(p, bed, erosion, resistance), rate)
-    rate[prescribed] = 0.0
+    bearing, material = phases.bearing(p), erosion.material
+    x, y = p.x.copy(), p.y.copy()
+    if bed.soil is not None:
+        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
+    rate = np.zeros(bearing.stop)
+    demanded = np.empty(rate.size)
+    erosion.law.entrainment_rate(_erosion_state(p, bearing, bed, erosion, resistance), rate)
+    rate[prescribed[prescribed < rate.size]] = 0.0
     phases.limit_entrainment(exchange, rate)
-    np.divide(rate * p.volume[awake], p.depth[awake] * p.share[awake], out=demanded)
+    np.divide(rate * p.volume[bearing], p.depth[bearing] * p.share[bearing], out=demanded)
     demanded *= dt
-    p.entrained_volume[awake] = p.entrained_ratio[awake] = 0.0
+    p.entrained_volume[bearing] = p.entrained_ratio[bearing] = 0.0
     if bed.soil is not None and demanded.any():
-        footprints = bed.footprints(p)
-        p.entrained_volume[awake], p.entrained_ratio[awake] = bed.erode(footprints, demanded)
+        footprints = bed.footprints(p, x, y)
+        p.entrained_volume[bearing], p.entrained_ratio[bearing] = bed.erode(footprints, demanded)
         if bed.saturation is not None:
             dry_pores(p, bed, material)
     # the friction of the flow already contains the momentum of soil that a jump condition gives: as if it slipped along
@@ -148,23 +162,24 @@ def entrain(p, exchange, bed, erosion: BasalLaw, phases, prescribed, resistance,
     )  # fmt: skip
     layer = Layer(
         depth=p.depth, thickness=p.thickness, share=p.share, cosine=p.cos_slope,
-        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, awake),
+        coefficient_of_consolidation=phases.coefficient_of_consolidation(p, bearing),
     )  # fmt: skip
     mixture = Mixture(volume=p.volume, porosity=p.porosity, density=p.density)
     erosion_record = Erosion(
         rate=p.entrainment_rate, first_time=p.first_erosion_time, peclet_number=p.basal_peclet_number
     )
-    velocity_ratio = _mix(p.entrained_volume[awake], soil, layer, mixture, erosion_record, time, dt)
+    velocity_ratio = np.ones(p.awake)
+    velocity_ratio[bearing] = _mix(p.entrained_volume[bearing], soil, layer, mixture, erosion_record, time, dt)
     phases.share_entrained(p, exchange)
     return velocity_ratio
 
 
-def _erosion_state(p, bed, erosion: BasalLaw, resistance):
-    """Return the base under particles awake as a law of erosion reads it, a `BasalState`; arguments as in `entrain`."""
-    awake, (yield_stress, drag) = slice(p.awake), resistance
-    nodes = p.nearest_node[awake]
-    state = basal_state(p, awake, erosion, eroded_depth=bed.eroded_in_event(nodes))
-    shear = yield_stress + drag * state.speed
+def _erosion_state(p, bearing: slice, bed, erosion: BasalLaw, resistance):
+    """Return the base under particles `p[bearing]` as a law reads it, a `BasalState`; arguments as in `entrain`."""
+    yield_stress, drag = resistance
+    nodes = p.nearest_node[bearing]
+    state = basal_state(p, bearing, erosion, eroded_depth=bed.eroded_in_event(nodes))
+    shear = yield_stress[bearing] + drag[bearing] * state.speed
     return state._replace(stress=state.stress._replace(shear=shear), bed=_bed_state(bed, nodes))
 
 
@@ -196,6 +211,31 @@ def dry_pores(p, bed, material) -> None:
 
 
 @kernel
+def _go(x, y, velocity, raster, time, nearest):
+    """Move points along straight ways for a time [s], in place, unless they end outside of core nodes.
+
+    Parameters
+    ----------
+    x, y : ndarray, shape (n,)
+        Position of the particles, of which the first m move [m].
+    velocity : ndarray, shape (3, n)
+        Their velocity [m s-1].
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    time : float
+        Duration of the motion [s].
+    nearest : ndarray of int, shape (m,)
+        Node nearest to each, changed in place.
+    """
+    status, columns, rows, dx, dy, _ = raster
+    for i in range(nearest.size):
+        new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
+        node = nearest_node(new_x, new_y, dx, dy, columns, rows)
+        if node >= 0 and status[node] == CORE:
+            x[i], y[i], nearest[i] = new_x, new_y, node
+
+
+@kernel
 def _mix(entrained, soil, layer, mixture, erosion, time, dt):
     """Add entrained soil to the matter of particles, in place.
 
@@ -205,7 +245,7 @@ def _mix(entrained, soil, layer, mixture, erosion, time, dt):
     Parameters
     ----------
     entrained : ndarray, shape (m,)
-        Soil taken by the m particles that are awake; changed to the volume that their own phase keeps [m3].
+        Soil taken by the m particles that bear on the bed; changed to the volume that their own phase keeps [m3].
     soil : Soil
         Soil that the flow takes up.
     layer : Layer

@@ -12,7 +12,20 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import inner, kernel
 from ..core.structs import struct
-from ..spatial.raster import CLOSED, CORE, nearest_node
+from ..spatial.raster import CLOSED, CORE, is_walled, nearest_node, nearest_place
+
+
+@struct
+class Place(NamedTuple):
+    """Place of n particles on the bed, arrays of shape (n,)."""
+
+    x: np.ndarray  # (n,) map coordinates [m]
+    y: np.ndarray  # (n,) [m]
+    z: np.ndarray  # (n,) elevation of the bed below [m]; written
+    cosine: np.ndarray  # (n,) of the slope of the bed [-]; written
+    lowest_z: np.ndarray  # (n,) lowest bed that each has come over [m]; written
+    nearest_node: np.ndarray  # (n,) int; written
+    expected_elevation: np.ndarray  # (n,) at which the kicks leave each [m], from `drift`
 
 
 @struct
@@ -35,11 +48,6 @@ class Resistance(NamedTuple):
     drag: np.ndarray
     mass: np.ndarray
     rest_speed: np.ndarray
-
-
-STILL = 1e-3
-"""Displacement over smoothing length, and relative change of volume, below which the sums over neighbours are not
-computed again: their error is of this order."""
 
 
 @inner
@@ -123,30 +131,34 @@ def drift(position, velocity, velocity_ratio, raster, dt, expected_elevation, to
 
     Returns
     -------
-    ndarray of int, shape (m,)
+    ndarray of int, shape (m,), or shape (0,) if all stay
         Open node over which a particle left, `NO_EXIT` if the particle stays, `NOWHERE` if its position is not a
         number.
     """
     x, y, z = position
-    status, columns, rows, dx, dy = raster
-    exit_node = np.full(velocity_ratio.size, NO_EXIT)
+    status, columns, rows, dx, dy, walled = raster
+    exit_node, leave = np.full(velocity_ratio.size, NO_EXIT), False
     for i in range(exit_node.size):
         expected_elevation[i] = z[i] + 0.5 * dt * velocity[2, i]
         step = 0.5 * dt * (1.0 + velocity_ratio[i])
         new_x, new_y = x[i] + step * velocity[0, i], y[i] + step * velocity[1, i]
         for k in range(3):
             velocity[k, i] *= velocity_ratio[i]
-        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
-        if _is_blocked(here, node, columns, status):  # `stop_at_walls` tested another starting point
-            touched_wall[i] = 1
-            new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
-            velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
+        if not (abs(new_x) < np.inf and abs(new_y) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
+            exit_node[i], leave = NOWHERE, True
+            continue
+        row, column = nearest_place(new_y, dy, rows), nearest_place(new_x, dx, columns)
+        node = row * columns + column
+        if is_walled(row, column, walled, columns):
+            here = nearest_node(x[i], y[i], dx, dy, columns, rows)
+            if _is_blocked(here, node, columns, status):  # `stop_at_walls` tested another starting point
+                touched_wall[i] = 1
+                new_x, new_y, expected_elevation[i], node = x[i], y[i], z[i], here
+                velocity[0, i], velocity[1, i], velocity[2, i] = 0.0, 0.0, 0.0
         x[i], y[i] = new_x, new_y
-        if node < 0:
-            exit_node[i] = NOWHERE
-        elif status[node] != CORE:
-            exit_node[i] = node
-    return exit_node
+        if status[node] != CORE:
+            exit_node[i], leave = node, True
+    return exit_node if leave else exit_node[:0]
 
 
 NO_EXIT, NOWHERE = -1, -2
@@ -175,10 +187,16 @@ def stop_at_walls(x, y, velocity, sample, raster, dt, touched_wall):
         Set to 1 where a closed node stopped the particle; as long as there are particles to stop.
     """
     _, slope_x, slope_y, _, _, _ = sample
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, walled = raster
     for i in range(touched_wall.size):
+        if not (abs(x[i]) < np.inf and abs(y[i]) < np.inf):  # not isfinite(), which reordering breaks (core/jit.py)
+            continue
+        row, column = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
+        if not is_walled(row, column, walled, columns):
+            continue
+        here = row * columns + column
         new_x, new_y = x[i] + dt * velocity[0, i], y[i] + dt * velocity[1, i]
-        here, node = nearest_node(x[i], y[i], dx, dy, columns, rows), nearest_node(new_x, new_y, dx, dy, columns, rows)
+        node = nearest_node(new_x, new_y, dx, dy, columns, rows)
         if _is_blocked(here, node, columns, status):
             touched_wall[i] = 1
             # the rest is the projection on the direction along the wall, which is never faster
@@ -212,17 +230,39 @@ def _is_blocked(here, node, columns, status):
 
 
 @kernel
-def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
-    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane; write its cosine [-] and elevation z [m].
+def follow_bed(sample, velocity, place, raster, gravity, dt):
+    """Turn velocities, shape (3, n) [m s-1], into the new tangent plane, and write the place of the particles on it.
 
     The two half kicks of a step, along the tangents at its ends, do the work -g dt (w + w')/2, w being the vertical
     velocity. This is the trapezoid rule for the true work g (z - z'), apart from a term g_t^2 dt^2/8 that cancels from
     step to step. The difference between true and done work is added to the kinetic energy. Without this correction a
     bed that bends within a step gives a particle energy at every crossing: 1600 m of head in a pit 100 m deep and one
-    node wide (`expected_elevation`, shape (n,) [m], is from `drift`; an empty one means that no particle drifted).
-    `sample` is the `SurfaceSample` of the n particles now; gravity is in m s-2, dt in s.
+    node wide.
+
+    Parameters
+    ----------
+    sample : SurfaceSample
+        Surface of the bed below the n particles now.
+    velocity : ndarray, shape (3, n)
+        Changed in place [m s-1].
+    place : Place
+        Place of the particles, written.
+    raster : Raster
+        Nodes, their statuses and spacing [m].
+    gravity : float
+        Acceleration by gravity [m s-2].
+    dt : float
+        Duration of the drift [s]; 0 if only the bed has changed, which is neither rise nor fall of the flow.
     """
     elevation, slope_x, slope_y, _, _, _ = sample
+    x, y, z, cosine, lowest_z, nearest, expected_elevation = place
+    _, columns, rows, dx, dy, _ = raster
+    # loops of few arrays each: of many, the compiler cannot tell whether they overlap, and makes no vector code
+    for i in range(cosine.size):
+        before = lowest_z[i] + elevation[i] - z[i] if dt == 0.0 else lowest_z[i]
+        lowest_z[i] = min(before, elevation[i])
+    for i in range(cosine.size):
+        nearest[i] = nearest_place(y[i], dy, rows) * columns + nearest_place(x[i], dx, columns)
     for i in range(cosine.size):
         c = 1.0 / np.sqrt(1.0 + slope_x[i] * slope_x[i] + slope_y[i] * slope_y[i])
         cosine[i], z[i] = c, elevation[i]
@@ -233,47 +273,7 @@ def follow_bed(sample, velocity, cosine, z, expected_elevation, gravity, dt):
         u, v, w = u - across * nx, v - across * ny, w - across * nz
         along2 = u * u + v * v + w * w
         factor = np.sqrt(speed2 / along2) if along2 > 1e-12 * speed2 else 0.0
-        if i < expected_elevation.size and speed2 > 0.0:
+        if dt > 0.0 and speed2 > 0.0:
             missing = expected_elevation[i] - z[i] + 0.5 * dt * w * factor
             factor *= np.sqrt(max(0.0, 1.0 + 2.0 * gravity * missing / speed2))
         velocity[0, i], velocity[1, i], velocity[2, i] = u * factor, v * factor, w * factor
-
-
-@kernel
-def count_still_steps(position, volume, smoothing_length, reference_position, reference_volume, still_steps):
-    """Count the steps since each particle moved or grew noticeably, in place.
-
-    Parameters
-    ----------
-    position : Position
-        Position of the particles [m].
-    volume, smoothing_length : ndarray, shape (n,)
-        [m3] and [m]
-    reference_position, reference_volume : ndarray, shape (3, n) and (n,)
-        Position [m] and volume [m3] when the particle last counted as changed.
-    still_steps : ndarray of int, shape (n,)
-    """
-    x, y, z = position
-    for i in range(x.size):
-        at = reference_position[:, i]
-        moved = (x[i] - at[0]) ** 2 + (y[i] - at[1]) ** 2 + (z[i] - at[2]) ** 2
-        grown = abs(volume[i] - reference_volume[i])
-        if moved > (STILL * smoothing_length[i]) ** 2 or grown > STILL * volume[i]:
-            at[0], at[1], at[2], reference_volume[i] = x[i], y[i], z[i], volume[i]
-            still_steps[i] = 0
-        else:
-            still_steps[i] += 1
-
-
-@kernel
-def disturb(x, y, support, gone_x, gone_y, gone_support, still_steps):
-    """Let particles at x, y [m] within the support [m] of particles that have gone count as changed, in place.
-
-    `x`, `y`, `support` have shape (n,), `gone_x`, `gone_y`, `gone_support` shape (m,), all in m; `still_steps`, int,
-    shape (n,), is set to 0 for these particles.
-    """
-    for k in range(gone_x.size):
-        for i in range(x.size):
-            reach = max(support[i], gone_support[k])
-            if (x[i] - gone_x[k]) ** 2 + (y[i] - gone_y[k]) ** 2 < reach * reach:
-                still_steps[i] = 0

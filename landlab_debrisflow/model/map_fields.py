@@ -4,7 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.structs import struct
 
+
+@struct
 class CurrentFields(NamedTuple):
     """Fields of the flow now, each of shape (nodes,): means over the particles at a node, weighted by volume.
 
@@ -17,6 +20,7 @@ class CurrentFields(NamedTuple):
     basal_peclet_number: np.ndarray
 
 
+@struct
 class PeakFields(NamedTuple):
     """Fields of the peaks of the flow so far, each of shape (nodes,).
 
@@ -33,20 +37,24 @@ class PeakFields(NamedTuple):
     max_run_up: np.ndarray
 
 
+@struct
 class Matter(NamedTuple):
     """Matter of n particles, and its motion; arrays of shape (n,), except the velocity, (3, n).
 
-    Volume [m3], density [kg m-3], phase (MIXTURE or WATER), velocity tangent to the bed [m s-1], and height of the
-    surface above the lowest bed that the particle has come over [m].
+    Volume [m3], density [kg m-3], phase (MIXTURE or WATER), velocity tangent to the bed [m s-1], elevation of the bed
+    [m], of the lowest bed that the particle has come over [m], and vertical depth [m].
     """
 
     volume: np.ndarray
     density: np.ndarray
     phase: np.ndarray
     velocity: np.ndarray
-    run_up: np.ndarray
+    z: np.ndarray
+    lowest_z: np.ndarray
+    depth: np.ndarray
 
 
+@struct
 class Base(NamedTuple):
     """Base of n particles: excess pore pressure [Pa], liquefaction pressure [Pa] and Péclet number [-], each (n,)."""
 

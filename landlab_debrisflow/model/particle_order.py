@@ -35,7 +35,7 @@ def sort_by_identity(dataset: xr.Dataset, prefix: str) -> xr.Dataset:
         return ordered
     now = place.size, int(dataset["ever"])
     if tuple(dataset["partners_generation"].values.tolist()) != now:  # partners that have left are never read again
-        return ordered.isel(grain=slice(0))
+        return ordered.isel(grain=slice(0), pair=slice(0))
     number = np.empty_like(place)
     number[place] = np.arange(place.size)
     return _renumber(ordered, number)
@@ -51,8 +51,5 @@ def sort_by_place(dataset: xr.Dataset, prefix: str) -> xr.Dataset:
 
 def _renumber(dataset, number):
     """Return a Dataset in which grains and their partners have other numbers; `number` is int, shape (n,)."""
-    of, count, index = (dataset[f"partners_{name}"].values for name in ("of", "count", "index"))
-    filled = np.arange(index.shape[1]) < count[:, None]
-    return dataset.assign(
-        partners_of=("grain", number[of]), partners_index=(("grain", "partner"), np.where(filled, number[index], 0))
-    )
+    of, index = (number[dataset[f"partners_{name}"].values] for name in ("of", "index"))
+    return dataset.assign(partners_of=("grain", of), partners_index=("pair", index))

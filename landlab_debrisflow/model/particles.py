@@ -1,7 +1,10 @@
-"""The moving mass: a struct of arrays, one entry per particle."""
+"""The moving mass: a struct of arrays, one entry per particle, whose arrays are views of few blocks of memory."""
+
+from typing import ClassVar
 
 import numpy as np
 
+from .particle_blocks import blocks_of
 from .variables import PARTICLE_VARIABLES
 
 
@@ -28,15 +31,38 @@ class Particles:
     (3, 6.0, (3, 3))
     """
 
+    _parts: ClassVar[dict] = {}  # index of every variable in its block
+
     def __init__(self, levels: int, variables=PARTICLE_VARIABLES):
         self.levels, self.variables = levels, tuple(variables)
         self.awake = self.ever = 0  # number of particles awake; number of all particles made so far
         self.departed: Particles | None = None
-        for variable in self.variables:
-            setattr(self, variable.name, self._new(variable, 0))
+        self._blocks = blocks_of(self.variables, levels)
+        self._parts = {name: part for block in self._blocks for name, part in block.parts.items()}
+        self._put([block.new(0, {}) for block in self._blocks])
 
-    def _new(self, variable, count):
-        return np.full(variable.shape(count, self.levels), variable.initial, variable.dtype)
+    def __setattr__(self, name, value):
+        """Write the values of a variable into its block, of which the attribute is a view; set any other attribute."""
+        if name in self._parts:
+            getattr(self, name)[...] = value
+        else:
+            object.__setattr__(self, name, value)
+
+    def _put(self, arrays) -> None:
+        """Take the arrays of all blocks; attributes become views of these."""
+        self._arrays = arrays
+        for block, array in zip(self._blocks, arrays, strict=True):
+            vars(self).update({name: array[part] for name, part in block.parts.items()})
+
+    def __getstate__(self) -> dict:
+        """Return what a pickle holds: the blocks, not the views of them, which would be arrays of their own then."""
+        views = {name for block in self._blocks for name in block.parts}
+        return {name: value for name, value in vars(self).items() if name not in views}
+
+    def __setstate__(self, state) -> None:
+        """Take what a pickle held; attributes become views of its blocks."""
+        vars(self).update(state)
+        self._put(self._arrays)
 
     @property
     def count(self) -> int:
@@ -63,15 +89,16 @@ class Particles:
         first, n = self.awake, self.count
         values["identity"] = self.ever + np.arange(count)
         self.ever += count
-        for variable in self.variables:
-            new = self._new(variable, count)
-            if variable.name in values:
-                new[:] = values[variable.name]
-            setattr(self, variable.name, np.concatenate([getattr(self, variable.name), new], variable.axis))
+        blocks = zip(self._blocks, self._arrays, strict=True)
+        self._put([np.concatenate([array, block.new(count, values)], block.axis) for block, array in blocks])
         self.awake += count
         moved = min(count, n - first)  # particles asleep whose places the new particles take
         self.exchange(first + np.arange(moved), n + count - moved + np.arange(moved))
         return slice(first, first + count)
+
+    def restore(self, values) -> None:
+        """Replace all particles: `values` maps the name of every variable to its array, of any number of particles."""
+        self._put([block.new(values["identity"].size, values) for block in self._blocks])
 
     def exchange(self, these, those) -> None:
         """Exchange the particles at two arrays of int with their places, which have no place in common.
@@ -81,31 +108,32 @@ class Particles:
         if these.size == 0:
             return
         to, of = np.concatenate([these, those]), np.concatenate([those, these])
-        for variable in self.variables:
-            values = getattr(self, variable.name)
-            if variable.components:
-                values[:, to] = values[:, of]
+        for block, array in zip(self._blocks, self._arrays, strict=True):
+            if block.axis:
+                array[:, to] = array[:, of]
             else:
-                values[to] = values[of]
+                array[to] = array[of]
 
     def keep(self, mask) -> None:
         """Remove all particles where `mask` is False."""
         self.awake = int(np.count_nonzero(mask[: self.awake]))
-        for variable in self.variables:
-            setattr(self, variable.name, np.compress(mask, getattr(self, variable.name), variable.axis))
+        self._put(self._taken(np.flatnonzero(mask)))
 
     def copy(self) -> "Particles":
         """Return an independent copy."""
-        return self._like(lambda variable: getattr(self, variable.name).copy())
+        return self._with([array.copy() for array in self._arrays])
 
     def at(self, places) -> "Particles":
         """Return a copy of the particles at `places`, an array of int."""
-        return self._like(lambda variable: np.take(getattr(self, variable.name), places, variable.axis))
+        return self._with(self._taken(places))
 
-    def _like(self, values) -> "Particles":
-        """Return particles with new `values` of every variable, which a function returns."""
+    def _taken(self, places) -> list:
+        """Return copies of the arrays of all blocks with the particles at `places`, an array of int."""
+        return [np.take(array, places, block.axis) for block, array in zip(self._blocks, self._arrays, strict=True)]
+
+    def _with(self, arrays) -> "Particles":
+        """Return particles with other arrays of all blocks."""
         other = object.__new__(Particles)
         vars(other).update(vars(self))
-        for variable in self.variables:
-            setattr(other, variable.name, values(variable))
+        other._put(arrays)
         return other

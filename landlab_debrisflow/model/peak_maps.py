@@ -23,8 +23,10 @@ import numpy as np
 from ..core.jit import kernel
 from ..physics.column.driver import depth_mean
 from ..physics.contracts import WATER
+from ..spatial.footprints import Footprints
 from ..spatial.raster import CLOSED, Raster
-from ..spatial.transfer import Footprints, scatter
+from ..spatial.slots import with_places
+from ..spatial.transfer import scatter
 from .map_fields import CURRENT, PEAKS, PHASES, SOLID_FRACTION, Base, CurrentFields, Matter, PeakFields
 from .particles import Particles
 
@@ -65,8 +67,7 @@ class PeakMaps:
         self._phases = [fields[name] for name in PHASES if name in fields]
         self._solid_fraction = fields.get(SOLID_FRACTION)
         further = FACES * self._walled + (self._solid_fraction is not None)
-        self._sums = np.zeros((raster.status.size, TOWARDS + further))
-        self._scratch = np.empty(raster.status.size, np.int64)
+        self._sums, self._scratch = np.zeros((0, TOWARDS + further)), np.empty(0, np.int64)
         self._under = np.flatnonzero(fields["depth"])  # nodes under the flow at the last update
         # way of the fastest particle since then [m]; time up to which this way is counted [s]
         self._passed, self._then = 0.0, time
@@ -95,14 +96,17 @@ class PeakMaps:
         """Write the fields of now and the peaks that they exceed; `density` is of all particles or of each [kg m-3]."""
         p, self._passed, self._then = particles, 0.0, time
         mixture = () if self._solid_fraction is None else (self._solid_fraction,)
-        for field in (*self._current, *self._phases, *mixture):
+        for field in (*self._phases, *mixture):
             field[self._under] = 0.0
         if p.count == 0:
+            for field in self._current:
+                field[self._under] = 0.0
             self._under = self._under[:0]
             return
+        density = density if np.shape(density) == p.volume.shape else np.full(p.count, density)
         matter = Matter(
-            volume=p.volume, density=np.broadcast_to(density, p.count), phase=p.phase, velocity=p.velocity,
-            run_up=p.z - p.lowest_z + p.depth,
+            volume=p.volume, density=density, phase=p.phase, velocity=p.velocity, z=p.z, lowest_z=p.lowest_z,
+            depth=p.depth,
         )  # fmt: skip
         base = Base(
             pressure=p.basal_excess_pore_pressure, liquefaction_pressure=p.liquefaction_pressure,
@@ -112,19 +116,23 @@ class PeakMaps:
         _weight_by_volume(matter, base, self._walled, values)
         if self._solid_fraction is not None:
             values[:, -1] = p.volume * depth_mean(p.solid_fraction)
-        self._under = scatter(footprints, values, self._sums, self._scratch).copy()
+        *_, node = footprints
+        if self._scratch.size < node.size:
+            self._sums, self._scratch = with_places(self._sums, node.size), np.empty(node.size, np.int64)
+        slots = scatter(footprints, values, self._sums, self._scratch)
+        left, self._under = self._under, node[slots]
         if self._walled:
             least = self._arrival_depth * self._raster.area
-            _record_walls(self._under, self._sums, least, self._raster, self._peaks)
-        self._show_phases(self._under)
+            _record_walls(self._under, slots, self._sums, least, self._raster, self._peaks)
+        self._show_phases(self._under, slots)
         if self._solid_fraction is not None:
-            self._solid_fraction[self._under] = self._sums[self._under, -1] / self._sums[self._under, VOLUME]
+            self._solid_fraction[self._under] = self._sums[slots, -1] / self._sums[slots, VOLUME]
         area = self._raster.area
-        _record(self._under, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
+        _record(left, self._under, slots, self._sums, area, time, self._arrival_depth, self._current, self._peaks)
 
-    def _show_phases(self, at):
+    def _show_phases(self, at, slots):
         for field in self._phases[:1]:
-            whole, way, grains, grain_way = self._sums[at].T[[VOLUME, WAY, GRAINS, GRAIN_WAY]]
+            whole, way, grains, grain_way = self._sums[slots].T[[VOLUME, WAY, GRAINS, GRAIN_WAY]]
             field[at] = grains / self._raster.area
             self._phases[1][at] = np.divide(grain_way, grains, out=np.zeros(at.size), where=grains > 0.0)
             water = whole - grains
@@ -153,31 +161,40 @@ def _weight_by_volume(matter, base, walled, values):
     values : ndarray, shape (n, k)
         Written; in the order of `VOLUME` and those that follow.
     """
-    volume, density, phase, velocity, run_up = matter
+    volume, density, phase, velocity, z, lowest_z, depth = matter
     pressure, liquefaction_pressure, peclet_number = base
     for i in range(volume.size):
-        m, u, v, to = volume[i], velocity[0, i], velocity[1, i], values[i]
+        m, u, v = volume[i], velocity[0, i], velocity[1, i]
         speed2 = u * u + v * v + velocity[2, i] ** 2
-        grains = m if phase[i] != WATER else 0.0  # grains carry the columns
-        to[VOLUME], to[WAY], to[GRAINS], to[GRAIN_WAY] = m, m * np.sqrt(speed2), grains, grains * np.sqrt(speed2)
-        to[PRESSURE], to[LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
-        to[PECLET] = grains * peclet_number[i]
-        to[IMPACT], to[SURFACE] = m * density[i] * speed2, m * run_up[i]
+        speed, grains = np.sqrt(speed2), m if phase[i] != WATER else 0.0  # grains carry the columns
+        values[i, VOLUME], values[i, WAY], values[i, GRAINS], values[i, GRAIN_WAY] = (
+            m,
+            m * speed,
+            grains,
+            grains * speed,
+        )
+        values[i, PRESSURE], values[i, LIQUEFACTION] = grains * pressure[i], grains * liquefaction_pressure[i]
+        values[i, PECLET] = grains * peclet_number[i]
+        values[i, IMPACT], values[i, SURFACE] = m * density[i] * speed2, m * (z[i] - lowest_z[i] + depth[i])
         if walled:
             momentum = m * density[i]
-            to[TOWARDS], to[TOWARDS + 1] = momentum * max(u, 0.0) ** 2, momentum * min(u, 0.0) ** 2
-            to[TOWARDS + 2], to[TOWARDS + 3] = momentum * max(v, 0.0) ** 2, momentum * min(v, 0.0) ** 2
+            values[i, TOWARDS] = momentum * max(u, 0.0) ** 2
+            values[i, TOWARDS + 1] = momentum * min(u, 0.0) ** 2
+            values[i, TOWARDS + 2] = momentum * max(v, 0.0) ** 2
+            values[i, TOWARDS + 3] = momentum * min(v, 0.0) ** 2
 
 
 @kernel
-def _record_walls(nodes, sums, least, raster, peaks):
+def _record_walls(nodes, slots, sums, least, raster, peaks):
     """Record impact pressure [Pa] and run-up [m] on closed nodes beside nodes with more than a least volume [m3].
 
     Parameters
     ----------
     nodes : ndarray of int, shape (k,)
         Nodes under the flow.
-    sums : ndarray, shape (nodes, m)
+    slots : ndarray of int, shape (k,)
+        Their slots.
+    sums : ndarray, shape (slots, m)
         Values times volume, in the order of `VOLUME` and those that follow.
     least : float
         [m3]
@@ -186,11 +203,11 @@ def _record_walls(nodes, sums, least, raster, peaks):
     peaks : PeakFields
         Fields of the peaks, written in place.
     """
-    status, columns, rows, _, _ = raster
-    max_impact, max_run_up = peaks.max_impact_pressure, peaks.max_run_up
+    status, columns, rows, _, _, _ = raster
+    _, _, _, _, _, max_impact, max_run_up = peaks
     for k in range(nodes.size):
-        n = nodes[k]
-        if not sums[n, VOLUME] > least:
+        n, slot = nodes[k], slots[k]
+        if not sums[slot, VOLUME] > least:
             continue
         r, c = n // columns, n % columns
         for side in range(4):
@@ -202,19 +219,23 @@ def _record_walls(nodes, sums, least, raster, peaks):
             if 0 <= beside_r < rows and 0 <= beside_c < columns:
                 wall = beside_r * columns + beside_c
                 if status[wall] == CLOSED:
-                    max_impact[wall] = max(max_impact[wall], sums[n, TOWARDS + side] / sums[n, VOLUME])
-                    max_run_up[wall] = max(max_run_up[wall], sums[n, SURFACE] / sums[n, VOLUME])
+                    max_impact[wall] = max(max_impact[wall], sums[slot, TOWARDS + side] / sums[slot, VOLUME])
+                    max_run_up[wall] = max(max_run_up[wall], sums[slot, SURFACE] / sums[slot, VOLUME])
 
 
 @kernel
-def _record(nodes, sums, area, time, arrival_depth, current, peaks):
+def _record(left, nodes, slots, sums, area, time, arrival_depth, current, peaks):
     """Record the flow now and its peaks at nodes under it, and clear their sums.
 
     Parameters
     ----------
+    left : ndarray of int, shape (m,)
+        Nodes under the flow at the update before.
     nodes : ndarray of int, shape (k,)
         Nodes under the flow.
-    sums : ndarray, shape (nodes, m)
+    slots : ndarray of int, shape (k,)
+        Their slots.
+    sums : ndarray, shape (slots, m)
         Values times volume, in the order of `VOLUME` and those that follow; 0 at these nodes on return.
     area : float
         Map area of a node [m2].
@@ -229,20 +250,23 @@ def _record(nodes, sums, area, time, arrival_depth, current, peaks):
     """
     depth, speed, pressure, peclet = current
     max_depth, max_speed, max_ratio, max_peclet, arrival, max_impact, max_run_up = peaks
+    for k in range(left.size):
+        n = left[k]
+        depth[n] = speed[n] = pressure[n] = peclet[n] = 0.0
     for k in range(nodes.size):
-        n = nodes[k]
-        volume = sums[n, VOLUME]
-        depth[n], speed[n] = volume / area, sums[n, WAY] / volume
-        if sums[n, GRAINS] > 0.0:
-            pressure[n], peclet[n] = sums[n, PRESSURE] / sums[n, GRAINS], sums[n, PECLET] / sums[n, GRAINS]
+        n, slot = nodes[k], slots[k]
+        volume = sums[slot, VOLUME]
+        depth[n], speed[n] = volume / area, sums[slot, WAY] / volume
+        if sums[slot, GRAINS] > 0.0:
+            pressure[n], peclet[n] = sums[slot, PRESSURE] / sums[slot, GRAINS], sums[slot, PECLET] / sums[slot, GRAINS]
         if depth[n] > arrival_depth:
             max_depth[n], max_speed[n] = max(max_depth[n], depth[n]), max(max_speed[n], speed[n])
             max_peclet[n] = max(max_peclet[n], peclet[n])
-            if sums[n, LIQUEFACTION] > 0.0:
-                max_ratio[n] = max(max_ratio[n], min(1.0, sums[n, PRESSURE] / sums[n, LIQUEFACTION]))
-            max_impact[n] = max(max_impact[n], sums[n, IMPACT] / volume)
-            max_run_up[n] = max(max_run_up[n], sums[n, SURFACE] / volume)
+            if sums[slot, LIQUEFACTION] > 0.0:
+                max_ratio[n] = max(max_ratio[n], min(1.0, sums[slot, PRESSURE] / sums[slot, LIQUEFACTION]))
+            max_impact[n] = max(max_impact[n], sums[slot, IMPACT] / volume)
+            max_run_up[n] = max(max_run_up[n], sums[slot, SURFACE] / volume)
             if arrival[n] < 0.0:
                 arrival[n] = time
         for v in range(sums.shape[1]):
-            sums[n, v] = 0.0
+            sums[slot, v] = 0.0

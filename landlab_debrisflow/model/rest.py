@@ -232,17 +232,20 @@ def _measure(awake, members, bodies, rest_energy, creep_energy, time):
     body_volume, energy, peak, slow_since = bodies
     for i in range(awake):
         energy[body[i]] += volume[i] * (velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
+    creeps, least = np.zeros(energy.size, np.int64), np.empty(energy.size)
     for b in range(energy.size):
         peak[b] = max(peak[b], energy[b])
-        slow_since[b] = min(slow_since[b], time) if energy[b] <= creep_energy * peak[b] else np.inf
+        if energy[b] <= creep_energy * peak[b]:
+            slow_since[b], creeps[b] = min(slow_since[b], time), 1
+        else:
+            slow_since[b] = np.inf
+        least[b] = np.sqrt(rest_energy * peak[b] / body_volume[b])
     slow, free, touched = 0, 0, False
     for i in range(volume.size):
         if arrested[i] == 0:
-            b = body[i]
-            rest_speed[i] = np.sqrt(rest_energy * peak[b] / body_volume[b])
+            rest_speed[i] = least[body[i]]
             free += 1
-            if energy[b] <= creep_energy * peak[b]:
-                slow += 1
+            slow += creeps[body[i]]
         elif summed[i]:
             touched = True
     return slow, free, touched

@@ -158,8 +158,8 @@ class Simulation:
         state.outdated = False
 
     def _find_limits(self) -> None:
-        rule, gravity = self.surroundings.step_rule, self.setup.material.gravity
-        self.state.limits = step.find_limits(self.particles, self.phases, rule, gravity, self.time)
+        state, near = self.state, self.surroundings
+        state.limits = step.find_limits(self.particles, self.phases, near, state.time, state.control.step)
 
     def _consolidate(self, dt: float) -> None:
         prescribed = self.inflow.prescribed(self.particles)

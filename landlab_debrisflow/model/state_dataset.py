@@ -19,6 +19,9 @@ BESIDE = {
 }
 """Numbers that parts of the state consist of, by part; they are scalars named ``part_number``."""
 
+LATER = ("earlier_thrust",)
+"""Variables of particles that files of earlier versions of the package lack: a new particle's value is as good."""
+
 ORIGINS = {
     "_x": "released", "_y": "released", "_volume": "released",
     "_owner": "released_part", "_node": "released_part", "_part": "released_part",
@@ -45,11 +48,9 @@ def to_dataset(state, prefix: str = "") -> xr.Dataset:
     data["outflow_node"] = ("exit_node", np.array(nodes, np.int64))
     data["outflow_volume"] = ("exit_node", np.array(volumes, float))
     if state.exchange.partners is not None:
-        of, count, index, weight = state.exchange.partners
-        filled = np.arange(index.shape[1]) < count[:, None]  # entries beyond were never written
-        data["partners_of"], data["partners_count"] = ("grain", of), ("grain", count)
-        data["partners_index"] = (("grain", "partner"), np.where(filled, index, 0))
-        data["partners_weight"] = (("grain", "partner"), np.where(filled, weight, 0.0))
+        of, first, index, weight = state.exchange.partners
+        data["partners_of"], data["partners_count"] = ("grain", of), ("grain", np.diff(first))
+        data["partners_index"], data["partners_weight"] = ("pair", index), ("pair", weight)
         data["partners_generation"] = ("generation", np.array(state.exchange.generation, np.int64))
     return xr.Dataset(data)
 
@@ -76,14 +77,19 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     """
     new, read = state.copy(), {name: data.values for name, data in dataset.variables.items()}
     p = new.particles
-    needed = (*(prefix + variable.name for variable in p.variables), "awake", "ever", "time")
+    needed = (
+        *(prefix + variable.name for variable in p.variables if variable.name not in LATER),
+        "awake",
+        "ever",
+        "time",
+    )
     if missing := [name for name in needed if name not in read]:
         raise InputError(
             f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give a Dataset "
             "that to_dataset() of a run with the same setup wrote"
         )
-    for variable in p.variables:
-        setattr(p, variable.name, np.array(read[prefix + variable.name], variable.dtype, order="C"))
+    names = (variable.name for variable in p.variables)
+    p.restore({name: read[prefix + name] for name in names if prefix + name in read})
     p.awake, p.ever = int(read["awake"]), int(read["ever"])
     new.time, new.outdated = float(read["time"]), bool(read["outdated"])
     new.settled_solid = float(read["settled_solid"])
@@ -105,10 +111,14 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     new.origins.span = (int(nodes.min()), int(nodes.max())) if nodes.size else ()
     volumes = zip(read["outflow_node"].tolist(), read["outflow_volume"].tolist(), strict=True)
     new.outflow._at = dict(volumes)
-    new.exchange.partners = new.exchange.generation = None
+    new.exchange.partners = new.exchange.grains = new.exchange.generation = None
     if "partners_of" in read:
-        new.exchange.partners = Partners(*(np.array(read[f"partners_{name}"]) for name in Partners._fields))
-        new.exchange.generation = tuple(read["partners_generation"].tolist())
+        of, count, index, weight = (read[f"partners_{name}"] for name in ("of", "count", "index", "weight"))
+        first = np.concatenate([[0], np.cumsum(count)])
+        partners = Partners(of=np.array(of), first=first, index=np.array(index, np.int32), weight=np.array(weight))
+        age, generation = new.exchange.age, tuple(read["partners_generation"].tolist())
+        new.exchange.keep(partners, p.phase, generation)
+        new.exchange.age = age
     return new
 
 

@@ -17,12 +17,15 @@ from .basal import BasalLaw, basal_resistance
 from .bed_load import load_bed
 from .column_forcing import ColumnPhysics, column_forcing, column_state, present_profiles
 from .entrainment import entrain
-from .kinematics import NOWHERE, count_still_steps, disturb, drift, follow_bed, stop_at_walls
-from .time_step import StepLimits, StepRule, reduce_particles
+from .kinematics import NOWHERE, Place, drift, follow_bed, stop_at_walls
+from .layer import Layer, follow_thickness
+from .stillness import count_still_steps, disturb
+from .surroundings import Surroundings
+from .time_step import NO_FRICTION, StepLimits, reduce_particles
 from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
-"""Number of steps without change (`kinematics.STILL`) after which a particle is left out of the sums over neighbours:
+"""Number of steps without change (`stillness.STILL`) after which a particle is left out of the sums over neighbours:
 its smoothing length has then converged."""
 
 NO_RESISTANCE = np.empty(0), np.empty(0)
@@ -36,7 +39,7 @@ def advance(simulation, dt: float) -> None:
     """Advance the simulation by one step of `dt` seconds."""
     state, phases, setup = simulation.state, simulation.phases, simulation.setup
     p, exchange, inflow, end = state.particles, state.exchange, state.inflow, state.time + dt
-    bed, walls, friction, erosion, columns, rule = simulation.surroundings
+    bed, walls, friction, erosion, columns, _ = simulation.surroundings
     material = setup.material
     clock = state.counters.clock()
     resistance = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
@@ -55,10 +58,10 @@ def advance(simulation, dt: float) -> None:
     load_bed(p, bed, material, end, dt)
     consolidate(p, exchange, columns, inflow.prescribed(p), dt)
     clock.lap(COLUMNS)
-    friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
+    yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, rule, material.gravity, state.time, dt)
+    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, yield_stress)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)
@@ -74,7 +77,8 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     """
     if p.count == 0:  # all particles have left in this step, and the partners are still those of before
         return NO_RESISTANCE
-    yield_stress, drag = basal_resistance(p, slice(p.awake), friction)
+    bearing, (yield_stress, drag) = phases.bearing(p), np.zeros((2, p.awake))
+    yield_stress[bearing], drag[bearing] = basal_resistance(p, bearing, friction)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt)
     if walls is not None:
         stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
@@ -106,24 +110,23 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float) -> Non
     """
     awake = slice(p.awake)
     if p.entrained_volume[awake].any():  # erosion has lowered the bed: the flow does not gain energy by this fall
-        p.z[awake] = bed.surface.sample(p.x[awake], p.y[awake]).elevation
+        bed.surface.elevation_into(p.x[awake], p.y[awake], p.z[awake])
     position = p.x, p.y, p.z
     exit_node = drift(position, p.velocity, velocity_ratio, bed.raster, dt, p.expected_elevation, p.touched_wall)
-    if exit_node.size and exit_node.min() == NOWHERE:
+    p.departed = None
+    if exit_node.size == 0:
+        return
+    if exit_node.min() == NOWHERE:
         place = int(np.argmin(exit_node))
         raise SimulationError("velocity", int(p.identity[place]), time, float(p.velocity[:, place].sum()))
     gone = np.flatnonzero(exit_node >= 0)
-    p.departed = p.at(gone) if gone.size else None
-    if gone.size:
-        outflow.count(exit_node[gone], p.volume[gone], phases.solid_volume(p)[gone])
-        support = 2.0 * p.smoothing_length
-        disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
-        stay = np.ones(p.count, bool)
-        stay[gone] = False
-        p.keep(stay)
-
-
-NO_DRIFT = np.empty(0)
+    p.departed = p.at(gone)
+    outflow.count(exit_node[gone], p.volume[gone], phases.solid_volume(p)[gone])
+    support = 2.0 * p.smoothing_length
+    disturb(p.x, p.y, support, p.x[gone], p.y[gone], support[gone], p.still_steps)
+    stay = np.ones(p.count, bool)
+    stay[gone] = False
+    p.keep(stay)
 
 
 def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
@@ -132,15 +135,13 @@ def sample_bed(p, bed, gravity: float, dt: float = 0.0) -> None:
     `bed` is the `Bed` of the call, `gravity` is in m s-2; `dt` is the duration of the drift [s], 0 if nothing drifted:
     then only the bed has changed. Written are elevation, cosine, nearest node and velocity of the particles `p`.
     """
-    before = p.z.copy() if dt == 0.0 else None
     sample = np.empty(p.count), *p.surface_sample[1:]  # p.z itself is updated by `follow_bed`
     bed.surface.sample_into(p.x, p.y, sample)
-    expected = p.expected_elevation if dt > 0.0 else NO_DRIFT
-    follow_bed(sample, p.velocity, p.cos_slope, p.z, expected, gravity, dt)
-    if dt == 0.0:  # only the bed has moved, which is neither rise nor fall of the flow
-        p.lowest_z += p.z - before
-    np.minimum(p.lowest_z, p.z, out=p.lowest_z)
-    p.nearest_node = bed.raster.nearest(p.x, p.y)
+    place = Place(
+        x=p.x, y=p.y, z=p.z, cosine=p.cos_slope, lowest_z=p.lowest_z, nearest_node=p.nearest_node,
+        expected_elevation=p.expected_elevation,
+    )  # fmt: skip
+    follow_bed(sample, p.velocity, place, bed.raster, gravity, dt)
     position = p.x, p.y, p.z
     count_still_steps(
         position, p.volume, p.smoothing_length, p.reference_position, p.reference_volume, p.still_steps
@@ -185,14 +186,16 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
         acceleration=p.thrust,
         convergence=p.thickening,
     )
+    np.copyto(p.earlier_thrust, p.thrust)
     cells_of_phases = flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     inflow.prescribe_thickness(p, phases.phase_fractions)
     phases.after_summation(p, exchange, cells_of_phases)
-    p.smoothing_length[:] = p.next_smoothing_length
-    np.copyto(p.smoothing_length, p.usual_length, where=p.light)
-    np.divide(p.thickness, p.cos_slope, out=p.depth)
-    np.multiply(p.thickness, p.cos_slope, out=p.liquefaction_pressure)
-    p.liquefaction_pressure *= (p.density - material.bearing_density) * material.gravity
+    layer = Layer(
+        thickness=p.thickness, cosine=p.cos_slope, density=p.density, light=p.light, usual_length=p.usual_length,
+        next_length=p.next_smoothing_length, smoothing_length=p.smoothing_length, depth=p.depth,
+        liquefaction_pressure=p.liquefaction_pressure,
+    )  # fmt: skip
+    follow_thickness(layer, material.bearing_density, material.gravity)
 
 
 def _flow_state(p, material) -> FlowState:
@@ -225,18 +228,19 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float) -> N
     `p` are the particles, `exchange` is the state of the exchange between phases; `prescribed` are the places of
     particles whose motion is given in an inflow strip; `dt` is in s.
     """
-    awake, phases = slice(p.awake), columns.phases
-    forcing = column_forcing(p, awake, columns, p.entrained_volume[awake], p.entrained_ratio[awake])
+    phases = columns.phases
+    bearing = phases.bearing(p)
+    forcing = column_forcing(p, bearing, columns, p.entrained_volume[bearing], p.entrained_ratio[bearing])
     forcing = phases.column_forcing(p, forcing, prescribed, dt)
-    columns.law.advance(column_state(p, awake), forcing, dt, p.basal_excess_pore_pressure[awake])
-    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, slice(p.count), columns), dt)
+    columns.law.advance(column_state(p, bearing), forcing, dt, p.basal_excess_pore_pressure[bearing])
+    phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, bearing, columns), dt)
 
 
-def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: float = 0.0) -> StepLimits:
+def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, yield_stress=None) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
-    `p` are the particles, `phases` gives the stiffness beside weight, `rule` the bounds of a step; `gravity` is in m
-    s-2; `dt` is 0 before the first step.
+    `p` are the particles, `phases` gives the stiffness beside weight; `dt` is 0 before the first step; `yield_stress`,
+    shape (awake,), is that of friction at the end of the step [Pa], None if it is still to be found.
 
     Raises
     ------
@@ -244,7 +248,13 @@ def find_limits(p, phases, rule: StepRule, gravity: float, time: float, dt: floa
         If the position or velocity of a particle is not finite.
     """
     stiff = phases.celerity_squared(p, dt)
-    limits = reduce_particles(p, gravity, rule, stiff)
+    if not phases.sleeps:  # water and its waves pass through grains that friction holds
+        yield_stress = NO_FRICTION
+    elif yield_stress is None:
+        yield_stress, _ = basal_resistance(p, slice(p.awake), surroundings.friction, asking=True)
+    gravity = surroundings.friction.material.gravity
+    ground = surroundings.bed.surface, surroundings.walls
+    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

@@ -1,6 +1,6 @@
 """Step control: length of the next step within the limits of stability."""
 
-import numpy as np
+import math
 
 FASTER = 1.5
 """Largest ratio of a step to the one before: thrust and pore pressure begin to change with the square root of time."""
@@ -26,7 +26,7 @@ class StepControl:
     """
 
     def __init__(self):
-        self.step = self.speed = np.inf
+        self.step = self.speed = math.inf
 
     def copy(self) -> "StepControl":
         """Return an independent copy."""
@@ -58,9 +58,9 @@ class StepControl:
         >>> control.longest(0.1, 1.0), control.longest(0.1, 0.64)  # a fifth of the speed lost in 0.1 s
         (0.1, 0.1)
         """
-        speed, before, step = np.sqrt(energy), self.speed, self.step
+        speed, before, step = math.sqrt(energy), self.speed, self.step
         allowed = min(stable, max(FASTER * step, FIRST * stable))
-        if speed < before < np.inf:
+        if speed < before < math.inf:
             allowed = min(allowed, max(TO_STOP * step * speed / (before - speed), SLOWEST * stable))
         self.step, self.speed = allowed, speed
         return float(allowed)

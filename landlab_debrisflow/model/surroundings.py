@@ -9,9 +9,9 @@ from ..physics.column_contracts import is_dilatant
 from ..physics.contracts import is_jump_condition
 from ..spatial.raster import CLOSED, Raster
 from ..terrain.bed import Bed
-from .basal import BasalLaw
+from .basal import BasalLaw, weighing_on
 from .column_forcing import BY_EROSION, SOIL_ALONE, ColumnPhysics
-from .time_step import StepRule, viscous_share
+from .step_rule import StepRule, step_rule
 
 
 class Surroundings(NamedTuple):
@@ -61,7 +61,7 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
             law=law,
             parameters=parameters[kind],
             material=material,
-            spacing=raster.spacing,
+            weighing=weighing_on(material, raster.spacing),
             variables=getattr(law, "variables", ()),
             varies=any(values.size > 1 for values in parameters[kind]),
             dilatant_column=setup.column if is_dilatant(setup.column) else None,
@@ -80,8 +80,5 @@ def surround(setup, phases, bed: Bed, parameters: Mapping[str, Any]) -> Surround
         columns=ColumnPhysics(
             setup.column, material, phases, bed.drained, water_to_buoyant, raster.spacing, contact, drain_ratio
         ),
-        step_rule=StepRule(
-            courant_number=numerics.courant_number * viscous_share(numerics.shock_viscosity),
-            way=numerics.advective_courant_number * raster.spacing,
-        ),
+        step_rule=step_rule(numerics, raster.spacing),
     )

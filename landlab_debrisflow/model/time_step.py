@@ -5,52 +5,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import kernel
+from ..core.jit import inner, kernel
 from ..core.structs import struct
-
-GROWTH = 0.02
-"""Largest part of its volume a particle may take up in a step."""
-
-LATTICE_FREQUENCY, LATTICE_DAMPING = 1.63, 1.17
-"""Angular frequency of the fastest wave on a lattice of particles, and the rate at which a shock viscosity of 1 damps
-it, both over celerity / smoothing length (docs/decisions.md, Flow 2)."""
-
-
-def viscous_share(viscosity: float) -> float:
-    """Return the factor on the Courant number for a shock viscosity > 1, which is integrated explicitly [-].
-
-    Damped leapfrog bears x = c dt / l up to (1.63 x)^2/4 + 1.17 viscosity x/2 = 1.
-
-    Examples
-    --------
-    >>> viscous_share(0.5), viscous_share(1.0), round(viscous_share(10.0), 2)
-    (1.0, 1.0, 0.19)
-    """
-
-    def limit(strength):
-        a, b = 0.25 * LATTICE_FREQUENCY**2, 0.5 * LATTICE_DAMPING * strength
-        return (np.sqrt(b * b + 4.0 * a) - b) / (2.0 * a)
-
-    return float(min(1.0, limit(viscosity) / limit(1.0)))
-
+from .crossing import find_time_across, time_over
+from .step_rule import GROWTH, StepRule
 
 NOT_STIFF = np.zeros(1)
 """Nothing but weight drives waves [m2 s-2]."""
 
-
-class StepRule(NamedTuple):
-    """Rule for the longest step, by the choices of `Numerics` on one raster.
-
-    Attributes
-    ----------
-    courant_number : float
-        Time step over smoothing length / celerity, reduced for the shock viscosity [-].
-    way : float
-        Longest way of a particle in a step [m]: a longer one would skip terrain.
-    """
-
-    courant_number: float
-    way: float
+NO_FRICTION = np.zeros(1)
+"""Yield stress where no friction is known [Pa]."""
 
 
 class StepLimits(NamedTuple):
@@ -116,15 +80,32 @@ class Motion(NamedTuple):
     ----------
     velocity : ndarray, shape (3, n)
         Velocity tangent to the bed [m s-1].
-    thrust : ndarray, shape (3, n)
-        Acceleration by pressure [m s-2].
+    thrust, earlier_thrust : ndarray, shape (3, n)
+        Acceleration by pressure now, and before the sums over neighbours were last done [m s-2].
     volume : ndarray, shape (n,)
         Volume that moves [m3].
     """
 
     velocity: np.ndarray
     thrust: np.ndarray
+    earlier_thrust: np.ndarray
     volume: np.ndarray
+
+
+@struct
+class Friction(NamedTuple):
+    """Friction that can stop n particles within a step.
+
+    Attributes
+    ----------
+    yield_stress : ndarray, shape (n,) or (1,)
+        Shear stress that holds a body at rest [Pa].
+    density : ndarray, shape (n,)
+        Density of the mixture [kg m-3].
+    """
+
+    yield_stress: np.ndarray
+    density: np.ndarray
 
 
 @struct
@@ -143,11 +124,14 @@ class Growth(NamedTuple):
     depth: np.ndarray
 
 
-def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF):
+def reduce_particles(
+    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION, ground=None
+):
     """Return the `StepLimits` of all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
     against the smoothing length (the speed itself does not count), and the way of a step against the node spacing.
+    Particles that stay where they are by friction do not count among the waves (`NEGLIGIBLE_WAY`).
 
     Parameters
     ----------
@@ -156,22 +140,49 @@ def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF)
     gravity : float
         Acceleration by gravity [m s-2].
     rule : StepRule
-        Courant number and longest way of a step.
+        Bounds of a step.
     stiff : ndarray, shape (n,) or (1,)
         Part of the square of the celerity that is not due to weight [m2 s-2].
+    step : float
+        Length of the last step [s]; 0 before the first one, when every particle counts.
+    yield_stress : ndarray, shape (awake,) or (1,)
+        Shear stress that holds a body at rest [Pa].
+    ground : tuple, optional
+        `Surface` below the particles, and `Raster` with walls or None; by default no ground counts as even.
     """
     p = particles
     waves = Waves(
         summed=p.summed, light=p.light, cosine=p.cos_slope, thickness=p.thickness, own_thickness=p.own_thickness,
         thickening=p.thickening, smoothing_length=p.smoothing_length, stiffness=stiff,
     )  # fmt: skip
-    motion = Motion(velocity=p.velocity, thrust=p.thrust, volume=p.volume)
+    motion = Motion(velocity=p.velocity, thrust=p.thrust, earlier_thrust=p.earlier_thrust, volume=p.volume)
+    friction = Friction(yield_stress=yield_stress, density=p.density)
     growth = Growth(rate=p.entrainment_rate, depth=p.depth)
     wave_rate, growth_rate, across, energy, fastest, broken = _reduce(
-        p.awake, waves, motion, growth, p.basal_excess_pore_pressure, gravity, rule.way
+        p.awake, waves, motion, friction, growth, p.basal_excess_pore_pressure, gravity, tuple(rule), step
     )
-    longest = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300), across)
-    return StepLimits(longest, energy, fastest, broken)
+    others = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300))
+    if ground is not None and across < others and rule.way < rule.longest_way and broken < 0:
+        across = find_time_across(p, *ground, rule, gravity, others)
+    return StepLimits(min(others, across), energy, fastest, broken)
+
+
+@inner
+def _stays(i, speed, step, motion, waves, friction, rule):
+    """Return whether particle `i` with its `speed` [m s-1] hardly moves within a step [s], and friction keeps it so.
+
+    `motion`, `waves` and `friction` are the structs of all particles, `rule` is the `StepRule`.
+    """
+    _, thrust, earlier, _ = motion
+    _, _, _, thickness, _, _, smoothing_length, _ = waves
+    yield_stress, density = friction
+    _, _, _, _, negligible_way, steady = rule
+    if step == 0.0 or not speed * step < negligible_way * smoothing_length[i]:
+        return False
+    deceleration = value_at(yield_stress, i) / (density[i] * thickness[i])
+    dx, dy, dz = thrust[0, i] - earlier[0, i], thrust[1, i] - earlier[1, i], thrust[2, i] - earlier[2, i]
+    most = steady * deceleration
+    return speed <= step * deceleration and dx * dx + dy * dy + dz * dz <= most * most
 
 
 MOST_CONVERGENCE = 14.0 / 3.0
@@ -180,7 +191,7 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow would thi
 
 
 @kernel
-def _reduce(count, waves, motion, growth, pressure, gravity, way):
+def _reduce(count, waves, motion, friction, growth, pressure, gravity, rule, step):
     """Reduce the particles that are awake to the limits of the next step.
 
     Parameters
@@ -191,14 +202,18 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
         Pressure waves at n particles.
     motion : Motion
         Motion of n particles.
+    friction : Friction
+        Friction that can stop n particles.
     growth : Growth
         Growth by erosion at n particles.
     pressure : ndarray, shape (n,)
         Basal excess pore pressure [Pa].
     gravity : float
         Acceleration by gravity [m s-2].
-    way : float
-        Longest way of a particle in a step [m].
+    rule : StepRule
+        Bounds of a step.
+    step : float
+        Length of the last step [s].
 
     Returns
     -------
@@ -207,13 +222,14 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
     growth_rate : float
         Highest rate of growth [s-1].
     across : float
-        Shortest time in which a particle may go the way `way` [s].
+        Shortest time in which a particle may go the way that is short enough anywhere [s].
     energy, fastest, broken
         As in `StepLimits`.
     """
     summed, light, cosine, thickness, own_thickness, thickening, smoothing_length, stiffness = waves
-    velocity, thrust, volume = motion
+    velocity, thrust, _, volume = motion
     erosion_rate, depth = growth
+    way = rule[1]
     wave_rate, growth_rate, across, energy, fastest, broken = 0.0, 0.0, np.inf, 0.0, 0.0, -1
     most = 0.0
     for i in range(count):
@@ -226,16 +242,13 @@ def _reduce(count, waves, motion, growth, pressure, gravity, way):
         if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
-        if summed[i]:
+        if summed[i] and not _stays(i, speed, step, motion, waves, friction, rule):
             fastest_wave = np.sqrt(celerity * celerity + value_at(stiffness, i))
             converging = max(thickening[i], 0.0) / own_thickness[i]
             if light[i]:
                 converging = min(converging, most / smoothing_length[i])
             wave_rate = max(wave_rate, fastest_wave / smoothing_length[i] + converging)
-        # v dt + 1/2 a dt^2 stays within the way, for particles that are not summed, too; a is the largest acceleration
-        # by thrust and gravity, or deceleration by friction, so that stopping is resolved to this way as well
-        gain = gravity + np.sqrt(push2)
-        across = min(across, 2.0 * way / (speed + np.sqrt(speed2 + 2.0 * gain * way) + 1e-300))
+        across = min(across, time_over(way, speed2, gravity + np.sqrt(push2)))  # also of particles not summed
         if not light[i]:
             growth_rate = max(growth_rate, erosion_rate[i] / depth[i])
         energy += volume[i] * speed2

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..physics.contracts import FlowState, Position, Smoothing
-from ..spatial.raster import CLOSED, Raster, nearest_place
+from ..spatial.raster import BLOCK, CLOSED, Raster, is_walled, nearest_place
 from ..spatial.summation import SMOOTHING_RATIO
 from .kinematics import stop_at_walls
 
@@ -102,11 +102,13 @@ def _find(x, y, support, raster, source, wall):
     particle in a corner and its three ghosts could lie in one place, and their sum would be too large for any smoothing
     length.
     """
-    status, columns, rows, dx, dy = raster
-    found = 0
+    status, columns, rows, dx, dy, walled = raster
+    found, clear = 0, BLOCK * min(dx, dy)  # distance to the nearest wall outside of walled blocks
     wx, wy = np.empty(3), np.empty(3)
     for i in range(x.size):
         r, c = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
+        if support[i] <= clear and not is_walled(r, c, walled, columns):
+            continue
         wx[0] = wy[0] = np.nan
         nx = ny = 1
         least = 0.25 * SPACING * support[i]

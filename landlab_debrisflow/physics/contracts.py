@@ -193,6 +193,9 @@ class Phases(Protocol):
     solid_fraction: float  # of the soil: volume that the eroding particle keeps, the grains of two phases, all of one
     sleeps: bool  # whether particles at rest may sleep
 
+    def bearing(self, particles) -> slice:
+        """Return the places of the particles that bear on the bed: friction and columns are computed for them alone."""
+
     def density(self, particles) -> Array:
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
 

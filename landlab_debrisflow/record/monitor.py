@@ -19,7 +19,7 @@ log = logging.getLogger("landlab_debrisflow.progress")
 LIVE, LOGGED = 0.2, 30.0
 """Wall time between updates of a line that is shown, and between lines of a log [s]."""
 
-COMPILING = "compiling kernels, once after an installation: about a minute"
+COMPILING = "compiling kernels, once after an installation: 10 to 30 s"
 """Text shown while the first step waits for numba."""
 
 

@@ -25,20 +25,22 @@ and push water ahead."""
 class Partners(NamedTuple):
     """Partners of the other phase with which each particle of one phase exchanges momentum, and their weights.
 
+    The pairs of all particles stand one after the other, those of particle ``of[k]`` at ``first[k]:first[k + 1]``.
+
     Attributes
     ----------
     of : ndarray of int, shape (m,)
         Particles that have partners.
-    count : ndarray of int, shape (m,)
-        Number of partners of each.
-    index : ndarray of int, shape (m, MOST_PARTNERS)
-        Partners of each; places from `count` on are not used.
-    weight : ndarray, shape (m, MOST_PARTNERS)
-        Weights of the partners, which sum to 1 [-].
+    first : ndarray of int, shape (m + 1,)
+        First pair of each, and the number of pairs.
+    index : ndarray of int32, shape (pairs,)
+        Partner of each pair: a particle, or of `reverse` its place in ``of``.
+    weight : ndarray, shape (pairs,)
+        Weight of each pair; as found those of a particle sum to 1 [-].
     """
 
     of: np.ndarray
-    count: np.ndarray
+    first: np.ndarray
     index: np.ndarray
     weight: np.ndarray
 
@@ -49,26 +51,46 @@ def find_partners(targets: Cells, sources: Cells, position: Position, volume, sm
     Parameters
     ----------
     targets, sources : Cells
-        Cells of the two phases, made by `cross_summation.cells_of_phase` of the same cells.
+        Cells of the two phases, made by `cells.cells_of_phase` of the same cells.
     position : Position
         Position of the n particles that have, or may be, partners; the cells may hold further particles.
     volume, smoothing_length : ndarray, shape (n,)
         [m3], [m]
     """
-    grains = targets.order[targets.order < position.x.size]
-    partners = Partners(
-        of=grains,
-        count=np.zeros(grains.size, np.int64),
-        index=np.empty((grains.size, MOST_PARTNERS), np.int64),
-        weight=np.empty((grains.size, MOST_PARTNERS)),
+    grains = np.sort(targets.order[targets.order < position.x.size])
+    first = np.zeros(grains.size + 1, np.int64)
+    index, weight = np.empty(grains.size * MOST_PARTNERS, np.int32), np.empty(grains.size * MOST_PARTNERS)
+    found = Partners(of=grains, first=first, index=index, weight=weight)
+    _find(tuple(targets), tuple(sources), tuple(position), volume, smoothing_length, tuple(found))
+    return found._replace(index=index[: first[-1]].copy(), weight=weight[: first[-1]].copy())
+
+
+def reverse(partners: Partners, others) -> Partners:
+    """Return the pairs of `partners` sorted by the partner, as the `Partners` of the other phase.
+
+    Parameters
+    ----------
+    partners : Partners
+        Partners of m particles.
+    others : ndarray of int, shape (l,)
+        Particles that are, or may be, partners.
+
+    Returns
+    -------
+    Partners
+        Of `others`; the index of a pair is a place in ``partners.of``, and rises from pair to pair of a particle.
+    """
+    pairs = partners.index.size
+    found = Partners(
+        of=others, first=np.zeros(others.size + 1, np.int64), index=np.empty(pairs, np.int32), weight=np.empty(pairs)
     )
-    _find(tuple(targets), tuple(sources), tuple(position), volume, smoothing_length, tuple(partners))
-    return partners
+    _reverse(tuple(partners), tuple(found))
+    return found
 
 
 @kernel
 def _find(targets, sources, position, volume, length, partners):
-    """Write index, weight and count of the partners.
+    """Write the pairs of all particles of the targets.
 
     Parameters
     ----------
@@ -79,42 +101,72 @@ def _find(targets, sources, position, volume, length, partners):
     volume, length : ndarray, shape (n,)
         Volume [m3] and smoothing length [m].
     partners : Partners
-        Written, except ``of``, which is in the order of the targets.
+        Written, except ``of``; has room for `MOST_PARTNERS` pairs of each.
     """
-    columns, _, order, start, _, box, window, _, _ = targets
-    _, _, source_order, source_start, _, _, _, _, _ = sources
+    columns, rows, size, west, south, _, _, _, _, _, _, _, _ = targets
+    _, _, _, _, _, _, source_order, source_start, _, _, _, _, _ = sources
     x, y, z = position
-    _, count, index, weight = partners
-    n, rows, row_of = x.size, (start.size - 1) // columns, 0
-    for cell in range(start.size - 1):
-        if start[cell] == start[cell + 1]:
-            continue
-        w = window[cell]
-        row, column = cell // columns, cell % columns
-        for k in range(start[cell], start[cell + 1]):
-            i = order[k]
-            if i >= n:
-                continue
-            radius, found, total = PARTNER_RADIUS * length[i], 0, 0.0
-            nearest = (NEAREST * radius) ** 2
-            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                    d = r * columns + q
-                    gap_x = max(box[0, d] - x[i], x[i] - box[1, d], 0.0)
-                    gap_y = max(box[2, d] - y[i], y[i] - box[3, d], 0.0)
-                    if gap_x * gap_x + gap_y * gap_y > radius * radius:
-                        continue
-                    for s in range(source_start[d], source_start[d + 1]):
-                        j = source_order[s]
-                        if j >= n:
-                            continue
-                        r2 = (x[i] - x[j]) ** 2 + (y[i] - y[j]) ** 2 + (z[i] - z[j]) ** 2
-                        if r2 < radius * radius and found < MOST_PARTNERS:
-                            index[row_of, found] = j
-                            weight[row_of, found] = volume[j] * (1.0 - np.sqrt(r2) / radius) ** 2 / (r2 + nearest)
-                            total += weight[row_of, found]
-                            found += 1
-            for s in range(found):
-                weight[row_of, s] /= total
-            count[row_of] = found
-            row_of += 1
+    of, first, index, weight = partners
+    n, pair = x.size, 0
+    packed = np.empty((4, source_order.size))
+    for s in range(source_order.size):
+        j = source_order[s]
+        # a source without a place among the particles is out of reach
+        packed[0, s] = x[j] if j < n else np.inf
+        if j < n:
+            packed[1, s], packed[2, s], packed[3, s] = y[j], z[j], volume[j]
+    # squared distances of the sources in the cells around, then of those in reach; and their places in the cells
+    distance2, near2 = np.empty(source_order.size), np.empty(source_order.size + 1)
+    near = np.empty(source_order.size + 1, np.int32)
+    for k in range(of.size):
+        i, count = of[k], 0
+        radius, px, py, pz = PARTNER_RADIUS * length[i], x[i], y[i], z[i]
+        radius2, nearest, total = radius * radius, (NEAREST * radius) ** 2, 0.0
+        low_row, high_row = int((py - radius - south) / size), int((py + radius - south) / size)
+        low, high = int((px - radius - west) / size), int((px + radius - west) / size)
+        low, high = max(low, 0), min(high, columns - 1)
+        for r in range(max(low_row, 0), min(high_row, rows - 1) + 1):
+            begin, end = source_start[r * columns + low], source_start[r * columns + high + 1]
+            at_x, at_y, at_z = packed[0, begin:end], packed[1, begin:end], packed[2, begin:end]
+            for s in range(at_x.size):
+                dx, dy, dz = px - at_x[s], py - at_y[s], pz - at_z[s]
+                distance2[s] = dx * dx + dy * dy + dz * dz
+            for s in range(at_x.size):
+                near[count], near2[count] = begin + s, distance2[s]
+                count += distance2[s] < radius2
+        count = min(count, MOST_PARTNERS)
+        for s in range(count):
+            index[pair + s] = source_order[near[s]]
+            closeness, r2 = 1.0 - np.sqrt(near2[s]) / radius, near2[s]
+            weight[pair + s] = packed[3, near[s]] * closeness * closeness / (r2 + nearest)
+            total += weight[pair + s]
+        for s in range(pair, pair + count):
+            weight[s] /= total
+        pair += count
+        first[k + 1] = pair
+
+
+@kernel
+def _reverse(partners, reversed_partners):
+    """Write the pairs of `partners` sorted by the partner, and for one partner in the order of `partners`.
+
+    `reversed_partners` are the `Partners` with room for all pairs, written except ``of``.
+    """
+    of, first, index, weight = partners
+    others, first_of, index_of, weight_of = reversed_partners
+    last = 0
+    for k in range(others.size):
+        last = max(last, others[k])
+    place = np.full(last + 1, -1, np.int32)
+    for k in range(others.size):
+        place[others[k]] = k
+    for s in range(index.size):
+        first_of[place[index[s]] + 1] += 1
+    for k in range(others.size):
+        first_of[k + 1] += first_of[k]
+    following = first_of.copy()
+    for k in range(of.size):
+        for s in range(first[k], first[k + 1]):
+            other = place[index[s]]
+            index_of[following[other]], weight_of[following[other]] = k, weight[s]
+            following[other] += 1

@@ -13,6 +13,10 @@ CORE, FIXED_VALUE, FIXED_GRADIENT, LOOPED, CLOSED = range(5)
 """Node statuses as Landlab numbers them: only core nodes hold material, and closed ones are walls."""
 
 
+BLOCK = 8
+"""Nodes along the side of a block, for which the walls near it are noted."""
+
+
 class Raster(NamedTuple):
     """A raster of nodes as kernels read it.
 
@@ -28,6 +32,9 @@ class Raster(NamedTuple):
         Node spacing in x [m].
     dy : float
         Node spacing in y [m].
+    walled : ndarray of bool, shape (blocks,)
+        Blocks of `BLOCK` x `BLOCK` nodes, row by row, that hold a closed node or touch a block which does: from a node
+        of any other block a closed one is more than `BLOCK` nodes away.
     """
 
     status: np.ndarray
@@ -35,6 +42,7 @@ class Raster(NamedTuple):
     rows: int
     dx: float
     dy: float
+    walled: np.ndarray
 
     @classmethod
     def from_status(cls, status, spacing) -> "Raster":
@@ -48,7 +56,10 @@ class Raster(NamedTuple):
         """
         status = np.asarray(status, np.uint8)
         rows, columns = status.shape
-        return cls(status=status.reshape(-1), columns=columns, rows=rows, dx=float(spacing[0]), dy=float(spacing[1]))
+        return cls(
+            status=status.reshape(-1), columns=columns, rows=rows, dx=float(spacing[0]), dy=float(spacing[1]),
+            walled=_walled_blocks(status),
+        )  # fmt: skip
 
     @property
     def core(self):
@@ -68,6 +79,32 @@ class Raster(NamedTuple):
     def nearest(self, x, y):
         """Return the nodes nearest to points x, y from the lower left node, each (n,) [m]; int, shape (n,)."""
         return nearest_line(y, self.dy).astype(int) * self.columns + nearest_line(x, self.dx).astype(int)
+
+
+def _walled_blocks(status):
+    """Return the blocks with a closed node in them or in a block that they touch, bool, shape (blocks,).
+
+    `status` are node statuses, shape (rows, columns), of type uint8.
+    """
+    rows, columns = (-(-size // BLOCK) for size in status.shape)
+    closed = status == CLOSED
+    if not closed.any():
+        return np.zeros(rows * columns, bool)
+    padded = np.zeros((rows * BLOCK, columns * BLOCK), bool)
+    padded[: closed.shape[0], : closed.shape[1]] = closed
+    # the flags of eight nodes side by side are one integer of eight bytes
+    blocks = np.pad((padded.view(np.uint64) != 0).reshape(rows, BLOCK, columns).any(axis=1), 1)
+    near = blocks[:-2] | blocks[1:-1] | blocks[2:]
+    return (near[:, :-2] | near[:, 1:-1] | near[:, 2:]).reshape(-1)
+
+
+@inner
+def is_walled(row, column, walled, columns):
+    """Return whether a closed node may lie within `BLOCK` nodes of a node.
+
+    `row` and `column` are those of the node, `walled` and `columns` those of a `Raster`.
+    """
+    return walled[row // BLOCK * ((columns + BLOCK - 1) // BLOCK) + column // BLOCK]
 
 
 @inner

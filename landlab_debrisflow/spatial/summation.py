@@ -8,20 +8,22 @@ with r the chord in space. The smoothing length follows the thickness, l = 1.4 (
 sums carry the corresponding gradient terms (Springel & Hernquist 2002; Price 2012): without them
 nothing converges in a spreading flow.
 
-Particles are first packed in the order of the cells, in 32 bits (packing.py). Every cell then copies its
-neighbourhood into a small contiguous scratch and loops over it without branches: the compiler turns the loop into
-vector code, with one reciprocal root and no division per pair.
+State is first packed in 32 bits (packing.py). A group of particles, one in each lane of the vector unit, then goes
+over its list of candidates (groups.py), whose values are the same for all lanes: vector code without branches, with one
+reciprocal root and no division per pair.
 
 The formulas stand in the loops that use them: numba's cache watches only a function's own file.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..core.jit import approximate_kernel, kernel
-from .cells import Cells, over_cells
-from .packing import LANES, Position, copy_neighbourhood, empty_packed
+from ..core.lanes import LANES, lane_floats, lane_places
+from ..core.threads import in_ranges
+from .cells import Cells
+from .groups import find_candidates, group
+from .packing import empty_packed, pack_place, quantum_of
+from .sums import SummationInput, Sums
 
 SMOOTHING_RATIO = 1.4
 """Smoothing length over particle spacing (V/h)^(1/2) [-]."""
@@ -37,77 +39,19 @@ NORM = 7.0 / (4.0 * np.pi)
 SLOPE = NORM / SMOOTHING_RATIO**2
 _X, _Y, _Z = 0, 1, 2  # rows of `Packed.places`
 # rows of `Packed.values`
-_U, _V, _W, _INVERSE, _REACH, _COEFFICIENT, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)
+_U, _V, _W, _INVERSE, _REACH, _PUSH, _CELERITY, _THINNESS, _CONVERGENCE, _VOLUME = range(10)
 
 # a constant in double precision would make numba compute in double
 _F = np.float32
-_ZERO, _ONE, _THREE, _FOUR, _TINY = _F(0.0), _F(1.0), _F(3.0), _F(4.0), _F(1e-12)
+_ZERO, _ONE, _TWO, _FOUR, _FIVE, _TINY = _F(0.0), _F(1.0), _F(2.0), _F(4.0), _F(5.0), _F(1e-12)
+
+_U64 = np.uint64
+_LANES = _U64(LANES)
 
 
-class SummationInput(NamedTuple):
-    """State of n particles that the sums read; particles beyond the size of `Sums` act, and get no sums.
-
-    Attributes
-    ----------
-    position : Position
-        On the surface [m].
-    velocity : ndarray, shape (3, n)
-        Velocity tangent to the bed [m s-1].
-    volume : ndarray, shape (n,)
-        Volume [m3]; a negative volume pulls, see model/release/placing.py.
-    smoothing_length : ndarray, shape (n,)
-        1.4 spacings [m].
-    longest : ndarray, shape (n,)
-        Cap of the smoothing length [m]; there it is fixed and the plain sum holds.
-    pressure_coefficient : ndarray, shape (n,)
-        Depth-integrated pressure over thickness^2, Omega and reference density: inertia g_n / (2 Omega) [m s-2].
-    celerity : ndarray, shape (n,)
-        Celerity of waves [m s-1].
-    thickness : ndarray, shape (n,)
-        Slope-normal, of the last time [m].
-    convergence : ndarray, shape (n,)
-        -h div v, of the last time [m s-1].
-    inertia : ndarray, shape (n,)
-        Density over a reference density [-].
-    """
-
-    position: Position
-    velocity: np.ndarray
-    volume: np.ndarray
-    smoothing_length: np.ndarray
-    longest: np.ndarray
-    pressure_coefficient: np.ndarray
-    celerity: np.ndarray
-    thickness: np.ndarray
-    convergence: np.ndarray
-    inertia: np.ndarray
-
-
-class Sums(NamedTuple):
-    """Results of the sums, written where cells are awake.
-
-    Attributes
-    ----------
-    thickness : ndarray, shape (n,)
-        Slope-normal [m].
-    gradient_term : ndarray, shape (n,)
-        Omega of the grad-h formulation [-].
-    next_length : ndarray, shape (n,)
-        Smoothing length for the next time [m].
-    acceleration : ndarray, shape (3, n)
-        Acceleration by pressure [m s-2].
-    convergence : ndarray, shape (n,)
-        -h div v, the rate at which converging flow thickens, without grad-h term [m s-1].
-    """
-
-    thickness: np.ndarray
-    gradient_term: np.ndarray
-    next_length: np.ndarray
-    acceleration: np.ndarray
-    convergence: np.ndarray
-
-
-def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, sums: Sums, threads: int = 1) -> None:
+def sum_over_neighbours(
+    cells: Cells, given: SummationInput, viscosity: float, sums: Sums, threads: int = 1, phases: tuple[Cells, ...] = ()
+) -> None:
     """Sum thickness and pressure gradient, with shock viscosity.
 
     Parameters
@@ -122,6 +66,8 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
         Written where cells are awake.
     threads : int
         Number of threads.
+    phases : tuple of Cells
+        Cells of phases whose particles have neighbours of their own phase only; none if all are of one phase.
 
     Notes
     -----
@@ -136,10 +82,14 @@ def sum_over_neighbours(cells: Cells, given: SummationInput, viscosity: float, s
     Omega = 1 + l/(2h) dS/dl, so h - (h - S)/Omega is exact to second order in the change since the
     length was set: one pass per time step is enough. The pressure coefficient has Omega of the pass before.
     """
-    packed = empty_packed(cells, values=10)
+    count = given.volume.size
+    packed, found = empty_packed(count, 10, quantum_of(cells)), np.empty((6, count), np.float32)
     plain = tuple(given.position), *given[1:]  # kernels are called faster with plain tuples (core/structs.py)
-    _pack(cells.order, plain, packed)
-    over_cells(_sum, cells, threads, tuple(cells), packed, plain, viscosity, tuple(sums))
+    _pack(plain, viscosity, packed)
+    for of_phase in phases or (cells,):
+        groups = group(of_phase)
+        in_ranges(_sum, groups.first.size, threads, tuple(groups), tuple(of_phase), packed, found)
+    _finish(cells.computed, packed[-1], found, plain, tuple(sums))
 
 
 def plain_thickness(volume, smoothing_length, sums: Sums):
@@ -166,15 +116,18 @@ def plain_thickness(volume, smoothing_length, sums: Sums):
 
 
 @kernel
-def _pack(order, given, packed):
-    """Put particles in the order of cells; lengths become numbers of quanta.
+def _pack(given, viscosity, packed):
+    """Write the state of particles in 32 bits.
+
+    Lengths become numbers of quanta; velocities are tripled, and thinness has the viscosity over 12, because the
+    viscosity of shocks needs them so.
 
     Parameters
     ----------
-    order : ndarray of int, shape (m,)
-        Particle at each sorted place, of the n of `given`.
     given : SummationInput
         State of the particles.
+    viscosity : float
+        Strength of the viscosity of shocks [-].
     packed : Packed
         Written, ten values of each particle.
     """
@@ -182,101 +135,141 @@ def _pack(order, given, packed):
     x, y, z = position
     places, values, quantum = packed
     per_metre, x0, y0, z0 = 1.0 / quantum, x[0], y[0], z[0]
-    for k in range(order.size):
-        i = order[k]
-        # integers wrap around, and so do their differences, which are right again
-        places[_X, k] = np.int32(np.int64((x[i] - x0) * per_metre))
-        places[_Y, k] = np.int32(np.int64((y[i] - y0) * per_metre))
-        places[_Z, k] = np.int32(np.int64((z[i] - z0) * per_metre))
-        values[_U, k], values[_V, k], values[_W, k] = velocity[0, i], velocity[1, i], velocity[2, i]
-        l2 = length[i] * length[i]
-        values[_INVERSE, k] = 0.5 * quantum / length[i]
-        values[_REACH, k] = volume[i] * (5.0 * NORM) / (l2 * l2)
-        values[_COEFFICIENT, k], values[_CELERITY, k] = coefficient[i], celerity[i]
-        thinness = 1.0 / thickness[i]
-        values[_THINNESS, k], values[_VOLUME, k] = thinness, volume[i]
-        values[_CONVERGENCE, k] = 0.5 * quantum * max(0.0, convergence[i] * thinness)
+    for i in range(volume.size):
+        places[_X, i] = pack_place(x[i] - x0, per_metre)
+        places[_Y, i] = pack_place(y[i] - y0, per_metre)
+        places[_Z, i] = pack_place(z[i] - z0, per_metre)
+        values[_U, i], values[_V, i] = 3.0 * velocity[0, i], 3.0 * velocity[1, i]
+        values[_W, i] = 3.0 * velocity[2, i]
+        inverse, thinness = 1.0 / length[i], 1.0 / thickness[i]
+        inverse2 = inverse * inverse
+        reach = volume[i] * (5.0 * NORM) * inverse2 * inverse2
+        values[_INVERSE, i], values[_REACH, i] = 0.5 * quantum * inverse, reach
+        values[_PUSH, i], values[_CELERITY, i] = reach * coefficient[i], celerity[i]
+        values[_THINNESS, i], values[_VOLUME, i] = viscosity / 12.0 * thinness, volume[i]
+        values[_CONVERGENCE, i] = 1.5 * quantum * max(0.0, convergence[i] * thinness)
 
 
 @approximate_kernel
-def _sum(first, last, cells, packed, given, viscosity, sums):
-    """Sum over the neighbours of the particles of cells ``first`` to ``last`` - 1 that are awake.
+def _sum(first, last, groups, cells, packed, found):
+    """Sum over the neighbours of the particles of groups ``first`` to ``last`` - 1.
 
     Parameters
     ----------
     first, last : int
+    groups : Groups
+        Groups of particles.
     cells : Cells
-        Cell list over the particles.
+        Cell list over all particles, n.
     packed : Packed
         Values of all particles, by `_pack`.
-    given : SummationInput
-        With n particles.
-    viscosity : float
-        Strength of the viscosity of shocks [-].
-    sums : Sums
-        Written, for at most n particles.
+    found : ndarray of float32, shape (6, n)
+        Written: sum of the weights and of their change with the length, both of volume, the force per inertia in three
+        directions per quantum, and three times the convergence.
     """
-    _, _, order, start, _, _, _, awake, _ = cells
-    places, values, quantum = packed
-    _, _, volumes, lengths, longest, _, _, _, _, inertia = given
-    thickness, gradient_term, next_length, acceleration, convergence = sums
-    room = order.size + 2 * LANES
-    near_places, near = np.empty((3, room), np.int32), np.empty((10, room), np.float32)
-    scratch = near_places, near, quantum
-    quarter = _F(0.25 * viscosity)
-    for cell in range(first, last):
-        if start[cell] == start[cell + 1] or not awake[cell]:
-            continue
-        m = copy_neighbourhood(cell, cells, packed, scratch)
-        for k in range(start[cell], start[cell + 1]):
-            i = order[k]
-            if i >= thickness.size:
-                continue
-            volume, length = volumes[i], lengths[i]
-            xi, yi, zi = places[_X, k], places[_Y, k], places[_Z, k]
-            ui, vi, wi = values[_U, k], values[_V, k], values[_W, k]
-            inverse, own = values[_INVERSE, k], values[_REACH, k] / values[_VOLUME, k]
-            si, ci = values[_COEFFICIENT, k], values[_CELERITY, k]
-            thin, uniform = values[_THINNESS, k], values[_CONVERGENCE, k]
-            total, change, ax, ay, az, inflow = _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
-            for j in range(m):
-                dx = _F(np.int32(xi - near_places[_X, j]))
-                dy = _F(np.int32(yi - near_places[_Y, j]))
-                dz = _F(np.int32(zi - near_places[_Z, j]))
+    starts, ends, _, _ = groups
+    order, sorted_places = cells[6], cells[9]
+    places, values, _ = packed
+    near = np.empty(order.size + LANES, np.uint32)
+    target = lane_places()
+    x, y, z = lane_places(), lane_places(), lane_places()
+    u, v, w, inverse, own, push = (
+        lane_floats(),
+        lane_floats(),
+        lane_floats(),
+        lane_floats(),
+        lane_floats(),
+        lane_floats(),
+    )
+    celerity, thin, uniform = lane_floats(), lane_floats(), lane_floats()
+    sum0, sum1, sum2, inflow = lane_floats(), lane_floats(), lane_floats(), lane_floats()
+    ax, ay, az = lane_floats(), lane_floats(), lane_floats()
+    for g in range(first, last):
+        m = find_candidates(g, groups, sorted_places, cells, near)
+        begin, end = _U64(starts[g]), _U64(ends[g])
+        for lane in range(_LANES):
+            target[lane] = order[min(begin + lane, end - _U64(1))]  # lanes to spare repeat the last particle
+        for lane in range(_LANES):
+            i = _U64(target[lane])
+            x[lane], y[lane], z[lane] = places[_X, i], places[_Y, i], places[_Z, i]
+            u[lane], v[lane], w[lane] = values[_U, i], values[_V, i], values[_W, i]
+            inverse[lane], own[lane] = values[_INVERSE, i], values[_REACH, i] / values[_VOLUME, i]
+            push[lane] = values[_PUSH, i] / values[_VOLUME, i]
+            celerity[lane], thin[lane] = values[_CELERITY, i], values[_THINNESS, i]
+            uniform[lane] = values[_CONVERGENCE, i]
+        for lane in range(LANES):
+            sum0[lane] = sum1[lane] = sum2[lane] = inflow[lane] = ax[lane] = ay[lane] = az[lane] = _ZERO
+        for s in range(m):
+            j = _U64(order[near[s]])
+            xj, yj, zj = places[_X, j], places[_Y, j], places[_Z, j]
+            uj, vj, wj = values[_U, j], values[_V, j], values[_W, j]
+            inverse_j, reach_j, push_j = values[_INVERSE, j], values[_REACH, j], values[_PUSH, j]
+            celerity_j, thin_j = values[_CELERITY, j], values[_THINNESS, j]
+            uniform_j, volume_j = values[_CONVERGENCE, j], values[_VOLUME, j]
+            for lane in range(LANES):
+                dx, dy, dz = _F(np.int32(x[lane] - xj)), _F(np.int32(y[lane] - yj)), _F(np.int32(z[lane] - zj))
                 r2 = dx * dx + dy * dy + dz * dz + _TINY
                 inverse_r = _ONE / np.sqrt(r2)
                 r = r2 * inverse_r
-                q = r * inverse
-                ti, tj = max(_ZERO, _ONE - q), max(_ZERO, _ONE - r * near[_INVERSE, j])
-                closing = (near[_U, j] - ui) * dx + (near[_V, j] - vi) * dy + (near[_W, j] - wi) * dz
-                approach = max(_ZERO, closing - min(uniform, near[_CONVERGENCE, j]) * r2) * inverse_r
-                shock = (
-                    quarter * (ci + near[_CELERITY, j] + _THREE * approach) * approach
-                    * min(thin, near[_THINNESS, j])
-                )  # fmt: skip
-                # W = norm/l^2 (1 - q)^4 (1 + 4 q), grad W = -5 norm/l^4 (1 - q)^3 r
-                pull = near[_VOLUME, j] * ti * ti * ti
-                total += pull * ti * (_ONE + _FOUR * q)
-                change += pull * q * q
-                pull *= own
-                push = pull * (si + shock) + near[_REACH, j] * tj * tj * tj * (near[_COEFFICIENT, j] + shock)
-                ax += push * dx
-                ay += push * dy
-                az += push * dz
-                inflow += pull * closing
-            scale = quantum / inertia[i]
-            acceleration[0, i], acceleration[1, i], acceleration[2, i] = ax * scale, ay * scale, az * scale
-            convergence[i] = inflow * quantum
-            # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3; with h = ratio^2 V / l^2
-            # the slope l/(2h) dS/dl of the sum has no l left
-            mass = total + (SELF_WEIGHT - 1.0) * volume
-            per_area = 1.0 / (length * length)
-            thick = mass * NORM * per_area
-            if length >= longest[i]:
-                h, omega = thick, 1.0
-            else:
-                h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume * per_area
-                omega = max(LEAST_GRADIENT_TERM, 1.0 - (mass - 10.0 * change) * SLOPE / volume)
-                h -= min(max((h - thick) / omega, -h), 0.5 * h)
-            thickness[i], gradient_term[i] = h, omega
-            next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))
+                t, tj = max(_ZERO, _ONE - r * inverse[lane]), max(_ZERO, _ONE - r * inverse_j)
+                closing = (uj - u[lane]) * dx + (vj - v[lane]) * dy + (wj - w[lane]) * dz
+                approach = max(_ZERO, closing - min(uniform[lane], uniform_j) * r2) * inverse_r
+                shock = (celerity[lane] + celerity_j + approach) * approach * min(thin[lane], thin_j)
+                # with t = 1 - q: W = norm/l^2 (5 t^4 - 4 t^5), grad W = -5 norm/l^4 t^3 r
+                t2 = t * t
+                pull = volume_j * t * t2
+                sum0[lane] += pull
+                sum1[lane] += pull * t
+                sum2[lane] += pull * t2
+                inflow[lane] += pull * closing
+                force = pull * (push[lane] + own[lane] * shock) + tj * tj * tj * (push_j + reach_j * shock)
+                ax[lane] += force * dx
+                ay[lane] += force * dy
+                az[lane] += force * dz
+        for lane in range(end - begin):
+            i = _U64(target[lane])
+            found[0, i] = _FIVE * sum1[lane] - _FOUR * sum2[lane]
+            found[1, i] = sum0[lane] - _TWO * sum1[lane] + sum2[lane]
+            found[2, i], found[3, i], found[4, i] = ax[lane], ay[lane], az[lane]
+            found[5, i] = inflow[lane] * own[lane]
+
+
+@kernel
+def _finish(computed, quantum, found, given, sums):
+    """Make thickness, length, acceleration and convergence of sums.
+
+    Parameters
+    ----------
+    computed : ndarray of bool, shape (n,)
+        Whether the sums of a particle were made.
+    quantum : float
+        [m]
+    found : ndarray of float32, shape (6, n)
+        Sums, by `_sum`.
+    given : SummationInput
+        With n particles.
+    sums : Sums
+        Written, for at most n particles.
+    """
+    _, _, volumes, lengths, longest, _, _, _, _, inertia = given
+    thickness, gradient_term, next_length, acceleration, convergence = sums
+    for i in range(thickness.size):
+        if not computed[i]:
+            continue
+        volume, length = volumes[i], lengths[i]
+        scale = quantum / inertia[i]
+        for axis in range(3):
+            acceleration[axis, i] = found[2 + axis, i] * scale
+        convergence[i] = found[5, i] * quantum * (1.0 / 3.0)
+        # dW/dl = -(1/l) (2 W + q dW/dq), and q d/dq [(1-q)^4 (1+4q)] = -20 q^2 (1-q)^3; with h = ratio^2 V / l^2
+        # the slope l/(2h) dS/dl of the sum has no l left
+        mass = found[0, i] + (SELF_WEIGHT - 1.0) * volume
+        per_area = 1.0 / (length * length)
+        thick = mass * NORM * per_area
+        h = SMOOTHING_RATIO * SMOOTHING_RATIO * volume * per_area
+        omega = max(LEAST_GRADIENT_TERM, 1.0 - (mass - 10.0 * found[1, i]) * SLOPE / volume)
+        h -= min(max((h - thick) / omega, -h), 0.5 * h)
+        fixed = length >= longest[i]
+        h, omega = thick if fixed else h, 1.0 if fixed else omega
+        thickness[i], gradient_term[i] = h, omega
+        next_length[i] = min(longest[i], SMOOTHING_RATIO * np.sqrt(volume / h))

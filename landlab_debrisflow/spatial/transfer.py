@@ -13,15 +13,16 @@ the cover that hat functions of one node spacing would give at this distance, ov
 blurred by one node, whatever the number of particles (`sharpened_cover`).
 
 The loops run in particle order in one thread: the only sums that several particles share.
-"""
 
-from typing import NamedTuple
+Sums over nodes have one place for each slot of a node (`slots`): they take the memory of the flow, not of the raster.
+"""
 
 import numpy as np
 
 from ..core.jit import inner, kernel
-from ..core.structs import struct
+from .footprints import Footprints
 from .raster import CORE, Raster
+from .slots import Slots
 
 WIDEST = 4.0
 """Largest half-width of a hat function in node spacings."""
@@ -31,26 +32,6 @@ MOST_NODES_PER_STEP = 2.0
 
 REACH = int(WIDEST + MOST_NODES_PER_STEP) + 1
 """Distance in nodes within which a particle writes, after a step, too."""
-
-
-@struct
-class Footprints(NamedTuple):
-    """Nodes on which each of n particles lies, with weights: a sparse matrix by rows, with gaps between the rows.
-
-    Attributes
-    ----------
-    begin, end : ndarray of int, shape (n,)
-        First entry of each particle, and the entry after its last one.
-    node : ndarray of int, shape (m,)
-        Nodes, core nodes all.
-    weight : ndarray, shape (m,)
-        Weights, which are > 0 and sum to 1 for every particle [-].
-    """
-
-    begin: np.ndarray
-    end: np.ndarray
-    node: np.ndarray
-    weight: np.ndarray
 
 
 class Cover:
@@ -67,14 +48,16 @@ class Cover:
 
     >>> raster = Raster.from_status(np.zeros((6, 6)), (10.0, 10.0))
     >>> middle = np.array([25.0])
-    >>> Cover(raster).footprints(middle, middle, np.array([50.0]), np.array([2.0]), np.array([1.0]))
+    >>> footprints = Cover(raster).footprints(middle, middle, np.array([50.0]), np.array([2.0]), np.array([1.0]))
+    >>> from .footprints import on_nodes
+    >>> on_nodes(footprints)[:4]
     (array([0]), array([4]), array([14, 15, 20, 21]), array([0.25, 0.25, 0.25, 0.25]))
     """
 
     def __init__(self, raster: Raster):
         self._raster = raster
-        self._area = np.zeros(raster.status.size)
-        self._touched = np.empty(raster.status.size, np.int64)
+        self.slots = Slots(raster.status.size)
+        self._area, self._touched = np.zeros(0), np.empty(0, np.int64)
         self._last = np.empty((5, 0)), ()  # particles, and their footprints
 
     def footprints(self, x, y, volume, depth, fraction) -> Footprints:
@@ -95,8 +78,18 @@ class Cover:
         """
         given = x, y, volume, depth, fraction
         if x.size != self._last[0].shape[1] or x.size == 0 or _changed(self._last[0], *given):
-            self._last = _find_footprints(self._raster, *given, self._area, self._touched)
+            while not self._find(given):
+                self.slots.double()
         return self._last[1]
+
+    def _find(self, given) -> bool:
+        """Find the footprints of particles; return whether there were slots enough."""
+        slots = self.slots
+        if self._area.size < slots.count:
+            self._area, self._touched = np.zeros(slots.count), np.empty(slots.count, np.int64)
+        scratch = slots.of_node, slots.node, slots.used, self._area, self._touched
+        *self._last, slots.used, are_enough = _find_footprints(self._raster, *given, *scratch)
+        return are_enough
 
 
 def scatter(footprints: Footprints, values, sums, touched):
@@ -108,16 +101,15 @@ def scatter(footprints: Footprints, values, sums, touched):
         Footprints of the n particles, or of more, of which the first n count.
     values : ndarray, shape (n, k)
         Amounts; the first must be > 0 where a particle counts.
-    sums : ndarray, shape (nodes, k)
-        Zero on entry; the amounts are added. The amounts of a node lie together in memory, so that few pages of a wide
-        raster are touched.
-    touched : ndarray of int, shape (nodes,)
-        Scratch for the list of nodes reached.
+    sums : ndarray, shape (slots, k)
+        Zero on entry; the amounts are added.
+    touched : ndarray of int, shape (slots,)
+        Scratch for the list of slots reached.
 
     Returns
     -------
     ndarray of int
-        The nodes reached, in order of first touch; all other sums are 0.
+        Slots of the nodes reached, in order of first touch; all other sums are 0.
     """
     return touched[: _scatter(footprints, values, sums, touched)]
 
@@ -156,7 +148,7 @@ def sharpened_cover(cover, blur):
 
 
 @kernel
-def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
+def _find_footprints(raster, x, y, volume, depth, fraction, slot_of, nodes, used, cover, touched):
     """Spread the area of particles over nodes by hat functions, and sharpen these at the edge of the covered area.
 
     Parameters
@@ -165,18 +157,25 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
         Nodes, their statuses and spacing [m].
     x, y, volume, depth, fraction : ndarray, shape (n,)
         Position [m], volume [m3], depth of the flow [m] and fraction of the own phase [-] of each particle.
-    cover : ndarray, shape (nodes,)
+    slot_of, nodes, used
+        Slots of all nodes, nodes of all slots and the number of those in use (`slots.Slots`); nodes without one get
+        slots.
+    cover : ndarray, shape (slots,)
         Scratch: area that lies on the nodes [m2]; 0 before and after.
-    touched : ndarray of int, shape (nodes,)
-        Scratch: nodes with an area.
+    touched : ndarray of int, shape (slots,)
+        Scratch: slots of nodes with an area.
 
     Returns
     -------
     particles : ndarray, shape (5, n)
         Copy of the five arrays of particles.
     footprints : Footprints
+    used : int
+        Slots in use now.
+    are_enough : bool
+        Whether there were slots enough; if not, footprints lack the nodes without one.
     """
-    status, columns, rows, dx, dy = raster
+    status, columns, rows, dx, dy, _ = raster
     particles, half_width, area = np.empty((5, x.size)), np.empty(x.size), volume / depth
     most, found, cell = 0, 0, dx * dy
     for i in range(x.size):
@@ -186,7 +185,7 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
         ax, ay = min(max(half_width[i], dx), WIDEST * dx), min(max(half_width[i], dy), WIDEST * dy)
         most += (int(2.0 * ax / dx) + 1) * (int(2.0 * ay / dy) + 1)
     begin, end = np.empty(x.size, np.int64), np.empty(x.size, np.int64)
-    node, weight, last = np.empty(most, np.int64), np.empty(most), 0
+    slot, weight, last, are_enough = np.empty(most, np.int64), np.empty(most), 0, True
     for i in range(x.size):
         begin[i], total, xi, yi = last, 0.0, x[i], y[i]
         ax, ay = min(max(half_width[i], dx), WIDEST * dx), min(max(half_width[i], dy), WIDEST * dy)
@@ -199,12 +198,19 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
                 at = r * columns + c
                 w = wy * (1.0 - abs(xi - c * dx) * per_x)
                 if status[at] == CORE and w > 0.0:
-                    node[last], weight[last] = at, w
+                    here = slot_of[at]
+                    if here == 0:
+                        if used == nodes.size:
+                            are_enough = False
+                            continue
+                        here, slot_of[at], nodes[used] = used, used, at
+                        used += 1
+                    slot[last], weight[last] = here, w
                     total += w
                     last += 1
         scale = 1.0 / total
         for k in range(begin[i], last):
-            at = node[k]
+            at = slot[k]
             weight[k] *= scale
             if cover[at] == 0.0:
                 touched[found] = at
@@ -217,13 +223,13 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
             continue
         largest = 0.0  # less than the area of a node if the flow is narrower than its hat functions
         for k in range(begin[i], end[i]):
-            largest = max(largest, cover[node[k]])
+            largest = max(largest, cover[slot[k]])
         kept, total = begin[i], 0.0
         for k in range(begin[i], end[i]):
-            covered = cover[node[k]] / largest
+            covered = cover[slot[k]] / largest
             part = sharpened_cover(covered, blur)
             if part > 0.0:
-                node[kept], weight[kept] = node[k], weight[k] * (part / covered)
+                slot[kept], weight[kept] = slot[k], weight[k] * (part / covered)
                 total += weight[kept]
                 kept += 1
         end[i] = kept
@@ -232,7 +238,7 @@ def _find_footprints(raster, x, y, volume, depth, fraction, cover, touched):
             weight[k] *= scale
     for k in range(found):
         cover[touched[k]] = 0.0
-    return particles, (begin, end, node[:last], weight[:last])
+    return particles, (begin, end, slot[:last], weight[:last], nodes), used, are_enough
 
 
 @kernel
@@ -245,23 +251,23 @@ def _scatter(footprints, values, sums, touched):
         Footprints of the n particles at least.
     values : ndarray, shape (n, k)
         Amounts, in any unit; particles whose first amount is not > 0 are left out.
-    sums : ndarray, shape (nodes, k)
+    sums : ndarray, shape (slots, k)
         Zero on entry; the amounts are added.
-    touched : ndarray of int, shape (nodes,)
-        Written from its beginning: nodes in order of first touch. Earlier content is ignored.
+    touched : ndarray of int, shape (slots,)
+        Written from its beginning: slots in order of first touch. Earlier content is ignored.
 
     Returns
     -------
     int
         Number of nodes written to `touched`.
     """
-    begin, end, node, weight = footprints
+    begin, end, slot, weight, _ = footprints
     found = 0
     for i in range(values.shape[0]):
         if values[i, 0] <= 0.0:
             continue
         for k in range(begin[i], end[i]):
-            at = node[k]
+            at = slot[k]
             if sums[at, 0] == 0.0:
                 touched[found] = at
                 found += 1

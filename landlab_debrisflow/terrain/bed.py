@@ -2,7 +2,7 @@
 
 Every node value is the value at the beginning of the call less the depth eroded since, in one subtraction: rounding
 errors do not accumulate over thousands of steps, and elevation and soil move together. The values at the beginning are
-copied when a node is first lowered, so that a large raster costs nothing.
+copied when a node is first lowered, into its slot (`spatial/slots.py`), so that a large raster costs nothing.
 """
 
 from copy import copy
@@ -13,8 +13,10 @@ import numpy as np
 from ..core.arrays import value_at
 from ..core.jit import kernel
 from ..core.structs import struct
+from ..spatial.footprints import Footprints
 from ..spatial.raster import CORE, FIXED_VALUE, Raster
-from ..spatial.transfer import Cover, Footprints, scatter
+from ..spatial.slots import with_places
+from ..spatial.transfer import Cover, scatter
 from .surface import Surface
 
 
@@ -30,9 +32,9 @@ class NodeAccounts(NamedTuple):
         Elevation of the bed [m].
     eroded_depth : ndarray, shape (nodes,)
         Depth eroded so far [m].
-    taken : ndarray, shape (nodes,)
+    taken : ndarray, shape (slots,)
         Depth eroded in this call [m].
-    before : ndarray, shape (3, nodes)
+    before : ndarray, shape (slots, 3)
         Soil, elevation and eroded depth at the beginning of the call, of nodes that were lowered [m].
     pressure_ratio : ndarray, shape (nodes,) or (1,)
         Pore pressure ratio of the soil [-]; is read only.
@@ -48,16 +50,16 @@ class NodeAccounts(NamedTuple):
 
 @struct
 class Demand(NamedTuple):
-    """Demand for soil at the nodes of a raster: scratch of an erosion.
+    """Demand for soil at the nodes under a flow: scratch of an erosion.
 
     Attributes
     ----------
-    volume : ndarray, shape (nodes,)
+    volume : ndarray, shape (slots,)
         Soil asked for [m3]; 0 before and after.
-    granted : ndarray, shape (nodes,)
-        Fraction of the demand that the soil can supply [-].
-    touched : ndarray of int, shape (nodes,)
-        Nodes with a demand, as many as there are, in order of first touch.
+    granted : ndarray, shape (slots, 2)
+        Fraction of the demand that the soil can supply, and its pore pressure ratio [-].
+    touched : ndarray of int, shape (slots,)
+        Slots of nodes with a demand, as many as there are, in order of first touch.
     """
 
     volume: np.ndarray
@@ -100,39 +102,57 @@ class Bed:
         self.eroded_depth, self.pressure_ratio = eroded_depth, pressure_ratio
         self.drained, self.pore_pressure = drained, pore_pressure
         self._earlier, self.saturation = earlier, saturation
-        self._before = np.empty((3, elevation.size))  # soil, elevation, eroded depth of nodes that were lowered
-        self.taken = np.zeros(elevation.size)  # depth eroded in this call [m]
         self._cover = Cover(raster)
-        self._demand = np.zeros((elevation.size, 1))
-        self._granted = np.empty(elevation.size)
-        self._touched = np.empty(elevation.size, np.int64)
+        self._taken, self._before = np.zeros(0), np.empty((0, 3))  # as in `NodeAccounts`
+        self._demand, self._granted, self._touched = np.zeros((0, 1)), np.empty((0, 2)), np.empty(0, np.int64)
 
     def copy(self) -> "Bed":
         """Return a bed with accounts of its own, on the same elevation, soil and surface."""
         other = copy(self)
-        other.taken, other._before = self.taken.copy(), self._before.copy()
+        other._taken, other._before = self._taken.copy(), self._before.copy()
         if self.pore_pressure is not None:
             other.pore_pressure = self.pore_pressure.copy()
             other.pressure_ratio = other.pore_pressure.ratio
         return other
 
+    def _fit(self, slots: int) -> None:
+        """Make accounts and scratch as long as there are slots."""
+        if self._taken.size < slots:
+            self._taken, self._before = with_places(self._taken, slots), with_places(self._before, slots)
+            self._demand, self._granted = np.zeros((slots, 1)), np.empty((slots, 2))
+            self._touched = np.empty(slots, np.int64)
+
+    def _lowered(self):
+        """Return the nodes that were lowered in this call, in their order, and their slots."""
+        slots = np.flatnonzero(self._taken)
+        nodes = self._cover.slots.node[slots]
+        order = np.argsort(nodes)
+        return nodes[order], slots[order]
+
+    @property
+    def lowered(self):
+        """Nodes that were lowered in this call, int, shape (k,), and how far, shape (k,) [m]."""
+        nodes, slots = self._lowered()
+        return nodes, self._taken[slots]
+
     def variables(self) -> dict:
         """Return the accounts of the call by name, as dimensions and values: of the nodes that were lowered [m]."""
-        nodes = np.flatnonzero(self.taken)
-        return {
-            "lowered_node": ("lowered", nodes), "taken": ("lowered", self.taken[nodes]),
-            "before": (("ground", "lowered"), self._before[:, nodes]),
-        }  # fmt: skip
+        nodes, slots = self._lowered()
+        taken, before = ("lowered", self._taken[slots]), (("ground", "lowered"), self._before[slots].T)
+        return {"lowered_node": ("lowered", nodes), "taken": taken, "before": before}
 
     def set_variables(self, variables) -> None:
         """Restore the accounts of a call that `variables` returned, values by name."""
-        nodes = variables["lowered_node"]
-        self.taken[nodes], self._before[:, nodes] = variables["taken"], variables["before"]
+        slots = self._cover.slots.reach(variables["lowered_node"])
+        self._fit(self._cover.slots.count)
+        self._taken[slots], self._before[slots] = variables["taken"], variables["before"].T
 
     @property
     def elevation_before(self):
         """Elevation at the beginning of the call, ndarray, shape (nodes,) [m]."""
-        return np.where(self.taken > 0.0, self._before[1], self.elevation)
+        elevation, (nodes, slots) = self.elevation.copy(), self._lowered()
+        elevation[nodes] = self._before[slots, 1]
+        return elevation
 
     @classmethod
     def from_arrays(cls, elevation, spacing, soil=None, pressure_ratio=0.0, **others) -> "Bed":
@@ -158,9 +178,13 @@ class Bed:
         raster, surface = Raster.from_status(status, spacing), Surface(elevation, spacing)
         return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
-    def footprints(self, p) -> Footprints:
-        """Return the nodes on which all particles `p` of a flow lie; the outline of these is the edge of the flow."""
-        return self._cover.footprints(p.x, p.y, p.volume, p.depth, p.share)
+    def footprints(self, p, x=None, y=None) -> Footprints:
+        """Return the nodes on which all particles `p` of a flow lie; the outline of these is the edge of the flow.
+
+        `x` and `y` are positions to suppose instead of those there are, shape (n,) [m].
+        """
+        x, y = (p.x, p.y) if x is None else (x, y)
+        return self._cover.footprints(x, y, p.volume, p.depth, p.share)
 
     def erode(self, footprints: Footprints, demanded):
         """Take the demanded soil for particles; particles at one node divide the soil left there.
@@ -181,19 +205,23 @@ class Bed:
         """
         if self.soil is None:
             return np.zeros(demanded.size), np.zeros(demanded.size)
+        *_, node = footprints
+        self._fit(node.size)
         accounts = NodeAccounts(
-            soil=self.soil, elevation=self.elevation, eroded_depth=self.eroded_depth, taken=self.taken,
+            soil=self.soil, elevation=self.elevation, eroded_depth=self.eroded_depth, taken=self._taken,
             before=self._before, pressure_ratio=self.pressure_ratio,
         )  # fmt: skip
         demand = Demand(volume=self._demand[:, 0], granted=self._granted, touched=self._touched)
         count, entrained, ratio = _erode(footprints, demanded, self.raster.area, accounts, demand)
-        at = self._touched[:count]
+        at = node[self._touched[:count]]
         self.surface.move_to(at, self.elevation[at])
         return entrained, ratio
 
     def eroded_in_event(self, nodes):
         """Return the depth eroded at some nodes since the event began [m]."""
-        return self.taken[nodes] if self._earlier is None else self._earlier[nodes] + self.taken[nodes]
+        self._fit(self._cover.slots.count)
+        taken = self._taken[self._cover.slots.of_node[nodes]]
+        return taken if self._earlier is None else self._earlier[nodes] + taken
 
     def depth_of(self, footprints: Footprints, volume):
         """Return the nodes under some particles, and the depth that their volume [m3] would have on these nodes [m].
@@ -201,10 +229,12 @@ class Bed:
         The footprints are those of all particles; `volume`, shape (n,), is 0 for particles that do not count. Both
         results have one entry per node.
         """
-        at = scatter(footprints, volume[:, None], self._demand, self._touched).copy()
-        depth = self._demand[at, 0] / self.raster.area
-        self._demand[at, 0] = 0.0
-        return at, depth
+        *_, node = footprints
+        self._fit(node.size)
+        slots = scatter(footprints, volume[:, None], self._demand, self._touched)
+        depth = self._demand[slots, 0] / self.raster.area
+        self._demand[slots, 0] = 0.0
+        return node[slots], depth
 
     def lay_down(self, nodes, depth):
         """Add a depth [m] to elevation and soil of distinct nodes."""
@@ -234,39 +264,41 @@ def _erode(footprints, demanded, area, accounts, demand):
     Returns
     -------
     count : int
-        Number of nodes touched.
+        Number of slots touched.
     entrained, ratio : ndarray, shape (n,)
         Volume given to each particle [m3] and its pore pressure ratio [-].
     """
     soil, elevation, eroded_depth, taken, before, pressure_ratio = accounts
     volume, granted, touched = demand
-    begin, end, index, weight = footprints
+    begin, end, index, weight, nodes = footprints
     entrained, ratio, found = np.zeros(demanded.size), np.zeros(demanded.size), 0
     for i in range(demanded.size):
         if demanded[i] > 0.0:
             for k in range(begin[i], end[i]):
-                node = index[k]
-                if volume[node] == 0.0:
-                    touched[found] = node
+                slot = index[k]
+                if volume[slot] == 0.0:
+                    touched[found] = slot
                     found += 1
-                volume[node] += weight[k] * demanded[i]
+                volume[slot] += weight[k] * demanded[i]
     for k in range(found):
-        node = touched[k]
-        if taken[node] == 0.0:
-            before[0, node], before[1, node], before[2, node] = soil[node], elevation[node], eroded_depth[node]
-        granted[node] = min(1.0, (before[0, node] - taken[node]) * area / volume[node])
-        taken[node] = min(taken[node] + granted[node] * volume[node] / area, before[0, node])
-        soil[node] = before[0, node] - taken[node]
-        elevation[node] = before[1, node] - taken[node]
-        eroded_depth[node] = before[2, node] + taken[node]
-        volume[node] = 0.0
+        slot = touched[k]
+        node = nodes[slot]
+        if taken[slot] == 0.0:
+            before[slot, 0], before[slot, 1], before[slot, 2] = soil[node], elevation[node], eroded_depth[node]
+        part = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
+        granted[slot, 0], granted[slot, 1] = part, value_at(pressure_ratio, node)
+        taken[slot] = min(taken[slot] + part * volume[slot] / area, before[slot, 0])
+        soil[node] = before[slot, 0] - taken[slot]
+        elevation[node] = before[slot, 1] - taken[slot]
+        eroded_depth[node] = before[slot, 2] + taken[slot]
+        volume[slot] = 0.0
     for i in range(demanded.size):
         if demanded[i] > 0.0:
             fraction, pressure = 0.0, 0.0
             for k in range(begin[i], end[i]):
-                given = weight[k] * granted[index[k]]
+                given = weight[k] * granted[index[k], 0]
                 fraction += given
-                pressure += given * value_at(pressure_ratio, index[k])
+                pressure += given * granted[index[k], 1]
             entrained[i] = demanded[i] * fraction
             ratio[i] = pressure / fraction if fraction > 0.0 else 0.0
     return found, entrained, ratio

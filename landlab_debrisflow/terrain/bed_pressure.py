@@ -15,8 +15,9 @@ import numpy as np
 
 from ..core.jit import kernel
 from ..core.structs import struct
+from ..spatial.footprints import Footprints, on_nodes
 from ..spatial.raster import Raster
-from ..spatial.transfer import Footprints, scatter
+from ..spatial.transfer import scatter
 
 
 @struct
@@ -125,7 +126,7 @@ class BedPressure:
         self._bear(footprints, force, time, 0.0, 0.0)
 
     def _bear(self, footprints, force, time, dt, loading):
-        at = scatter(footprints, force, self._sums, self._scratch).copy()
+        at = scatter(on_nodes(footprints), force, self._sums, self._scratch).copy()
         response = BedResponse(loading=loading, drainage_time=self._drainage_time, area=self._raster.area)
         nodes = NodePressure(pressure=self._pressure, ratio=self.ratio, load=self._load, age=self._age)
         _respond(self._under, at, self._sums, response, nodes, time - self._start, dt)

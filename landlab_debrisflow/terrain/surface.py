@@ -103,6 +103,10 @@ class Surface:
         """
         _sample(self.values, self.dx, self.dy, x, y, sample)
 
+    def elevation_into(self, x, y, elevation) -> None:
+        """Write the elevation [m] of points x, y from the lower left node [m] into an array, all of shape (n,)."""
+        _elevation(self.values, self.dx, self.dy, x, y, elevation)
+
 
 def _fill(values, invalid):
     """Extrapolate linearly into invalid nodes from valid ones, two rings deep (all a read can reach).
@@ -161,6 +165,30 @@ def _tangent(before, after, most):
         limited = min(max(mean, -steepest), steepest)
     sharp = min(bend / most - 1.0, 1.0)
     return mean + sharp * (limited - mean)
+
+
+@inner
+def _between(v0, v1, v2, v3, s, most):
+    """Return the value at `s` between the middle ones of four values in a row [m]; `most` as in `_tangent`."""
+    rise = v2 - v1
+    m1, m2 = _tangent(v1 - v0, rise, most), _tangent(rise, v3 - v2, most)
+    k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+    return v1 + s * (m1 + s * (k2 + s * k3))
+
+
+@kernel
+def _elevation(values, dx, dy, x, y, elevation):
+    """Write the elevation of points [m], as `_sample` does; parameters as there."""
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    v = np.empty(4)  # on four rows
+    for i in range(x.size):
+        p, q = x[i] / dx, y[i] / dy
+        c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
+        for b in range(4):
+            v[b] = _between(
+                values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3], p - c, dx
+            )  # fmt: skip
+        elevation[i] = _between(v[0], v[1], v[2], v[3], q - r, dy)
 
 
 @kernel

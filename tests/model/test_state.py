@@ -71,7 +71,8 @@ def call(simulation, terrain, seconds, failing=None, changed=False):
     end = simulation.time + seconds
     simulation.start(end)
     simulation.advance(end)
-    terrain.earlier += bed.taken
+    nodes, depth = bed.lowered
+    terrain.earlier[nodes] += depth
 
 
 def begun(scene, seconds=4.0, particles=60):

@@ -61,6 +61,17 @@ def test_images_are_mirrored_in_x_in_y_and_in_both():
     np.testing.assert_array_equal(flow.position.x[:2], x)
 
 
+@pytest.mark.parametrize(("support", "ghosts"), [(19.9, 0), (20.1, 1)])
+def test_a_wall_acts_from_as_far_as_the_support_reaches(support, ghosts):
+    """The wall is 20 nodes away, so only a particle with a wide support is compared with it."""
+    status = np.zeros((60, 60), np.uint8)
+    status[30, 10] = CLOSED
+    flow = state(np.array([30.5]), np.array([30.0]))
+    flow = flow._replace(smoothing=flow.smoothing._replace(length=np.array([0.5 * support])))
+    whole, _ = ghost_particles(flow, np.ones(1, bool), Raster.from_status(status, (1.0, 1.0)), np.zeros(1, np.int8))
+    assert whole.position.x.size == 1 + ghosts
+
+
 @pytest.mark.parametrize(("across", "touches"), [(-1.0, 1), (-1e-3, 1), (1e-3, 0), (1.0, 0)])
 def test_what_leaves_a_wall_has_not_touched_it(across, touches):
     velocity = np.zeros((3, 1))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from landlab_debrisflow.spatial.footprints import on_nodes
 from landlab_debrisflow.spatial.raster import CLOSED, CORE, Raster
 from landlab_debrisflow.spatial.transfer import WIDEST, Cover, scatter, sharpened_cover
 
@@ -35,7 +36,7 @@ def add(raster, particles, values):
     """Return the nodes reached and the sums, shape (k, nodes), of values, shape (k, n)."""
     nodes = raster.status.size
     sums = np.zeros((nodes, values.shape[0]))
-    at = scatter(lying(raster, *particles), values.T, sums, np.empty(nodes, np.int64))
+    at = scatter(on_nodes(lying(raster, *particles)), values.T, sums, np.empty(nodes, np.int64))
     return at.copy(), sums.T
 
 
@@ -142,7 +143,7 @@ def test_two_phases_in_one_place_cover_it_once():
     twice, half = np.tile([x, y], 2), np.full(2 * x.size, 0.5)
     found = Cover(raster).footprints(*twice, half * 1.5**2, np.ones(2 * x.size), half)
     sums = np.zeros((3600, 1))
-    scatter(found, half[:, None] * 1.5**2, sums, np.empty(3600, np.int64))
+    scatter(on_nodes(found), half[:, None] * 1.5**2, sums, np.empty(3600, np.int64))
     np.testing.assert_allclose(sums[:, 0], depth_of((x, y, spacing)).ravel(), rtol=0, atol=1e-14)
 
 

@@ -13,22 +13,27 @@ AREA = DX * DY
 
 
 def make_bed(soil, ratio=None):
-    status = np.full(SHAPE, CLOSED)
-    status[1:-1, 1:-1] = CORE
-    size = status.size
+    size = SHAPE[0] * SHAPE[1]
     elevation = 100.0 + np.random.default_rng(1).normal(0.0, 1.0, size)
     soil = None if soil is None else np.broadcast_to(np.asarray(soil, float), size).copy()
     ratio = np.full(size, 0.65) if ratio is None else ratio
     surface = Surface(elevation.reshape(SHAPE), (DX, DY))
-    return Bed(Raster.from_status(status, (DX, DY)), surface, elevation, soil, np.zeros(size), ratio)
+    return Bed(raster(), surface, elevation, soil, np.zeros(size), ratio)
+
+
+def raster():
+    status = np.full(SHAPE, CLOSED)
+    status[1:-1, 1:-1] = CORE
+    return Raster.from_status(status, (DX, DY))
+
+
+COVER = Cover(raster())  # one for all, as a bed has one: nodes keep their slots
 
 
 def lying(x, y, half_width):
     """Return the footprints of particles by place and half-width of their hat functions [m]."""
-    status = np.full(SHAPE, CLOSED)
-    status[1:-1, 1:-1] = CORE
     ones = np.ones(x.size)
-    return Cover(Raster.from_status(status, (DX, DY))).footprints(x, y, 0.25 * half_width**2, ones, ones)
+    return COVER.footprints(x, y, 0.25 * half_width**2, ones, ones)
 
 
 @pytest.fixture

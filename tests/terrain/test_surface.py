@@ -150,3 +150,12 @@ def test_slope_x_is_not_limited_along_y():
     assert abs(sample.slope_x - slope_x).max() == pytest.approx(2.0 / 27.0, rel=1e-4)
     # the curvature, 24 per m at most, jumps on lines of nodes
     np.testing.assert_allclose(sample.slope_y, slope_y, rtol=0, atol=0.5 * 24.0 * small)
+
+
+def test_elevation_alone_is_that_of_the_whole_reading(rough):
+    surface, rng = Surface(rough, (DX, DY)), np.random.default_rng(4)
+    x, y = rng.uniform(-DX, 12 * DX, 200), rng.uniform(-DY, 9 * DY, 200)
+    z = np.empty(200)
+    surface.elevation_into(x, y, z)
+    # the same polynomial; terms of up to 1e3 m, beyond the rim, may be added in another order
+    np.testing.assert_allclose(z, surface.sample(x, y).elevation, rtol=0, atol=1e-12)

@@ -84,7 +84,7 @@ def test_what_grains_lose_water_gains():
     pushes = masses(p) * p.thrust
     assert np.all(abs(pushes.sum(axis=1)) <= 6e-8 * abs(pushes).sum(axis=1))  # 2e-9 to 2e-8 for four seeds
     before, none = masses(p) * p.velocity, np.zeros(p.count)
-    p.thrust[:] = 0.0
+    p.pull[:] = p.water_pull[:] = 0.0
     sim.phases.kick(p, sim.state.exchange, p.velocity, none, none, np.zeros(1), 0.05)
     gained = masses(p) * p.velocity - before
     assert abs(gained).sum() > 1e-3 * abs(before).sum()
@@ -143,7 +143,8 @@ def test_the_decay_does_not_know_the_step():
     for parts in (1, 12):
         flow, _ = slab(0.0, 1.0, 0.0)
         sim, p = flow._simulation, flow._simulation.particles
-        p.thrust[:], p.porosity[:], none = 0.0, N, np.zeros(p.count)
+        p.pull[:] = p.water_pull[:] = 0.0
+        p.porosity[:], none = N, np.zeros(p.count)
         p.velocity[0] = np.where(p.phase == WATER, 1.0, 0.0)
         for _ in range(parts):
             sim.phases.kick(p, sim.state.exchange, p.velocity, none, none, np.zeros(1), 0.3 / parts)

@@ -97,6 +97,8 @@ class Inflow:
 
     def latest(self, time: float) -> float:
         """Return until when a step that begins at `time` may go [s]: `latest_step`, but past no bend of a series."""
+        if not self.sources:
+            return np.inf
         soon = time + 1e-9 * (1.0 + abs(time))
         return min([self.latest_step, *(float(t) for source in self.sources for t in source.times if t > soon)])
 

@@ -3,6 +3,8 @@
 import numpy as np
 
 from ...core.jit import kernel
+from ...physics.contracts import WATER
+from ...spatial.partners import reverse
 
 
 class Exchange:
@@ -12,6 +14,8 @@ class Exchange:
     ----------
     partners : Partners or None
         Partners of the grains among the water.
+    grains : Partners or None
+        The same pairs by the water: grains whose partner each water particle is.
     generation : tuple of int or None
         `Particles.generation` for which they were found.
     age : int
@@ -21,13 +25,18 @@ class Exchange:
     """
 
     def __init__(self):
-        self.partners, self.generation, self.age, self.steps = None, None, 0, 0
+        self.partners, self.grains, self.generation, self.age, self.steps = None, None, None, 0, 0
 
     def copy(self) -> "Exchange":
         """Return an independent copy; partners are never changed, but replaced."""
         other = Exchange()
         vars(other).update(vars(self))
         return other
+
+    def keep(self, partners, phase, generation) -> None:
+        """Keep `partners`, found for the particles of a `generation`; `phase` is that of each particle, shape (n,)."""
+        self.partners, self.grains = partners, reverse(partners, np.flatnonzero(phase == WATER))
+        self.generation, self.age = generation, 0
 
 
 MOST_SCALED = 2.0
@@ -51,26 +60,28 @@ def make_whole(partners, porosity, volume):
     porosity, volume : ndarray, shape (n,)
         [-], [m3]
     """
-    of, count, index, weight = partners
+    of, first, index, weight = partners
     claimed = np.zeros(volume.size)
     for k in range(of.size):
         around = volume[of[k]] * porosity[of[k]] / (1.0 - porosity[of[k]])
-        for s in range(count[k]):
-            claimed[index[k, s]] += around * weight[k, s]
-    for k in range(of.size):
-        for s in range(count[k]):
-            j = index[k, s]
-            weight[k, s] *= min(volume[j] / claimed[j], MOST_SCALED)
+        for s in range(first[k], first[k + 1]):
+            claimed[index[s]] += around * weight[s]
+    for i in range(volume.size):
+        claimed[i] = min(volume[i] / claimed[i], MOST_SCALED) if claimed[i] != 0.0 else 1.0
+    for s in range(index.size):
+        weight[s] *= claimed[index[s]]
 
 
 @kernel
-def distribute_soil_water(partners, entrained, water_ratio, volume, velocity, exponent):
+def distribute_soil_water(partners, grains, entrained, water_ratio, volume, velocity, exponent):
     """Distribute the water of the entrained soil among the partners, in place.
 
     Parameters
     ----------
     partners : Partners
         Partners of the grains among the water.
+    grains : Partners
+        Grains whose partner each water particle is.
     entrained : ndarray, shape (n,)
         Volume of grains that each grain particle took from the soil [m3].
     water_ratio : float
@@ -82,19 +93,45 @@ def distribute_soil_water(partners, entrained, water_ratio, volume, velocity, ex
     exponent : float
         [-]
     """
-    of, count, index, weight = partners
-    taken = np.zeros(volume.size)
+    of, first, _, weight = partners
+    soil = np.zeros(of.size)  # for a partner of weight 1
     for k in range(of.size):
-        soil = water_ratio * entrained[of[k]]
-        if soil > 0.0:
-            soil /= np.sum(weight[k, : count[k]])
-            for s in range(count[k]):
-                taken[index[k, s]] += weight[k, s] * soil
-    for i in range(volume.size):
-        if taken[i] > 0.0:
-            velocity_ratio = volume[i] / (volume[i] + taken[i])
-            volume[i] += taken[i]
+        if entrained[of[k]] > 0.0:
+            total = 0.0
+            for s in range(first[k], first[k + 1]):
+                total += weight[s]
+            soil[k] = water_ratio * entrained[of[k]] / total
+    of, first, index, weight = grains
+    for k in range(of.size):
+        taken, i = 0.0, of[k]
+        for s in range(first[k], first[k + 1]):
+            taken += weight[s] * soil[index[s]]
+        if taken > 0.0:
+            velocity_ratio = volume[i] / (volume[i] + taken)
+            volume[i] += taken
             if exponent < 1.0:
                 velocity_ratio **= exponent
             for d in range(3):
                 velocity[d, i] *= velocity_ratio
+
+
+@kernel
+def leave_to_mixed(partners, water, rate):
+    """Set the erosion rate to 0, in place, for water and for grains without water around.
+
+    Parameters
+    ----------
+    partners : Partners
+        Partners of the grains among the water.
+    water : ndarray of int, shape (l,)
+        Particles of water.
+    rate : ndarray, shape (m,)
+        Erosion rate of grains and of water between them [m s-1].
+    """
+    of, first, _, _ = partners
+    for k in range(of.size):
+        if first[k] == first[k + 1]:
+            rate[of[k]] = 0.0
+    for i in water:
+        if i < rate.size:
+            rate[i] = 0.0

@@ -13,8 +13,10 @@ import numpy as np
 
 from ...core.jit import inner, kernel
 from ...core.structs import struct
-from ...physics.contracts import WATER
 from ..kinematics import along_bed
+
+FORGOTTEN = 40.0
+"""Number of e-foldings after which nothing is left in double precision."""
 
 
 @struct
@@ -24,9 +26,11 @@ class Motion(NamedTuple):
     Attributes
     ----------
     velocity : ndarray, shape (3, n)
-        Velocity tangent to the bed [m s-1].
-    pressure_acceleration : ndarray, shape (3, n)
-        Acceleration by the pressure of neighbours [m s-2].
+        Velocity tangent to the bed, changed in place [m s-1].
+    pull : ndarray, shape (3, n)
+        Acceleration along the bed by gravity and the pressure of neighbours [m s-2].
+    water_pull : ndarray, shape (3, n)
+        Of grains: mean acceleration of the water around them, along the bed below the grains [m s-2].
     slope_x : ndarray, shape (n,)
         Slope of the bed, dz/dx [-].
     slope_y : ndarray, shape (n,)
@@ -36,7 +40,8 @@ class Motion(NamedTuple):
     """
 
     velocity: np.ndarray
-    pressure_acceleration: np.ndarray
+    pull: np.ndarray
+    water_pull: np.ndarray
     slope_x: np.ndarray
     slope_y: np.ndarray
     cos_slope: np.ndarray
@@ -48,8 +53,6 @@ class GrainsAndWater(NamedTuple):
 
     Attributes
     ----------
-    phase : ndarray, shape (n,)
-        MIXTURE, which are the grains, or WATER.
     volume : ndarray, shape (n,)
         Volume of the particle's own phase [m3].
     thickness : ndarray, shape (n,)
@@ -62,7 +65,6 @@ class GrainsAndWater(NamedTuple):
         Density of the water [kg m-3].
     """
 
-    phase: np.ndarray
     volume: np.ndarray
     thickness: np.ndarray
     porosity: np.ndarray
@@ -96,49 +98,93 @@ class MixtureResistance(NamedTuple):
 
 
 @kernel
-def kick_both(partners, motion, mixture, resistance, gravity, dt):
-    """Accelerate grains and water along the bed for `dt` seconds, in place.
+def pull_along_bed(partners, push, motion, gravity):
+    """Write the acceleration of all particles along the bed, and the mean of the water around each grain particle.
+
+    Between two changes of place both stay as they are: the last kick of a step and the first of the next share them.
 
     Parameters
     ----------
     partners : Partners
-        Partners of the m grain particles among the water.
+        Partners of the grains among the water.
+    push : ndarray, shape (3, n)
+        Acceleration by the pressure of neighbours [m s-2].
+    motion : Motion
+        Of n particles; `pull` and `water_pull` are written.
+    gravity : float
+        Acceleration by gravity [m s-2].
+    """
+    of, first, index, weight = partners
+    _, pull, water_pull, slope_x, slope_y, cosine = motion
+    for i in range(cosine.size):
+        pull[0, i], pull[1, i], pull[2, i] = along_bed(i, push, slope_x, slope_y, cosine, gravity)
+    for k in range(of.size):
+        i, ax, ay, az, total = of[k], 0.0, 0.0, 0.0, 0.0
+        for s in range(first[k], first[k + 1]):
+            j, fraction = index[s], weight[s]
+            ax += fraction * pull[0, j]
+            ay += fraction * pull[1, j]
+            az += fraction * pull[2, j]
+            total += fraction
+        if total > 0.0:
+            ax, ay, az = ax / total, ay / total, az / total
+        nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
+        water_pull[0, i], water_pull[1, i], water_pull[2, i] = _along(ax, ay, az, nx, ny, nz)
+
+
+@kernel
+def kick_grains(partners, motion, mixture, resistance, dt):
+    """Accelerate grains along the bed for `dt` seconds, in place; return the momentum that their water gets by drag.
+
+    Parameters
+    ----------
+    partners : Partners
+        Partners of the m grain particles among the water, which has not been accelerated yet.
     motion : Motion
         Motion of n particles.
     mixture : GrainsAndWater
         Mixture at n particles.
     resistance : MixtureResistance
         Resistance of the bed and between the phases.
-    gravity : float
-        Acceleration by gravity [m s-2].
     dt : float
         Duration of the step [s].
+
+    Returns
+    -------
+    ndarray, shape (m, 3)
+        Momentum for the partners of each [kg m s-1].
     """
-    of, count = partners.of, partners.count
-    velocity, _, slope_x, slope_y, cosine = motion
-    phase, volume, thickness, porosity, solid_density, water_density = mixture
-    yield_stress, drag, phase_drag, water_drag, rest_speed = resistance
-    free = _free_motion(motion, gravity)
-    around, impulse = _gather_water(partners, free), np.empty((of.size, 3))
-    # 1. kick the grains, and find the momentum that their water gets by drag
+    of, first, index, weight = partners
+    velocity, pull, water_pull, slope_x, slope_y, cosine = motion
+    volume, thickness, porosity, solid_density, water_density = mixture
+    yield_stress, drag, phase_drag, _, rest_speed = resistance
+    impulse = np.empty((of.size, 3))
     for k in range(of.size):
-        i, taken = of[k], around[k, 6]
-        u, v, w = around[k, 0], around[k, 1], around[k, 2]
-        ax, ay, az = around[k, 3], around[k, 4], around[k, 5]
+        i, u, v, w, taken = of[k], 0.0, 0.0, 0.0, 0.0
+        for s in range(first[k], first[k + 1]):
+            j, fraction = index[s], weight[s]
+            u += fraction * velocity[0, j]
+            v += fraction * velocity[1, j]
+            w += fraction * velocity[2, j]
+            taken += fraction
+        alone = first[k] == first[k + 1]
+        if not alone:
+            u, v, w = u / taken, v / taken, w / taken
         # water around on another slope moves across the bed here: this component is left out
         nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
         u, v, w = _along(u, v, w, nx, ny, nz)
-        ax, ay, az = _along(ax, ay, az, nx, ny, nz)
+        ax, ay, az = water_pull[0, i], water_pull[1, i], water_pull[2, i]
+        bx, by, bz = pull[0, i], pull[1, i], pull[2, i]
+        us, vs, ws = velocity[0, i], velocity[1, i], velocity[2, i]
         m_s = solid_density * (1.0 - porosity[i]) * thickness[i]
         m_w = water_density * porosity[i] * thickness[i]
         # drag is per volume of water; these grains claim the fraction `taken` of it
         x = dt * phase_drag[i] * (taken / m_s + 1.0 / m_w)
-        m_w *= taken if count[k] > 0 else 1.0
-        lost = -np.expm1(-x)
+        m_w *= 1.0 if alone else taken
+        lost = 1.0 if x > FORGOTTEN else -np.expm1(-x)
         left, response = 1.0 - lost, dt * (lost / x if x > 1e-12 else 1.0)
         water_fraction = m_w / (m_s + m_w)  # fraction of the mass
         compliance = (dt + m_w / m_s * response) / (m_s + m_w)
-        us, vs, ws, bx, by, bz = free[i, 0], free[i, 1], free[i, 2], free[i, 3], free[i, 4], free[i, 5]
         du = (u - us) * left + response * (ax - bx)
         dv = (v - vs) * left + response * (ay - by)
         dw = (w - ws) * left + response * (az - bz)
@@ -169,19 +215,38 @@ def kick_both(partners, motion, mixture, resistance, gravity, dt):
         impulse[k, 0] = mass * (more * fu + du - u - dt * ax)
         impulse[k, 1] = mass * (more * fv + dv - v - dt * ay)
         impulse[k, 2] = mass * (more * fw + dw - w - dt * az)
-    received = _give_back(partners, impulse, phase.size)
-    # 2. kick the water with the momentum it received and the drag of the bed
-    for i in range(phase.size):
-        if phase[i] != WATER:
-            continue
+    return impulse
+
+
+@kernel
+def kick_water(grains, impulse, motion, mixture, resistance, dt):
+    """Accelerate water along the bed for `dt` seconds, in place.
+
+    Parameters
+    ----------
+    grains : Partners
+        Grains whose partner each water particle is; made by `reverse`.
+    impulse : ndarray, shape (m, 3)
+        Momentum that grains give to all their partners [kg m s-1].
+    motion, mixture, resistance, dt
+        As in `kick_grains`.
+    """
+    of, first, index, weight = grains
+    velocity, pull, _, slope_x, slope_y, cosine = motion
+    volume, thickness, porosity, _, water_density = mixture
+    _, _, phase_drag, water_drag, rest_speed = resistance
+    for k in range(of.size):
+        i, gx, gy, gz = of[k], 0.0, 0.0, 0.0
+        for s in range(first[k], first[k + 1]):
+            giver, fraction = index[s], weight[s]
+            gx += fraction * impulse[giver, 0]
+            gy += fraction * impulse[giver, 1]
+            gz += fraction * impulse[giver, 2]
         per_mass = 1.0 / (water_density * volume[i])
-        gx, gy, gz = received[i, 0] * per_mass, received[i, 1] * per_mass, received[i, 2] * per_mass
         nx, ny, nz = -cosine[i] * slope_x[i], -cosine[i] * slope_y[i], cosine[i]
-        across = gx * nx + gy * ny + gz * nz
-        ax, ay, az = free[i, 3], free[i, 4], free[i, 5]
-        u = velocity[0, i] + dt * ax + gx - across * nx
-        v = velocity[1, i] + dt * ay + gy - across * ny
-        w = velocity[2, i] + dt * az + gz - across * nz
+        gx, gy, gz = _along(gx * per_mass, gy * per_mass, gz * per_mass, nx, ny, nz)
+        ax, ay, az = pull[0, i], pull[1, i], pull[2, i]
+        u, v, w = velocity[0, i] + dt * ax + gx, velocity[1, i] + dt * ay + gy, velocity[2, i] + dt * az + gz
         was = np.sqrt(velocity[0, i] ** 2 + velocity[1, i] ** 2 + velocity[2, i] ** 2)
         factor = 1.0 / (1.0 + dt * water_drag[min(i, water_drag.size - 1)] * was)
         speed = factor * np.sqrt(u * u + v * v + w * w)
@@ -203,57 +268,3 @@ def _along(x, y, z, nx, ny, nz):
     """
     across = x * nx + y * ny + z * nz
     return x - across * nx, y - across * ny, z - across * nz
-
-
-@inner
-def _free_motion(motion, gravity):
-    """Return velocity and acceleration without friction and drag, shape (n, 6) [m s-1, m s-2].
-
-    `motion` is a `Motion`; `gravity` is in m s-2.
-    """
-    velocity, pressure, slope_x, slope_y, cosine = motion
-    free = np.empty((cosine.size, 6))
-    for i in range(cosine.size):
-        free[i, 0], free[i, 1], free[i, 2] = velocity[0, i], velocity[1, i], velocity[2, i]
-        free[i, 3], free[i, 4], free[i, 5] = along_bed(i, pressure, slope_x, slope_y, cosine, gravity)
-    return free
-
-
-@inner
-def _gather_water(partners, free):
-    """Return the mean free motion of the water around each of m grain particles and the sum of its weights, (m, 7)."""
-    count, index, weight = partners.count, partners.index, partners.weight
-    around = np.empty((count.size, 7))
-    for k in range(count.size):
-        u, v, w, ax, ay, az, taken = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for s in range(count[k]):
-            j, fraction = index[k, s], weight[k, s]
-            u += fraction * free[j, 0]
-            v += fraction * free[j, 1]
-            w += fraction * free[j, 2]
-            ax += fraction * free[j, 3]
-            ay += fraction * free[j, 4]
-            az += fraction * free[j, 5]
-            taken += fraction
-        if count[k] > 0:
-            u, v, w, ax, ay, az = u / taken, v / taken, w / taken, ax / taken, ay / taken, az / taken
-        around[k, 0], around[k, 1], around[k, 2] = u, v, w
-        around[k, 3], around[k, 4], around[k, 5], around[k, 6] = ax, ay, az, taken
-    return around
-
-
-@inner
-def _give_back(partners, impulse, n):
-    """Return the momentum that each of n particles gets from grains by drag, shape (n, 3) [kg m s-1].
-
-    `partners` are the `Partners` of m grains; `impulse` is the momentum each of these gives, shape (m, 3) [kg m s-1].
-    """
-    count, index, weight, received = partners.count, partners.index, partners.weight, np.zeros((n, 3))
-    for k in range(count.size):
-        gx, gy, gz = impulse[k, 0], impulse[k, 1], impulse[k, 2]
-        for s in range(count[k]):
-            j, fraction = index[k, s], weight[k, s]
-            received[j, 0] += fraction * gx
-            received[j, 1] += fraction * gy
-            received[j, 2] += fraction * gz
-    return received

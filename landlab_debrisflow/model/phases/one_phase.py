@@ -29,6 +29,10 @@ class OnePhaseDynamics:
         self.material, self._column = material, column if is_dilatant(column) else None
         self._coefficient = np.array([material.coefficient_of_consolidation])
 
+    def bearing(self, p) -> slice:
+        """Return the places of the particles that bear on the bed: of all that are awake."""
+        return slice(p.awake)
+
     def density(self, p):
         """Return the density of the mixture, shape (n,) [kg m-3]."""
         return p.density

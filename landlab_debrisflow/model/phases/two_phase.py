@@ -5,49 +5,25 @@ is dragged along. Momentum and soil are exchanged between grains and their partn
 (`spatial.partners.find_partners`), with weights that sum to 1, so that no digit is lost.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from ...core.jit import kernel
 from ...core.variables import Variable
+from ...physics.column.driver import depth_mean
 from ...physics.contracts import MIXTURE, WATER
 from ...spatial.packing import Position
 from ...spatial.partners import find_partners
-from ..kinematics import Resistance, kick
 from ..time_step import NOT_STIFF
 from ..walls import bear
-from .exchange import distribute_soil_water, make_whole
-from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_both
+from .exchange import distribute_soil_water, leave_to_mixed, make_whole
+from .mixture import PoreWater, end_of_grains, find_mixture, follow_source, pressure_by_porosity, stiffen
+from .momentum import GrainsAndWater, MixtureResistance, Motion, kick_grains, kick_water, pull_along_bed
 
 STEPS_BETWEEN_PROFILES = 16
 """Number of steps between two readings of the mean pore pressure from the columns. In between, the mean follows the
 changes of porosity, which can be fast, and drains at `DRAINAGE`."""
 
-DRAINAGE = 3.0
-"""Rate at which the mean drains between readings, over c_v/h^2: a steady source S gives S h^2/(3 c_v), as in a
-column."""
-
-STEPS_WITH_PARTNERS = 4
+STEPS_WITH_PARTNERS = 8
 """Number of steps for which grains keep their partners among the water: so few that no particle moves far."""
-
-LEAST_FRACTION = 1e-6
-"""Least fraction of the volume that is assumed for either phase [-]."""
-
-
-class PoreWater(NamedTuple):
-    """Depth mean of the excess pore pressure at n particles, and its bounds and drainage; arrays of shape (n,).
-
-    Phase (MIXTURE, which are the grains, or WATER), slope-normal thickness of both phases [m], cosine of the slope [-],
-    liquefaction pressure [Pa], rate at which the mean drains [s-1], and the mean [Pa], of grains changed in place.
-    """
-
-    phase: np.ndarray
-    thickness: np.ndarray
-    cos_slope: np.ndarray
-    liquefaction_pressure: np.ndarray
-    drainage_rate: np.ndarray
-    mean_pressure: np.ndarray
 
 
 class TwoPhaseDynamics:
@@ -71,7 +47,11 @@ class TwoPhaseDynamics:
                  scratch=True),
         Variable("bed_drag", "m-1", "drag of the bed on water, over its mass and speed squared", written=False,
                  scratch=True),
-        Variable("drainage_rate", "s-1", "rate at which the mean pressure drains", written=False, scratch=True),
+        Variable("pull", "m s-2", "acceleration along the bed by gravity and pressure", components=3, written=False,
+                 scratch=True),
+        Variable("water_pull", "m s-2", "of grains: mean of that of the water around", components=3, written=False,
+                 scratch=True),
+        Variable("consolidation", "m2 s-1", "coefficient of consolidation of its column", written=False, scratch=True),
     )  # fmt: skip
 
     sleeps = False
@@ -81,6 +61,14 @@ class TwoPhaseDynamics:
         self.law, self.material, self.stores_pressure = law, material, stores_pressure
         self.phase_fractions = ((MIXTURE, 1.0 - material.porosity), (WATER, material.porosity))
         self.solid_fraction = 1.0 - material.soil_porosity
+
+    def bearing(self, p) -> slice:
+        """Return the places up to the last grain; water beyond has neither friction nor a column.
+
+        A release puts all of its grains before its water. Where several follow each other, water between them passes
+        through friction and columns, with results that nothing reads.
+        """
+        return slice(end_of_grains(p.phase))
 
     def density(self, p):
         """Return the intrinsic density of each particle's phase, shape (n,) [kg m-3]."""
@@ -92,23 +80,26 @@ class TwoPhaseDynamics:
 
     def coefficient_of_consolidation(self, p, which: slice):
         """Return c_v of the columns of some particles [m2 s-1]: it follows from the drag between the phases."""
-        return self.law.coefficient_of_consolidation(p.porosity[which], self.material)
+        return p.consolidation[which]
 
     def after_summation(self, p, exchange, cells) -> None:
         """Write thickness, porosity and drag from the sums; `cells` are the cells of grains and of water."""
         material, law = self.material, self.law
-        _find_mixture(p.phase, p.share, material.solid_density, material.water_density, p.porosity, p.density)
-        np.divide(p.own_thickness, p.share, out=p.thickness)
-        p.phase_drag[:] = law.drag_coefficient(p.porosity, material) * p.thickness
-        p.drainage_rate[:] = DRAINAGE * law.coefficient_of_consolidation(p.porosity, material) / p.thickness**2
+        find_mixture(
+            p.phase, p.share, p.own_thickness, material.solid_density, material.water_density, p.porosity, p.density,
+            p.thickness,
+        )  # fmt: skip
+        np.multiply(law.drag_coefficient(p.porosity, material), p.thickness, out=p.phase_drag)
+        p.consolidation[:] = law.coefficient_of_consolidation(p.porosity, material)
         if law.manning_coefficient > 0.0:
             roughness = material.gravity * law.manning_coefficient**2
             p.bed_drag[:] = roughness / np.maximum(p.thickness, 1e-6) ** (4.0 / 3.0)
         if p.generation != exchange.generation or exchange.age == STEPS_WITH_PARTNERS:
             partners = find_partners(*cells, Position(p.x, p.y, p.z), p.volume, p.smoothing_length)
-            make_whole(partners, p.porosity, p.volume)
-            exchange.partners, exchange.generation, exchange.age = partners, p.generation, 0
+            make_whole(tuple(partners), p.porosity, p.volume)
+            exchange.keep(partners, p.phase, p.generation)
         exchange.age += 1
+        pull_along_bed(tuple(exchange.partners), p.thrust, _motion(p, p.velocity), material.gravity)
 
     def kick(self, p, exchange, velocity, yield_stress, drag, rest_speed, dt: float) -> None:
         """Accelerate grains and water along the bed for `dt` seconds, friction and drag between them included.
@@ -127,15 +118,8 @@ class TwoPhaseDynamics:
             Duration of the step [s].
         """
         material = self.material
-        motion = Motion(
-            velocity=velocity,
-            pressure_acceleration=p.thrust,
-            slope_x=p.slope_x,
-            slope_y=p.slope_y,
-            cos_slope=p.cos_slope,
-        )
+        motion = _motion(p, velocity)
         mixture = GrainsAndWater(
-            phase=p.phase,
             volume=p.volume,
             thickness=p.thickness,
             porosity=p.porosity,
@@ -149,36 +133,36 @@ class TwoPhaseDynamics:
             water_drag=p.bed_drag,
             rest_speed=rest_speed,
         )
-        kick_both(exchange.partners, motion, mixture, resistance, material.gravity, dt)
+        impulse = kick_grains(tuple(exchange.partners), motion, mixture, resistance, dt)
+        kick_water(tuple(exchange.grains), impulse, motion, mixture, resistance, dt)
         _hold_back(velocity, p.light)
 
     def held_at_rest(self, p, exchange, which: slice, yield_stress, drag, walls):
         """Return which grains friction and walls would hold at rest, which water drag, (n,); `which` is not used."""
         none, at_rest = np.zeros(p.count), np.zeros(1)
-        velocity, pull = np.zeros((2, 3, none.size))
+        velocity, pull = np.zeros((3, none.size)), p.pull.copy()
         self.kick(p, exchange, velocity, yield_stress, drag, at_rest, 1.0)
         free = _size(velocity)
         bear(p.x, p.y, velocity, p.surface_sample, walls)
         left = _size(velocity)
         leaning = (left < free) & (left * p.density * p.thickness <= yield_stress)  # friction holds it along the wall
-        free = Resistance(yield_stress=none, drag=none, mass=none + 1.0, rest_speed=at_rest)
-        kick(pull, p.thrust, p.surface_sample, p.cos_slope, free, self.material.gravity, 1.0)
         bear(p.x, p.y, pull, p.surface_sample, walls)
         seeping = _size(pull) * self.material.water_density * p.porosity * p.thickness
         return np.where(p.phase == WATER, seeping <= p.rest_speed * p.phase_drag, leaning | (left == 0.0))
 
     def limit_entrainment(self, exchange, rate) -> None:
         """Set the erosion rate to 0, in place, for grains without water around to take the water of the soil."""
-        takes = np.zeros(rate.size, bool)
-        takes[exchange.partners.of[exchange.partners.count > 0]] = True
-        rate[~takes] = 0.0
+        leave_to_mixed(tuple(exchange.partners), exchange.grains.of, rate)
 
     def share_entrained(self, p, exchange) -> None:
         """Give the water of the entrained soil to the water; porosity then changes by the flow alone."""
         if p.entrained_volume.any():
             water_ratio = 1.0 / self.solid_fraction - 1.0  # water over grains, by volume
             exponent = 1.0 - self.material.basal_slip_ratio
-            distribute_soil_water(exchange.partners, p.entrained_volume, water_ratio, p.volume, p.velocity, exponent)
+            distribute_soil_water(
+                tuple(exchange.partners), tuple(exchange.grains), p.entrained_volume, water_ratio, p.volume, p.velocity,
+                exponent,
+            )  # fmt: skip
         p.porosity_before[:] = p.porosity
 
     def column_forcing(self, p, forcing, prescribed, dt: float):
@@ -189,10 +173,12 @@ class TwoPhaseDynamics:
         """
         if dt == 0.0:
             return forcing
-        gain = self.law.stiffness * np.log((1.0 - p.porosity_before) / (1.0 - p.porosity))
-        gain[prescribed] = 0.0
-        gain[p.phase == WATER] = 0.0
-        return forcing._replace(porosity_source=gain / dt)
+        bearing = forcing.volume.size
+        source = pressure_by_porosity(
+            p.phase[:bearing], p.porosity_before[:bearing], p.porosity[:bearing], self.law.stiffness, dt
+        )  # fmt: skip
+        source[prescribed[prescribed < bearing]] = 0.0
+        return forcing._replace(porosity_source=source)
 
     def update_mean_pressure(self, p, exchange, forcing, profiles, dt: float) -> None:
         """Update the depth mean of the pore pressure, on which the pressure of the flow depends [Pa].
@@ -200,36 +186,39 @@ class TwoPhaseDynamics:
         The mean is read from the columns every few steps; in between it follows the source.
         """
         if exchange.steps % STEPS_BETWEEN_PROFILES == 0:
-            profile = profiles()
-            mean = (profile.sum(axis=1) - 0.5 * (profile[:, 0] + profile[:, -1])) / (profile.shape[1] - 1)
-            np.copyto(p.mean_excess_pore_pressure, mean, where=p.phase != WATER)
+            mean = depth_mean(profiles())
+            np.copyto(p.mean_excess_pore_pressure[: mean.size], mean, where=p.phase[: mean.size] != WATER)
             dt = 0.0
         weight = self.material.water_density * self.material.gravity
         gained = dt if self.stores_pressure else 0.0
-        pore_water = PoreWater(
-            phase=p.phase,
-            thickness=p.thickness,
-            cos_slope=p.cos_slope,
-            liquefaction_pressure=p.liquefaction_pressure,
-            drainage_rate=p.drainage_rate,
-            mean_pressure=p.mean_excess_pore_pressure,
-        )
-        _follow_source(pore_water, forcing.porosity_source, weight, gained)
+        follow_source(
+            _pore_water(p), p.cos_slope, p.liquefaction_pressure, forcing.porosity_source, weight, gained,
+            p.mean_excess_pore_pressure,
+        )  # fmt: skip
         exchange.steps += 1
 
     def celerity_squared(self, p, dt: float):
-        """Return the part of the squared celerity that is due to the stiffness of the skeleton, shape (n,) [m2 s-2].
-
-        Waves in which water moves against grains have K n (1/rho_w + n/((1 - n) rho_s)). Drag reduces the velocity that
-        a force reaches in a step of `dt` seconds, and drainage the pressure.
-        """
+        """Return the part of the squared celerity that is due to the stiffness of the skeleton, shape (n,) [m2 s-2]."""
         if not self.stores_pressure or p.count == 0:
             return NOT_STIFF
         material = self.material
-        n = p.porosity
-        lightness = n / material.water_density + n * n / ((1.0 - n) * material.solid_density)
-        x = dt * p.phase_drag / (p.thickness * n * n) * lightness
-        return self.law.stiffness * lightness * _reached(x) * _reached(dt * p.drainage_rate)
+        return stiffen(_pore_water(p), material.solid_density, material.water_density, self.law.stiffness, dt)
+
+
+def _pore_water(p):
+    """Return the `PoreWater` of the particles `p`."""
+    return PoreWater(
+        phase=p.phase, porosity=p.porosity, thickness=p.thickness, phase_drag=p.phase_drag,
+        consolidation=p.consolidation,
+    )  # fmt: skip
+
+
+def _motion(p, velocity):
+    """Return the `Motion` of the particles `p` with a `velocity`, shape (3, n) [m s-1]."""
+    return Motion(
+        velocity=velocity, pull=p.pull, water_pull=p.water_pull, slope_x=p.slope_x, slope_y=p.slope_y,
+        cos_slope=p.cos_slope,
+    )  # fmt: skip
 
 
 def _size(vectors):
@@ -245,56 +234,3 @@ def _hold_back(velocity, light) -> None:
         speed = _size(velocity)
         fastest = speed[~light].max(initial=0.0)
         velocity[:, light] *= np.minimum(1.0, fastest / np.maximum(speed[light], 1e-300))
-
-
-def _reached(x):
-    """Return (1 - exp(-x))/x [-]: the fraction left of a constant gain during which x e-foldings of decay pass."""
-    x = np.maximum(x, 1e-12)
-    return -np.expm1(-x) / x
-
-
-@kernel
-def _find_mixture(phase, phase_fraction, solid_density, water_density, porosity, density):
-    """Write porosity and density of the mixture at each particle, and keep the fraction of its phase within (0, 1).
-
-    Parameters
-    ----------
-    phase : ndarray of int8, shape (n,)
-        MIXTURE, which are the grains, or WATER.
-    phase_fraction : ndarray, shape (n,)
-        Fraction of the thickness that belongs to the particle's own phase, changed in place [-].
-    solid_density, water_density : float
-        Densities of grains and water [kg m-3].
-    porosity, density : ndarray, shape (n,)
-        Written [-], [kg m-3].
-    """
-    for i in range(phase.size):
-        phase_fraction[i] = min(max(phase_fraction[i], LEAST_FRACTION), 1.0 - LEAST_FRACTION)
-        porosity[i] = phase_fraction[i] if phase[i] == WATER else 1.0 - phase_fraction[i]
-        # water has no buoyant weight, so that its liquefaction pressure is 0
-        mixed = solid_density + porosity[i] * (water_density - solid_density)
-        density[i] = water_density if phase[i] == WATER else mixed
-
-
-@kernel
-def _follow_source(pore_water, source, unit_weight, dt):
-    """Add the source to the mean pressure of grains while it drains, and clip it between suction and liquefaction.
-
-    Parameters
-    ----------
-    pore_water : PoreWater
-    source : ndarray, shape (n,) or (1,)
-        [Pa s-1]
-    unit_weight : float
-        Unit weight of water [N m-3].
-    dt : float
-        Duration of the step [s].
-    """
-    phase, thickness, cosine, liquefaction_pressure, drainage, mean = pore_water
-    for i in range(phase.size):
-        if phase[i] != WATER:
-            x = dt * drainage[i]
-            lost = -np.expm1(-x)
-            gained = (1.0 - lost) * mean[i] + dt * source[min(i, source.size - 1)] * (lost / x if x > 1e-12 else 1.0)
-            lowest, highest = -0.5 * unit_weight * thickness[i] * cosine[i], 0.5 * liquefaction_pressure[i]
-            mean[i] = min(max(gained, lowest), highest)

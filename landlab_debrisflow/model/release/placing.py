@@ -20,9 +20,12 @@ THICKNESS_RANGE = 1.0 / 64.0
 bound at a particle without neighbours."""
 
 SAMPLES_PER_PARTICLE = 4
-SWEEPS = 30
 STEP = 0.5
 """Length of one relaxation step in l^2 times the logarithmic gradient: half of the largest stable one."""
+
+CYCLES, STAGES = 3, 4
+"""Cycles of the relaxation, and stages of each: s stages go as far as s (s + 1)/2 steps (Meyer, Balsara & Aslam, 2014,
+J. Comput. Phys. 257: Runge-Kutta-Legendre stages of the first order), so 12 sums over neighbours do the work of 30."""
 
 WITHIN = 0.5 - 1e-6
 """Largest distance of a particle from the node with which it fails, over the node spacing: less than 1/2, so that the
@@ -266,35 +269,25 @@ def _relax(x, y, volume, site, samples: Samples, sites: Sites, surface: Surface)
     volumes = np.concatenate([volume, -samples.volume])
     rest, ones = np.zeros((3, volumes.size)), np.ones(volumes.size)
     sums = Sums(  # samples act on particles and do not move themselves
-        thickness=np.empty(n),
-        gradient_term=np.empty(n),
-        next_length=np.empty(n),
-        acceleration=np.empty((3, n)),
+        thickness=np.empty(n), gradient_term=np.empty(n), next_length=np.empty(n), acceleration=np.empty((3, n)),
         convergence=np.empty(n),
-    )
-    push = sums.acceleration
-    for _ in range(SWEEPS):
+    )  # fmt: skip
+    push, x_before, y_before = sums.acceleration, x, y
+    for stage in CYCLES * tuple(range(1, STAGES + 1)):
         length, cosine, z = length_and_ground(x, y, site)
         lengths = np.concatenate([length, sample_length])
         px, py = np.concatenate([x, samples.x]), np.concatenate([y, samples.y])
         pz = np.concatenate([z, sample_z])
         cells = sort_into_cells(px, py, 2.0 * lengths)
         given = SummationInput(
-            position=Position(px, py, pz),
-            velocity=rest,
-            volume=volumes,
-            smoothing_length=lengths,
-            longest=lengths,
-            pressure_coefficient=0.5 * ones,
-            celerity=ones,
-            thickness=ones,
-            convergence=rest[0],
-            inertia=ones,
-        )
+            position=Position(px, py, pz), velocity=rest, volume=volumes, smoothing_length=lengths, longest=lengths,
+            pressure_coefficient=0.5 * ones, celerity=ones, thickness=ones, convergence=rest[0], inertia=ones,
+        )  # fmt: skip
         sum_over_neighbours(cells, given, 0.0, sums)
-        step = STEP * length**2 / (sites.at(x, y)[1] * cosine)
-        step = step * np.minimum(1.0, 0.2 * length / np.maximum(step * np.hypot(push[0], push[1]), 1e-300))
-        new_x, new_y = x + step * push[0], y + step * push[1]
+        step, onward = (2.0 - 1.0 / stage) * STEP * length**2 / (sites.at(x, y)[1] * cosine), 1.0 - 1.0 / stage
+        way_x, way_y = step * push[0] + onward * (x - x_before), step * push[1] + onward * (y - y_before)
+        part = np.minimum(1.0, 0.2 * length / np.maximum(np.hypot(way_x, way_y), 1e-300))
+        x_before, y_before, new_x, new_y = x, y, x + part * way_x, y + part * way_y
         inside = sites.at(new_x, new_y)[0] == site
         x, y = np.where(inside, new_x, x), np.where(inside, new_y, y)
     return x, y

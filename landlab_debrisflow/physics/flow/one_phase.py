@@ -4,6 +4,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...core.jit import kernel
 from ...core.parameters import declared
 from ...spatial.summation import SummationInput, sum_over_neighbours
 from ..contracts import FlowState
@@ -39,17 +40,37 @@ class OnePhase:
         sums : Sums
             Written for the particles in cells that are awake.
         """
-        normal_gravity, inertia = state.gravity * state.cos_slope, state.density / state.density.max()
+        coefficient, celerity, inertia = _pressure_of(
+            state.cos_slope, state.density, state.smoothing.gradient_term, state.thickness, state.gravity
+        )
         given = SummationInput(
             position=state.position,
             velocity=state.velocity,
             volume=state.volume,
             smoothing_length=state.smoothing.length,
             longest=state.smoothing.longest,
-            pressure_coefficient=0.5 * inertia * normal_gravity / state.smoothing.gradient_term,
-            celerity=np.sqrt(normal_gravity * state.thickness),
+            pressure_coefficient=coefficient,
+            celerity=celerity,
             thickness=state.thickness,
             convergence=state.thickening,
             inertia=inertia,
         )
         sum_over_neighbours(cells, given, shock_viscosity, sums, threads)
+
+
+@kernel
+def _pressure_of(cosine, density, gradient_term, thickness, gravity):
+    """Return pressure coefficient [m s-2], celerity [m s-1] and inertia [-] as `SummationInput` has them, each (n,).
+
+    Cosine of the slope [-], density [kg m-3], grad-h term [-] and slope-normal thickness [m] of the particles have
+    shape (n,); `gravity` is in m s-2.
+    """
+    n, densest = density.size, 0.0
+    coefficient, celerity, inertia = np.empty(n), np.empty(n), np.empty(n)
+    for i in range(n):
+        densest = max(densest, density[i])
+    for i in range(n):
+        inertia[i] = density[i] / densest
+        coefficient[i] = 0.5 * inertia[i] * (gravity * cosine[i]) / gradient_term[i]
+        celerity[i] = np.sqrt(gravity * cosine[i] * thickness[i])
+    return coefficient, celerity, inertia

@@ -5,13 +5,11 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.parameters import declared, parameter
-from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, cells_of_phase, sum_over_other_phase
+from ...spatial.cells import cells_of_phase
+from ...spatial.cross_summation import CrossPhaseInput, CrossPhaseSums, sum_over_other_phase
 from ...spatial.summation import SummationInput, plain_thickness, sum_over_neighbours
 from ..contracts import WATER, FlowState
-
-MOST_CROSSED = 4.0
-"""Largest cross term that is allowed: flows have up to 2, but a particle of almost no mass beside others has 1e15
-[-]."""
+from .mixture import OverOther, Phased, mix, press
 
 
 @declared
@@ -109,22 +107,30 @@ class TwoPhase:
             Cell lists of grains and of water.
         """
         mixture, material = state.mixture, state.mixture.material
+        densities = material.solid_density, material.water_density
         water = mixture.phase == WATER
         of_phases = cells_of_phase(cells, ~water), cells_of_phase(cells, water)
-        normal_gravity, thickness = state.gravity * state.cos_slope, state.thickness / mixture.share
-        density = np.where(water, material.water_density, material.solid_density)
-        within, shared = self._pressure_coefficients(state, water, normal_gravity, thickness)
+        phased = Phased(
+            phase=mixture.phase,
+            share=mixture.share,
+            cross_term=mixture.cross_term,
+            mean_pressure=mixture.mean_pressure,
+            own_thickness=state.thickness,
+            cos_slope=state.cos_slope,
+            gradient_term=state.smoothing.gradient_term,
+        )
+        within, shared, celerity = press(phased, *densities, state.gravity)
         given = SummationInput(
             position=state.position,
             velocity=state.velocity,
             volume=state.volume,
             smoothing_length=state.smoothing.length,
             longest=state.smoothing.longest,
-            pressure_coefficient=within / density,
-            celerity=np.sqrt(normal_gravity * thickness),
+            pressure_coefficient=within,
+            celerity=celerity,
             thickness=state.thickness,
             convergence=state.thickening,
-            inertia=np.ones(density.size),
+            inertia=np.ones(celerity.size),
         )
         given_cross = CrossPhaseInput(
             position=state.position,
@@ -134,35 +140,18 @@ class TwoPhase:
             averaged=mixture.mean_pressure,
         )
         n, written = sums.thickness.size, mixture.written
-        computed = cells.computed[:n]
         cross_sums = CrossPhaseSums(
             thickness=np.zeros(n), cross_term=written.cross_term, mean=np.zeros(n), force=np.zeros((3, n))
         )
-        for phase_cells in of_phases:
-            sum_over_neighbours(phase_cells, given, shock_viscosity, sums, threads)
+        sum_over_neighbours(cells, given, shock_viscosity, sums, threads, of_phases)
         sum_over_other_phase(*of_phases, given_cross, cross_sums, threads)
-        np.add(sums.acceleration, cross_sums.force / density[:n], out=sums.acceleration, where=computed)
-        own = plain_thickness(state.volume[:n], state.smoothing.length[:n], sums)
-        np.divide(own, own + cross_sums.thickness, out=written.share, where=computed)
-        np.copyto(written.mean_pressure, cross_sums.mean, where=computed & water[:n])
+        found = OverOther(
+            own_thickness=plain_thickness(state.volume[:n], state.smoothing.length[:n], sums),
+            other_thickness=cross_sums.thickness,
+            mean_pressure=cross_sums.mean,
+            force=cross_sums.force,
+        )
+        mix(
+            cells.computed, mixture.phase, found, *densities, sums.acceleration, written.share, written.mean_pressure
+        )  # fmt: skip
         return of_phases
-
-    @staticmethod
-    def _pressure_coefficients(state: FlowState, water, normal_gravity, thickness):
-        """Return thrust over own thickness squared and Omega, and thrust over total thickness squared [N m-3].
-
-        `cross_term` tells how the total thickness at a particle changes with its own smoothing length.
-        `water` (bool) tells the phase, `normal_gravity` is across the bed [m s-2], `thickness` is that of both phases
-        [m], all of shape (n,).
-        """
-        mixture = state.mixture
-        material, share = mixture.material, mixture.share
-        # water has the pressure of the grains around it, at most the largest that its own thickness can bear
-        grain_weight = (material.solid_density - material.water_density) * np.where(water, 1.0 - share, share)
-        bounds = -0.5 * material.water_density * normal_gravity, 0.5 * grain_weight * normal_gravity
-        pressure = np.clip(mixture.mean_pressure / thickness, *bounds)
-        shared = 0.5 * material.water_density * normal_gravity + pressure
-        grains = 0.5 * (material.solid_density - material.water_density) * normal_gravity / share - pressure / share**2
-        crossed = np.clip(mixture.cross_term, -MOST_CROSSED, MOST_CROSSED)
-        within = shared * (1.0 - crossed) + np.where(water, 0.0, grains)
-        return within / state.smoothing.gradient_term, shared

@@ -215,7 +215,8 @@ def test_slivers_that_a_flow_buries_cost_it_no_steps(flow):
         run.run_one_step(4.0)
         p = body(run)
         heavy = p.volume > 0.1
-        found.append((run.diagnostics.steps, np.linalg.norm(p.velocity, axis=0).max(), p.x[heavy].max()))
+        front = np.quantile(p.x[heavy], 0.99)  # the first particle of all is at times two nodes ahead by itself
+        found.append((run.diagnostics.steps, np.linalg.norm(p.velocity, axis=0).max(), front))
     (steps, fastest, front), (more, speed, other) = found
     # measured 2 and 3 times the steps; as light as they are, slivers asked for 60 times as many, and reached 1e10 m/s
     assert more < 8 * steps and speed < 1.5 * fastest

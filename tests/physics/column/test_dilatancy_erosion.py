@@ -51,7 +51,7 @@ def after_erosion(levels, kind, steps=40):
     eta = np.linspace(1.0, 0.0, levels)
     columns = dilatant_columns(
         {"permeability": 0.0}, 1.0, 0.6, profile=0.2 * LOADING * eta[None], levels=levels, soil_solid_fraction=0.66,
-        **CONTACTS[kind],
+        bed_pressure=0.2 * LOADING, **CONTACTS[kind],  # so that a bed that prescribes its pressure compacts nothing
     )  # fmt: skip
     for _ in range(steps):
         load = LOADING * (columns.forcing.thickness + 1.0 / steps)

@@ -10,6 +10,9 @@ import math
 from .....core.jit import inner
 
 ROOT_PI = math.sqrt(math.pi)
+BEYOND = 6.0
+"""Distance over the diffusive thickness of a layer from which on the layer is below the rounding of 1: erfc(6) is
+2e-17."""
 RESOLVED = 1.5  # least thickness of a layer that levels resolve [cells]
 
 
@@ -30,6 +33,8 @@ def boundary_layer(distance, growth, diffusion):
         return 1.0 if distance < growth else 0.0
     root = 2.0 * math.sqrt(diffusion)
     before, after = (distance - growth) / root, (distance + growth) / root
+    if before > BEYOND:
+        return 0.0
     if after < 5.0:  # exp(e x / D) erfc(after): the exponent is the difference of the squares of `after` and `before`
         beyond = math.exp(min(after * after - before * before, 700.0)) * math.erfc(after)
     else:  # five terms of the asymptotic series of exp(x^2) erfc(x), 1e-6 here

@@ -1,0 +1,20 @@
+"""Erosion where soil begins is of second order in the time step, because soil is taken in the middle of the step."""
+
+import pytest
+
+from landlab_debrisflow.model import entrainment
+from validation.cases.soil_edge import cross_edge
+
+
+@pytest.mark.slow
+def test_soil_is_taken_where_the_particle_is_in_the_middle_of_the_step(monkeypatch):
+    exact, place, steps = cross_edge(32.0)
+    assert steps > 1000 and place > 90.0
+    errors = [cross_edge(shorter)[0] - exact for shorter in (1.0, 4.0)]
+    # of 4 m3 taken; measured 5e-4 and 1e-4 m3
+    assert abs(errors[0]) < 2e-3 and abs(errors[1]) < 5e-4
+    monkeypatch.setattr(entrainment, "EROSION_TIME", 0.0)
+    first_order = [cross_edge(shorter)[0] - exact for shorter in (1.0, 2.0)]
+    # half a step of travel too late: measured -.091 and -.046 m3
+    assert first_order[0] < -0.05
+    assert first_order[1] / first_order[0] == pytest.approx(0.5, abs=0.05)
