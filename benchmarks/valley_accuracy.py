@@ -87,7 +87,7 @@ def chart():
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--against", required=True, action="append", **ratio_turns.VERSION)
+    parser.add_argument("--against", default=[], action="append", **ratio_turns.VERSION)
     parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     options = parser.parse_args()
     console = Console(width=140)
