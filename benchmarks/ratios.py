@@ -117,9 +117,7 @@ def chart():
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
-    )
+    parser.add_argument("--against", required=True, action="append", **ratio_turns.VERSION)
     parser.add_argument("--data", metavar="FOLDER", help="of the rasters of S-1000; by default $DEBRISFLOW_DATA")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     parser.add_argument("--rows", metavar="WORD", nargs="+", default=[], help="words of the rows to be measured")
