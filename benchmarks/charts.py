@@ -86,9 +86,11 @@ CHARTS = {
     "flow_stability": Chart("flow_stability", ("flow_stability",), "python -m benchmarks.flow_stability"),
     "lazy_scheme": Chart("lazy_figure", ("lazy_scheme",), "python -m benchmarks.lazy_figure"),
     "paper_columns": Chart("paper_columns", ("paper_columns",), "python -m benchmarks.paper_columns", dpi=80),
+    "ratios": Chart("ratios", ("ratios",), "python -m benchmarks.ratios"),
     "s1000_valley": Chart("s1000", ("s1000",), "python -m benchmarks.s1000", "chart_of_valley", 80),
     "s1000": Chart("s1000", ("s1000", "s1000_scores"), "python -m benchmarks.s1000"),
     "speed": Chart("speed", ("speed",), "python -m benchmarks.speed"),
+    "step_stability": Chart("step_stability", ("step_stability",), "python -m benchmarks.step_stability"),
     "tsing_shan_columns": Chart("tsing_shan_event", ("tsing_shan_columns",), "python -m benchmarks.tsing_shan_event",
                                 "chart_of_columns", 100),
     "tsing_shan_flow": Chart("tsing_shan_event", ("tsing_shan_flow", "tsing_shan_maps"),
@@ -96,6 +98,7 @@ CHARTS = {
     "tsing_shan_maps": Chart("tsing_shan_event", ("tsing_shan_maps",), "python -m benchmarks.tsing_shan_event",
                              "chart_of_maps", 90),
     "two_phase": Chart("two_phase", ("two_phase", "two_phase_errors"), "python -m benchmarks.two_phase"),
+    "valley_accuracy": Chart("valley_accuracy", ("valley_accuracy",), "python -m benchmarks.valley_accuracy"),
     "when_ale_matters": Chart("when_ale_matters", ("when_ale_matters",), "python -m benchmarks.when_ale_matters"),
 } | {
     f"event_{name}": EventChart(name, (f"validation/events/{name}/result.nc",), f"python -m validation.events {name}")
@@ -106,7 +109,8 @@ CHARTS = {
 REPORTS = {
     name: name
     for name in (
-        "column", "flow", "flow_stability", "paper_speed", "speed", "tsing_shan", "two_phase", "when_ale_matters",
+        "column", "erosion_order", "flow", "flow_stability", "paper_speed", "ratios", "speed", "step_rules",
+        "step_stability", "tsing_shan", "two_phase", "when_ale_matters",
     )
 }  # fmt: skip
 """Texts of benchmarks/, and the module whose `report` makes them of a result file."""

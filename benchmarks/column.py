@@ -13,10 +13,10 @@ Keeps benchmarks/results/column.json, from which benchmarks/column.txt and docs/
 """
 
 import argparse
+import itertools
 import statistics
 import time
 from contextlib import nullcontext
-from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -50,7 +50,7 @@ def history(case):
     times = np.arange(steps + 1) / PER_UNIT
     limits = sorted({0.0, case.duration, *case.switches})
     thickness, volume = np.ones(steps + 1), np.ones(steps + 1)
-    for begin, end in pairwise(limits):
+    for begin, end in itertools.pairwise(limits):
         inside = (times > begin + 1e-9) & (times < end + 1e-9)
         at = np.flatnonzero(inside)[0] - 1
 
@@ -152,20 +152,16 @@ COSTED = ("A_cold", "D_switches", "E_swing_overburden")
 
 def compare(asking):
     """Yield rows of the default scheme, in turns with that of another checkout, which is called "before"."""
-    for name in COSTED:
-        for levels in LEVELS:
-            spent = []
-            for number in PECLET:
-                many = turns(
-                    asking, 5, lambda ask, n=levels, p=number: ask("column_cost", name, "default", n, float(p))
-                )
-                spent.append(np.median(many, axis=0))
-            for scheme, found in zip(("default", BEFORE), np.transpose(spent), strict=True):
-                yield {"case": name, "scheme": scheme, "levels": levels, "cost": found}
-    for name in ONCE:
-        for levels in LEVELS:
-            base, mean = np.array(asking[1]("column_errors", name, "default", levels))
-            yield {"case": name, "scheme": BEFORE, "levels": levels, "base": base, "mean": mean}
+    for name, levels in itertools.product(COSTED, LEVELS):
+        spent = []
+        for number in PECLET.tolist():
+            request = "column_cost", name, "default", levels, number
+            spent.append(np.median(turns(asking, 5, lambda ask, request=request: ask(*request)), axis=0))
+        for scheme, found in zip(("default", BEFORE), np.transpose(spent), strict=True):
+            yield {"case": name, "scheme": scheme, "levels": levels, "cost": found}
+    for name, levels in itertools.product(ONCE, LEVELS):
+        base, mean = np.array(asking[1]("column_errors", name, "default", levels))
+        yield {"case": name, "scheme": BEFORE, "levels": levels, "base": base, "mean": mean}
 
 
 def measure(asking=()):

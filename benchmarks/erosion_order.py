@@ -100,9 +100,7 @@ def report() -> str:
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
-    )
+    parser.add_argument("--against", default=[], action="append", **ratio_turns.VERSION)
     parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     options = parser.parse_args()
     console = Console(width=120)

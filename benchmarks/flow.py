@@ -6,8 +6,8 @@ interpreter that has avaframe 2.1, com1DFA. Norms are defined in validation/meas
 validation/cases. Keeps benchmarks/results/flow.json and, with --peer, flow_com1dfa.json, from which benchmarks/flow.txt
 and docs/figures/flow.png are made.
 
-With --against NAME=FOLDER, NAME is a version and FOLDER its checkout, whose own cases run with its own engine in turns with ours;
-CPU times of both are medians of three turns, and the figure has a curve more.
+With --against NAME=FOLDER, NAME is a version and FOLDER its checkout, whose own cases run with its own engine in turns
+with ours; CPU times of both are medians of three turns, and the figure has a curve more.
 
 One setting is not the default's: settling is off, so that there are particles to look at.
 

@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks import column as columns
 from benchmarks import flow as flows
 from benchmarks import paper_speed as speeds
-from benchmarks import result_files
+from benchmarks import result_files, step_tables
 from benchmarks.example_scripts import load
 
 PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "events.md"))
@@ -233,7 +233,8 @@ def s1000() -> str:
 
 SOURCES = (
     "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
-    "speed", "key_figures", "s1000", "tsing_shan", "when_ale_matters",
+    "speed", "ratios", "valley_accuracy", "step_rules", "erosion_order", "step_stability", "key_figures", "s1000",
+    "tsing_shan", "when_ale_matters",
 )  # fmt: skip
 
 
@@ -280,4 +281,6 @@ def paper_speed() -> str:
 TABLES = {
     "rivals": rivals, "single": single, "two_phases": two_phases, "demo": demo, "columns": column_errors,
     "speed": speed, "s1000": s1000, "provenance": provenance, "paper_speed": paper_speed,
+    "ratios": lambda: table(*step_tables.ratios()), "step_rules": lambda: table(*step_tables.rules()),
+    "erosion_order": lambda: table(*step_tables.orders()),
 }  # fmt: skip

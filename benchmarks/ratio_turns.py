@@ -54,6 +54,10 @@ def named_version(word: str) -> tuple[str, str]:
     return name, path
 
 
+VERSION = {"type": named_version, "metavar": "REVISION=PYTHON", "help": "another version and its interpreter"}
+"""Keywords of an option for another version."""
+
+
 @contextmanager
 def versions(others: Mapping[str, str], data=None) -> Iterator[tuple[list[Side], str, list[str]]]:
     """Open this version and others; yields them, the folder with the grounds, and the names of the grounds.

@@ -16,8 +16,9 @@ start                fresh process with an empty folder of kernels, beyond the i
 memory               traced bytes that a component holds, over the nodes
 com1DFA              particle steps per second over those of AvaFrame com1DFA 2.1 (--peer)
 
-All rows take an hour. Keeps benchmarks/results/ratios.json, from which benchmarks/ratios.txt, docs/figures/ratios.png
-and a table of docs/accuracy.md are made; with --quick or --rows it prints and keeps nothing.
+All rows take an hour, so --rows takes words of some: their values replace those that are kept, if the versions are the
+same. Keeps benchmarks/results/ratios.json, from which benchmarks/ratios.txt, docs/figures/ratios.png and a table of
+docs/accuracy.md are made; every row says from which commit, when and under what load. With --quick nothing is kept.
 """
 
 import argparse
@@ -55,6 +56,27 @@ def show(found, console) -> None:
 def report() -> str:
     """Return the text of benchmarks/ratios.txt."""
     return charts.printed(lambda console: show(result_files.read("ratios"), console), width=140)
+
+
+def kept() -> dict:
+    """Return what has been kept before; nothing if there is none."""
+    return result_files.read("ratios") if (result_files.FOLDER / "ratios.json").is_file() else {}
+
+
+def joined(found, before) -> dict:
+    """Return what was found, and of before the rows that were not measured now, if the other versions are the same.
+
+    Examples
+    --------
+    >>> old = {"revisions": ["a"], "rows": [{"row": "x", "n": 1}, {"row": "y", "n": 1}], "S-1000": []}
+    >>> joined({"revisions": ["a"], "rows": [{"row": "x", "n": 2}], "S-1000": []}, old)["rows"]
+    [{'row': 'x', 'n': 2}, {'row': 'y', 'n': 1}]
+    """
+    if before.get("revisions") != found["revisions"]:
+        return found
+    rows = {row["row"]: row for one in (before, found) for row in one["rows"]}
+    events = {(row["friction"], row["revision"]): row for one in (before, found) for row in one["S-1000"]}
+    return {"revisions": found["revisions"], "rows": list(rows.values()), "S-1000": list(events.values())}
 
 
 def speed_up(row, name) -> list[float]:
@@ -95,9 +117,7 @@ def chart():
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
-    )
+    parser.add_argument("--against", required=True, action="append", **ratio_turns.VERSION)
     parser.add_argument("--data", metavar="FOLDER", help="of the rasters of S-1000; by default $DEBRISFLOW_DATA")
     parser.add_argument("--peer", metavar="PYTHON", type=com1dfa.interpreter, help="an interpreter with avaframe==2.1")
     parser.add_argument("--rows", metavar="WORD", nargs="+", default=[], help="words of the rows to be measured")
@@ -110,8 +130,10 @@ def main() -> None:
         say=console.log,
     )  # fmt: skip
     show(found, console)
-    if not (options.quick or options.rows):
-        result_files.keep("ratios", found, COMMAND, told)
+    if not options.quick:
+        for row in found["rows"]:
+            row |= {key: told[key] for key in ("commit", "date", "load")}
+        result_files.keep("ratios", joined(found, kept()), COMMAND, told)
         charts.make("ratios")
 
 

@@ -115,7 +115,7 @@ def report() -> str:
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--against", type=ratio_turns.named_version, required=True, metavar="REVISION=PYTHON")
+    parser.add_argument("--against", required=True, **ratio_turns.VERSION)
     parser.add_argument("--data", metavar="FOLDER", help="of the rasters of S-1000; by default $DEBRISFLOW_DATA")
     parser.add_argument("--quick", action="store_true", help="few particles only; prints, and keeps nothing")
     options = parser.parse_args()

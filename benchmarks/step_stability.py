@@ -216,9 +216,7 @@ def report() -> str:
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument(
-        "--against", type=ratio_turns.named_version, action="append", required=True, metavar="REVISION=PYTHON"
-    )
+    parser.add_argument("--against", default=[], action="append", **ratio_turns.VERSION)
     options = parser.parse_args()
     found = measure(dict(options.against), Console(width=160).log)
     result_files.keep("step_stability", found, COMMAND)

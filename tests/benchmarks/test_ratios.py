@@ -3,10 +3,9 @@
 import argparse
 import dataclasses
 import importlib
+import io
 import json
-import os
 import sys
-from functools import partial
 
 import numpy as np
 import pytest
@@ -84,14 +83,20 @@ def test_a_spread_is_that_of_a_sample():
     assert found["run_out"] == 2.0 and found["eroded, deviation"] == 1.0
 
 
-@pytest.mark.slow  # it starts a process
-def test_a_process_answers(grounds):
-    side = Side(sys.executable, str(ratio_turns.result_files.ROOT), str(grounds))
-    side.environment = partial(side.environment, os.environ["NUMBA_CACHE_DIR"])  # kernels compiled by other tests
-    side.begin(str(ratio_turns.PROGRAM), str(grounds))
-    answer = json.loads(side.ask('["cap", {"count": 50, "duration": 0.05}]'))
+def test_a_process_is_asked_and_answers(tmp_path):
+    program = tmp_path / "echo.py"
+    program.write_text("import sys\nfor line in sys.stdin:\n    print(sys.argv[1], line.strip(), flush=True)\n")
+    side = Side(sys.executable, "", str(tmp_path))
+    side.begin(str(program), "heard")
+    answer = side.ask("question")
     side.end()
-    assert answer["steps"] > 0
+    assert answer == "heard question\n"
+
+
+def test_requests_are_answered_by_name(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stdin", io.StringIO('["twice", {"x": 2}]\n'))
+    ratio_scenes.answer({"twice": lambda x: {"found": 2 * x}})
+    assert json.loads(capsys.readouterr().out) == {"found": 4}
 
 
 def test_a_revision_is_named():
