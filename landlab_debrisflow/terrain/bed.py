@@ -6,65 +6,15 @@ copied when a node is first lowered, into its slot (`spatial/slots.py`), so that
 """
 
 from copy import copy
-from typing import NamedTuple
 
 import numpy as np
 
-from ..core.arrays import value_at
-from ..core.jit import kernel
-from ..core.structs import struct
 from ..spatial.footprints import Footprints
 from ..spatial.raster import CORE, FIXED_VALUE, Raster
 from ..spatial.slots import with_places
 from ..spatial.transfer import Cover, scatter
+from .soil_accounts import Demand, NodeAccounts, take_soil
 from .surface import Surface
-
-
-@struct
-class NodeAccounts(NamedTuple):
-    """Accounts of soil at the nodes of a raster, changed in place.
-
-    Attributes
-    ----------
-    soil : ndarray, shape (nodes,)
-        Erodible depth [m].
-    elevation : ndarray, shape (nodes,)
-        Elevation of the bed [m].
-    eroded_depth : ndarray, shape (nodes,)
-        Depth eroded so far [m].
-    taken : ndarray, shape (slots,)
-        Depth eroded in this call [m].
-    before : ndarray, shape (slots, 3)
-        Soil, elevation and eroded depth at the beginning of the call, of nodes that were lowered [m].
-    pressure_ratio : ndarray, shape (nodes,) or (1,)
-        Pore pressure ratio of the soil [-]; is read only.
-    """
-
-    soil: np.ndarray
-    elevation: np.ndarray
-    eroded_depth: np.ndarray
-    taken: np.ndarray
-    before: np.ndarray
-    pressure_ratio: np.ndarray
-
-
-@struct
-class Demand(NamedTuple):
-    """Demand for soil at the nodes under a flow: scratch of an erosion.
-
-    Attributes
-    ----------
-    volume : ndarray, shape (slots,)
-        Soil asked for [m3]; 0 before and after.
-    granted : ndarray, shape (slots, 2)
-        Fraction of the demand that the soil can supply, and its pore pressure ratio [-].
-    touched : ndarray of int, shape (slots,)
-        Slots of nodes with a demand, as many as there are, in order of first touch.
-    """
-
-    volume: np.ndarray
-    granted: np.ndarray
-    touched: np.ndarray
 
 
 class Bed:
@@ -212,7 +162,7 @@ class Bed:
             before=self._before, pressure_ratio=self.pressure_ratio,
         )  # fmt: skip
         demand = Demand(volume=self._demand[:, 0], granted=self._granted, touched=self._touched)
-        count, entrained, ratio = _erode(footprints, demanded, self.raster.area, accounts, demand)
+        count, entrained, ratio = take_soil(footprints, demanded, self.raster.area, accounts, demand)
         at = node[self._touched[:count]]
         self.surface.move_to(at, self.elevation[at])
         return entrained, ratio
@@ -242,63 +192,3 @@ class Bed:
         if self.soil is not None:
             self.soil[nodes] += depth
         self.surface.move_to(nodes, self.elevation[nodes])
-
-
-@kernel
-def _erode(footprints, demanded, area, accounts, demand):
-    """Add up the demand for soil at every node, grant the part that the soil can supply, and lower the node.
-
-    Parameters
-    ----------
-    footprints : Footprints
-        Footprints of the n particles at least.
-    demanded : ndarray, shape (n,)
-        Volume asked for [m3].
-    area : float
-        Map area of a node [m2].
-    accounts : NodeAccounts
-        Soil at the nodes, changed in place.
-    demand : Demand
-        Scratch of an erosion.
-
-    Returns
-    -------
-    count : int
-        Number of slots touched.
-    entrained, ratio : ndarray, shape (n,)
-        Volume given to each particle [m3] and its pore pressure ratio [-].
-    """
-    soil, elevation, eroded_depth, taken, before, pressure_ratio = accounts
-    volume, granted, touched = demand
-    begin, end, index, weight, nodes = footprints
-    entrained, ratio, found = np.zeros(demanded.size), np.zeros(demanded.size), 0
-    for i in range(demanded.size):
-        if demanded[i] > 0.0:
-            for k in range(begin[i], end[i]):
-                slot = index[k]
-                if volume[slot] == 0.0:
-                    touched[found] = slot
-                    found += 1
-                volume[slot] += weight[k] * demanded[i]
-    for k in range(found):
-        slot = touched[k]
-        node = nodes[slot]
-        if taken[slot] == 0.0:
-            before[slot, 0], before[slot, 1], before[slot, 2] = soil[node], elevation[node], eroded_depth[node]
-        supplied = min(1.0, (before[slot, 0] - taken[slot]) * area / volume[slot])
-        granted[slot, 0], granted[slot, 1] = supplied, value_at(pressure_ratio, node)
-        taken[slot] = min(taken[slot] + supplied * volume[slot] / area, before[slot, 0])
-        soil[node] = before[slot, 0] - taken[slot]
-        elevation[node] = before[slot, 1] - taken[slot]
-        eroded_depth[node] = before[slot, 2] + taken[slot]
-        volume[slot] = 0.0
-    for i in range(demanded.size):
-        if demanded[i] > 0.0:
-            fraction, pressure = 0.0, 0.0
-            for k in range(begin[i], end[i]):
-                given = weight[k] * granted[index[k], 0]
-                fraction += given
-                pressure += given * granted[index[k], 1]
-            entrained[i] = demanded[i] * fraction
-            ratio[i] = pressure / fraction if fraction > 0.0 else 0.0
-    return found, entrained, ratio
