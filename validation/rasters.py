@@ -48,7 +48,7 @@ class Touched:
 @contextmanager
 def counting_nodes():
     """Count nodes that erosion shares out and that the record looks at, and those copied before a change."""
-    touched, erode, scatter, cover = Touched(), bed._erode, peak_maps.scatter, row_backup.RowBackup.keep_rows
+    touched, erode, scatter, cover = Touched(), bed.take_soil, peak_maps.scatter, row_backup.RowBackup.keep_rows
 
     def counted_erode(*arguments):
         count, *given = erode(*arguments)
@@ -66,7 +66,7 @@ def counting_nodes():
         touched.kept.append((self.nodes.stop - self.nodes.start - before) * len(self._arrays))
 
     with (
-        mock.patch.object(bed, "_erode", counted_erode),
+        mock.patch.object(bed, "take_soil", counted_erode),
         mock.patch.object(peak_maps, "scatter", counted_scatter),
         mock.patch.object(row_backup.RowBackup, "keep_rows", counted_cover),
     ):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import DebrisFlow
-from landlab_debrisflow.model import entrainment, step
+from landlab_debrisflow.model import mixing, step
 from validation.grids import centre_of_mass, dry_block, inclined, place, release_cap, release_slab
 
 G, ANGLE, MU, RATE = 9.81, math.radians(30.0), 0.21, 3e-3
@@ -113,10 +113,10 @@ def test_by_hand():
     one = np.ones(1)
     volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(3)]
     out[1][:] = np.nan
-    slowed = entrainment._mix(
-        1.0 * one, entrainment.Soil(1.0, 0.5, 0.2, 2650.0, 1000.0),
-        entrainment.Layer(2.0 * one, 1.6 * one, one, 0.8 * one, 4e-4 * one),
-        entrainment.Mixture(volume, porosity, density), entrainment.Erosion(*out), 7.0, 0.5,
+    slowed = mixing.mix(
+        1.0 * one, mixing.Soil(1.0, 0.5, 0.2, 2650.0, 1000.0),
+        mixing.Layer(2.0 * one, 1.6 * one, one, 0.8 * one, 4e-4 * one),
+        mixing.Mixture(volume, porosity, density), mixing.Erosion(*out), 7.0, 0.5,
     )  # fmt: skip
     rate, first, peclet, dilution = (float(values[0]) for values in (*out, slowed))
     assert (volume[0], porosity[0], density[0]) == pytest.approx((4.0, 0.35, 2072.5), rel=1e-15)
