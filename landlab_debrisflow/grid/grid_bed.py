@@ -135,7 +135,7 @@ class GridBed:
             bed.pore_pressure.set_variables(pressure)
         shape, closed = terrain.shape, terrain.status == CLOSED
         surface = Surface(bed.elevation_before.reshape(shape), terrain.spacing, closed.reshape(shape))
-        lowered, _ = bed.lowered
+        lowered, *_ = bed.lowered
         surface.move_to(lowered, bed.elevation[lowered])
         self.surface = bed.surface = surface
         return bed
@@ -163,7 +163,7 @@ class GridBed:
         self.elevation[nodes] = bed.elevation[nodes]
         if self.event_eroded is None:
             self.event_eroded = np.zeros(bed.elevation.size)
-        lowered, depth = bed.lowered
+        lowered, depth, _ = bed.lowered
         self.event_eroded[lowered] += depth
 
     def restore_surface(self, elevation, nodes: slice) -> None:

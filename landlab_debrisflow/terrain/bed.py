@@ -72,24 +72,18 @@ class Bed:
             self._demand, self._granted = np.zeros((slots, 1)), np.empty((slots, 2))
             self._touched = np.empty(slots, np.int64)
 
-    def _lowered(self):
-        """Return the nodes that were lowered in this call, in their order, and their slots."""
-        slots = np.flatnonzero(self._taken)
-        nodes = self._cover.slots.node[slots]
-        order = np.argsort(nodes)
-        return nodes[order], slots[order]
-
     @property
     def lowered(self):
-        """Nodes that were lowered in this call, int, shape (k,), and how far, shape (k,) [m]."""
-        nodes, slots = self._lowered()
-        return nodes, self._taken[slots]
+        """Nodes that were lowered in this call, in their order, how far [m], and their slots, each of shape (k,)."""
+        slots = np.flatnonzero(self._taken)
+        slots = slots[np.argsort(self._cover.slots.node[slots])]
+        return self._cover.slots.node[slots], self._taken[slots], slots
 
     def variables(self) -> dict:
         """Return the accounts of the call by name, as dimensions and values: of the nodes that were lowered [m]."""
-        nodes, slots = self._lowered()
-        taken, before = ("lowered", self._taken[slots]), (("ground", "lowered"), self._before[slots].T)
-        return {"lowered_node": ("lowered", nodes), "taken": taken, "before": before}
+        nodes, taken, slots = self.lowered
+        before = ("ground", "lowered"), self._before[slots].T
+        return {"lowered_node": ("lowered", nodes), "taken": ("lowered", taken), "before": before}
 
     def set_variables(self, variables) -> None:
         """Restore the accounts of a call that `variables` returned, values by name."""
@@ -100,7 +94,7 @@ class Bed:
     @property
     def elevation_before(self):
         """Elevation at the beginning of the call, ndarray, shape (nodes,) [m]."""
-        elevation, (nodes, slots) = self.elevation.copy(), self._lowered()
+        elevation, (nodes, _, slots) = self.elevation.copy(), self.lowered
         elevation[nodes] = self._before[slots, 1]
         return elevation
 

@@ -71,7 +71,7 @@ def call(simulation, terrain, seconds, failing=None, changed=False):
     end = simulation.time + seconds
     simulation.start(end)
     simulation.advance(end)
-    nodes, depth = bed.lowered
+    nodes, depth, _ = bed.lowered
     terrain.earlier[nodes] += depth
 
 
