@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow.spatial.cells import sort_into_cells
-from landlab_debrisflow.spatial.cross_summation import cells_of_phase
+from landlab_debrisflow.spatial.cells import cells_of_phase, sort_into_cells
 from landlab_debrisflow.spatial.packing import Position
 from landlab_debrisflow.spatial.partners import MOST_PARTNERS, NEAREST, PARTNER_RADIUS, find_partners, reverse
 
