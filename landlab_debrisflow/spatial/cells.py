@@ -180,7 +180,7 @@ def _sort(x, y, support, changed, cells):
 
 @kernel
 def _wake(cells):
-    """Turn reach from the largest support in a cell into that of all in reach, awake from a change inside likewise.
+    """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
 
     Parameters
     ----------
