@@ -179,10 +179,7 @@ class Bed:
         return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
     def footprints(self, p, x=None, y=None) -> Footprints:
-        """Return the nodes on which all particles `p` of a flow lie; the outline of these is the edge of the flow.
-
-        `x` and `y` are positions to suppose instead of those there are, shape (n,) [m].
-        """
+        """Return the nodes on which all particles `p` of a flow lie, whose outline is the edge of the flow; at x, y [m]."""
         x, y = (p.x, p.y) if x is None else (x, y)
         return self._cover.footprints(x, y, p.volume, p.depth, p.share)
 
