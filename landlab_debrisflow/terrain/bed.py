@@ -123,12 +123,8 @@ class Bed:
         return cls(raster, surface, elevation.reshape(-1), soil, eroded, np.array([pressure_ratio]), **others)
 
     def footprints(self, p, x=None, y=None) -> Footprints:
-        """Return the nodes on which all particles `p` of a flow lie; the outline of these is the edge of the flow.
-
-        `x` and `y` are positions to suppose instead of those there are, shape (n,) [m].
-        """
-        x, y = (p.x, p.y) if x is None else (x, y)
-        return self._cover.footprints(x, y, p.volume, p.depth, p.share)
+        """Return the nodes on which all particles `p` of a flow lie, or would lie if they were at `x`, `y` [m]."""
+        return self._cover.footprints(*((p.x, p.y) if x is None else (x, y)), p.volume, p.depth, p.share)
 
     def erode(self, footprints: Footprints, demanded):
         """Take the demanded soil for particles; particles at one node divide the soil left there.
