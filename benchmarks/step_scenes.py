@@ -37,6 +37,8 @@ class Watch:
     def observe(self, flow):
         """Note the state now."""
         p = flow.particles
+        if p.sizes["particle"] == 0:
+            return
         volume, h = p.volume.values, p.thickness.values
         cosine, mass = h / p.depth.values, volume.sum()
         kinetic = 0.5 * (p.velocity_x.values**2 + p.velocity_y.values**2 + p.velocity_z.values**2) / G
@@ -125,16 +127,24 @@ def bend(turn, way=None):
 
 
 def edge(way=None, growth=1e-3):
-    """Slide over 50 m of ground that erodes."""
+    """Slide over 50 m of ground that erodes; `x` is the centre less where it is without erosion in the same steps [m].
+
+    The slab spreads, too, and its place depends on the length of the step without any soil.
+    """
     slope, friction = math.radians(25.0), math.radians(20.0)
     at = 30.0 + FALL
-    grid = laid_on(
-        lambda x: 400.0 - math.tan(slope) * x, slab(30.0, 8.0, 8.0, 0.5), 61,
-        soil=lambda x: 3.0 * ((x > at) & (x < at + 50.0)),
-    )  # fmt: skip
-    pull = G * (math.sin(slope) - math.tan(friction) * math.cos(slope))
-    distance = FALL / math.cos(slope)
-    return slide(grid, 120, math.degrees(friction), way=way, distance=distance, pull=pull, erosion=growth)
+
+    def over(erosion):
+        grid = laid_on(
+            lambda x: 400.0 - math.tan(slope) * x, slab(30.0, 8.0, 8.0, 0.5), 61,
+            soil=lambda x: 3.0 * ((x > at) & (x < at + 50.0)),
+        )  # fmt: skip
+        pull = G * (math.sin(slope) - math.tan(friction) * math.cos(slope))
+        distance = FALL / math.cos(slope)
+        return slide(grid, 120, math.degrees(friction), way=way, distance=distance, pull=pull, erosion=erosion)
+
+    found, bare = over(growth), over(0.0)
+    return found | {"x": [found["x"][-1] - bare["x"][-1]]}
 
 
 def surge(ratio, courant):
@@ -156,9 +166,10 @@ def surge(ratio, courant):
     grid = laid_on(elevation, thickness, 45, rows=7, closed=True)
     angle = math.degrees(math.atan(math.tan(lower) / ratio))
     try:
-        return watched(grid, 12.0, 2500, angle, courant=courant, looks=48)
+        found = watched(grid, 12.0, 2500, angle, courant=courant, looks=48)
     except SimulationError:  # the end of what has blown up
         return None
+    return found if found["volume"][-1] > 0.999 * found["volume"][0] else None  # or was thrown over the walls
 
 
 def valley_at(times, count, shorter=1):
