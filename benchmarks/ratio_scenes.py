@@ -265,11 +265,11 @@ SCENES = {one.__name__: one for one in (cap, valley, fixed, to_rest, s1000, phas
 
 def answer(scenes) -> None:
     """Answer requests for some functions by name."""
-    logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)
     for line in sys.stdin:
         name, keywords = json.loads(line)
         print(json.dumps(scenes[name](**keywords)), flush=True)
 
 
 if __name__ == "__main__":
+    logging.getLogger("landlab_debrisflow").setLevel(logging.ERROR)
     answer(SCENES)
