@@ -15,7 +15,6 @@ if not __package__:  # run as a file: the package that is installed goes before 
 from benchmarks import ratio_scenes
 
 RULES = {
-    "waves at particles held by friction": ("landlab_debrisflow.model.step_rule", "NEGLIGIBLE_WAY", 0.0),
     "soil at mid-step": ("landlab_debrisflow.model.entrainment", "EROSION_TIME", 0.0),
     "even ground": ("landlab_debrisflow.model.step_rule", "EVEN", 1.0),
 }

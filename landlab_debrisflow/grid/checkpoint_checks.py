@@ -5,7 +5,6 @@ from collections import ChainMap
 import numpy as np
 
 from ..core.errors import InputError
-from ..model.state_dataset import LATER
 from ..model.time_step import StepLimits
 from ..physics.contracts import WATER
 
@@ -72,9 +71,7 @@ def check_contents(dataset, template, prefix: str, raster_shape, spacing, inflow
     InputError
         If a variable is missing, of another type or shape, or has a number that cannot be.
     """
-    later = {prefix + name for name in LATER}
     names = [name for name in template.variables if "field" not in template[name].attrs]
-    names = [name for name in names if name in dataset or name not in later]
     for group in TOGETHER:
         names += group if any(name in dataset for name in group) else ()
     running = "call_end" in dataset

@@ -159,7 +159,7 @@ class Simulation:
 
     def _find_limits(self) -> None:
         state, near = self.state, self.surroundings
-        state.limits = step.find_limits(self.particles, self.phases, near, state.time, state.control.step)
+        state.limits = step.find_limits(self.particles, self.phases, near, state.time)
 
     def _consolidate(self, dt: float) -> None:
         prescribed = self.inflow.prescribed(self.particles)

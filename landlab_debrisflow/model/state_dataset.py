@@ -19,9 +19,6 @@ BESIDE = {
 }
 """Numbers that parts of the state consist of, by part; they are scalars named ``part_number``."""
 
-LATER = ("earlier_thrust",)
-"""Variables of particles that files of earlier versions of the package lack: a new particle's value is as good."""
-
 ORIGINS = {
     "_x": "released", "_y": "released", "_volume": "released",
     "_owner": "released_part", "_node": "released_part", "_part": "released_part",
@@ -77,19 +74,13 @@ def from_dataset(dataset: xr.Dataset, state, prefix: str = ""):
     """
     new, read = state.copy(), {name: data.values for name, data in dataset.variables.items()}
     p = new.particles
-    needed = (
-        *(prefix + variable.name for variable in p.variables if variable.name not in LATER),
-        "awake",
-        "ever",
-        "time",
-    )
+    needed = (*(prefix + variable.name for variable in p.variables), "awake", "ever", "time")
     if missing := [name for name in needed if name not in read]:
         raise InputError(
             f"state: the Dataset lacks {', '.join(missing[:5])}{' and more' * (len(missing) > 5)}; give a Dataset "
             "that to_dataset() of a run with the same setup wrote"
         )
-    names = (variable.name for variable in p.variables)
-    p.restore({name: read[prefix + name] for name in names if prefix + name in read})
+    p.restore({variable.name: read[prefix + variable.name] for variable in p.variables})
     p.awake, p.ever = int(read["awake"]), int(read["ever"])
     new.time, new.outdated = float(read["time"]), bool(read["outdated"])
     new.settled_solid = float(read["settled_solid"])

@@ -22,7 +22,7 @@ from .kinematics import NOWHERE, Place, drift, follow_bed, stop_at_walls
 from .layer import Layer, follow_thickness
 from .stillness import count_still_steps, disturb
 from .surroundings import Surroundings
-from .time_step import NO_FRICTION, StepLimits, reduce_particles
+from .time_step import StepLimits, reduce_particles
 from .walls import ghost_particles
 
 STEPS_TO_SLEEP = 4
@@ -59,10 +59,10 @@ def advance(simulation, dt: float) -> None:
     load_bed(p, bed, material, end, dt if bed.soil is None else (1.0 - entrainment.EROSION_TIME) * dt)
     consolidate(p, exchange, columns, inflow.prescribed(p), dt, threads)
     clock.lap(COLUMNS)
-    yield_stress, _ = friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt, threads)
+    friction_and_kick(p, exchange, friction, phases, walls, 0.5 * dt, threads)
     inflow.prescribe_velocity(p, end)
     clock.lap(KICK)
-    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, yield_stress, threads)
+    state.limits = find_limits(p, phases, simulation.surroundings, state.time, dt, threads)
     if walls is not None:
         state.stopped.count(p, end)
     clock.lap(LIMITS)
@@ -201,7 +201,6 @@ def interact(p, exchange, flow, numerics, columns: ColumnPhysics, inflow, walls:
         acceleration=p.thrust,
         convergence=p.thickening,
     )
-    np.copyto(p.earlier_thrust, p.thrust)
     cells_of_phases = flow.interact(state, cells, numerics.shock_viscosity, numerics.threads, sums)
     inflow.prescribe_thickness(p, phases.phase_fractions)
     phases.after_summation(p, exchange, cells_of_phases)
@@ -256,13 +255,10 @@ def consolidate(p, exchange, columns: ColumnPhysics, prescribed, dt: float, thre
     phases.update_mean_pressure(p, exchange, forcing, lambda: present_profiles(p, bearing, columns), dt)
 
 
-def find_limits(
-    p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, yield_stress=None, threads: int = 1
-) -> StepLimits:
+def find_limits(p, phases, surroundings: Surroundings, time: float, dt: float = 0.0, threads: int = 1) -> StepLimits:
     """Return the limits of the next step, after one of `dt` seconds that began at `time` [s].
 
-    `p` are the particles, `phases` gives the stiffness beside weight; `dt` is 0 before the first step; `yield_stress`,
-    shape (awake,), is that of friction at the end of the step [Pa], None if it is still to be found; `threads` is the
+    `p` are the particles, `phases` gives the stiffness beside weight; `dt` is 0 before the first step; `threads` is the
     number of threads.
 
     Raises
@@ -271,13 +267,9 @@ def find_limits(
         If the position or velocity of a particle is not finite.
     """
     stiff = phases.celerity_squared(p, dt)
-    if not phases.sleeps:  # water and its waves pass through grains that friction holds
-        yield_stress = NO_FRICTION
-    elif yield_stress is None:
-        yield_stress, _ = basal_resistance(p, slice(p.awake), surroundings.friction, asking=True)
     gravity = surroundings.friction.material.gravity
     ground = surroundings.bed.surface, surroundings.walls
-    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, dt, yield_stress, ground, threads)
+    limits = reduce_particles(p, gravity, surroundings.step_rule, stiff, ground, threads)
     if (place := limits.broken) >= 0:
         for name in ("velocity", "thrust", "thickness", "basal_excess_pore_pressure"):
             value = float(getattr(p, name)[..., place].sum())

@@ -7,15 +7,6 @@ import numpy as np
 GROWTH = 0.02
 """Largest part of its volume a particle may take up in a step."""
 
-NEGLIGIBLE_WAY = 1e-2
-"""Way of a particle in a step over its smoothing length, below which pressure waves at the particle do not bound the
-step if friction stops the particle within the step: a wave beyond its limit of stability grows to this way, then
-counts."""
-
-STEADY = 0.25
-"""Change of the thrust in a step over the deceleration by friction, up to which friction is sure to stop a particle in
-the next step, too: where a flow comes near, the change grows up to fourfold from step to step."""
-
 EVEN, MOST_EVEN = 1.9, 0.95
 """Way in a step where the ground is even, over that where it is not; and its most, over the node spacing: with the
 default of half a node a step crosses .95 of one."""
@@ -60,18 +51,12 @@ class StepRule(NamedTuple):
         Longest way in a step, over even ground far from walls [m].
     turn : float
         Largest turn of the surface on the way of a step over even ground [rad].
-    negligible_way : float
-        Way in a step over smoothing length of a particle whose waves do not count if friction stops it [-].
-    steady : float
-        Largest change of its thrust in a step over its deceleration by friction [-].
     """
 
     courant_number: float
     way: float
     longest_way: float
     turn: float
-    negligible_way: float
-    steady: float
 
 
 def step_rule(numerics, spacing: float) -> StepRule:
@@ -82,6 +67,4 @@ def step_rule(numerics, spacing: float) -> StepRule:
         way=nodes * spacing,
         longest_way=max(nodes, min(EVEN * nodes, MOST_EVEN)) * spacing,
         turn=TURN * nodes,
-        negligible_way=NEGLIGIBLE_WAY,
-        steady=STEADY,
     )

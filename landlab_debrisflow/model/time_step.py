@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import inner, kernel
+from ..core.jit import kernel
 from ..core.structs import struct
 from ..core.threads import in_ranges, worth
 from .crossing import find_time_across, time_over
@@ -13,9 +13,6 @@ from .step_rule import GROWTH, StepRule
 
 NOT_STIFF = np.zeros(1)
 """Nothing but weight drives waves [m2 s-2]."""
-
-NO_FRICTION = np.zeros(1)
-"""Yield stress where no friction is known [Pa]."""
 
 
 class StepLimits(NamedTuple):
@@ -81,32 +78,15 @@ class Motion(NamedTuple):
     ----------
     velocity : ndarray, shape (3, n)
         Velocity tangent to the bed [m s-1].
-    thrust, earlier_thrust : ndarray, shape (3, n)
-        Acceleration by pressure now, and before the sums over neighbours were last done [m s-2].
+    thrust : ndarray, shape (3, n)
+        Acceleration by pressure [m s-2].
     volume : ndarray, shape (n,)
         Volume that moves [m3].
     """
 
     velocity: np.ndarray
     thrust: np.ndarray
-    earlier_thrust: np.ndarray
     volume: np.ndarray
-
-
-@struct
-class Friction(NamedTuple):
-    """Friction that can stop n particles within a step.
-
-    Attributes
-    ----------
-    yield_stress : ndarray, shape (n,) or (1,)
-        Shear stress that holds a body at rest [Pa].
-    density : ndarray, shape (n,)
-        Density of the mixture [kg m-3].
-    """
-
-    yield_stress: np.ndarray
-    density: np.ndarray
 
 
 @struct
@@ -125,15 +105,11 @@ class Growth(NamedTuple):
     depth: np.ndarray
 
 
-def reduce_particles(
-    particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, step: float = 0.0, yield_stress=NO_FRICTION,
-    ground=None, threads: int = 1,
-):  # fmt: skip
+def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF, ground=None, threads: int = 1):
     """Return the `StepLimits` of all particles that are awake.
 
     The step is bounded by a Lagrangian Courant condition: pressure waves (g_n h)^(1/2) and converging flow
     against the smoothing length (the speed itself does not count), and the way of a step against the node spacing.
-    Particles that stay where they are by friction do not count among the waves (`NEGLIGIBLE_WAY`).
 
     Parameters
     ----------
@@ -145,10 +121,6 @@ def reduce_particles(
         Bounds of a step.
     stiff : ndarray, shape (n,) or (1,)
         Part of the square of the celerity that is not due to weight [m2 s-2].
-    step : float
-        Length of the last step [s]; 0 before the first one, when every particle counts.
-    yield_stress : ndarray, shape (awake,) or (1,)
-        Shear stress that holds a body at rest [Pa].
     ground : tuple, optional
         `Surface` below the particles, and `Raster` with walls or None; by default no ground counts as even.
     threads : int
@@ -159,13 +131,12 @@ def reduce_particles(
         summed=p.summed, light=p.light, cosine=p.cos_slope, thickness=p.thickness, own_thickness=p.own_thickness,
         thickening=p.thickening, smoothing_length=p.smoothing_length, stiffness=stiff,
     )  # fmt: skip
-    motion = Motion(velocity=p.velocity, thrust=p.thrust, earlier_thrust=p.earlier_thrust, volume=p.volume)
-    friction = Friction(yield_stress=yield_stress, density=p.density)
+    motion = Motion(velocity=p.velocity, thrust=p.thrust, volume=p.volume)
     growth = Growth(rate=p.entrainment_rate, depth=p.depth)
     energies = np.zeros(p.awake // ENERGY_BLOCK + 1)
     found = in_ranges(
-        _reduce, p.awake, worth(threads, p.awake), p.awake, waves, motion, friction, growth,
-        p.basal_excess_pore_pressure, gravity, tuple(rule), step, energies, unit=ENERGY_BLOCK,
+        _reduce, p.awake, worth(threads, p.awake), p.awake, waves, motion, growth,
+        p.basal_excess_pore_pressure, gravity, rule.way, energies, unit=ENERGY_BLOCK,
     )  # fmt: skip
     wave_rates, growth_rates, times_across, speeds, places = zip(*found, strict=True)
     wave_rate, growth_rate, across = max(wave_rates), max(growth_rates), min(times_across)
@@ -174,24 +145,6 @@ def reduce_particles(
     if ground is not None and across < others and rule.way < rule.longest_way and broken < 0:
         across = find_time_across(p, *ground, rule, gravity, others)
     return StepLimits(min(others, across), energy, fastest, broken)
-
-
-@inner
-def _stays(i, speed, step, motion, waves, friction, rule):
-    """Return whether particle `i` with its `speed` [m s-1] hardly moves within a step [s], and friction keeps it so.
-
-    `motion`, `waves` and `friction` are the structs of all particles, `rule` is the `StepRule`.
-    """
-    _, thrust, earlier, _ = motion
-    _, _, _, thickness, _, _, smoothing_length, _ = waves
-    yield_stress, density = friction
-    _, _, _, _, negligible_way, steady = rule
-    if step == 0.0 or not speed * step < negligible_way * smoothing_length[i]:
-        return False
-    deceleration = value_at(yield_stress, i) / (density[i] * thickness[i])
-    dx, dy, dz = thrust[0, i] - earlier[0, i], thrust[1, i] - earlier[1, i], thrust[2, i] - earlier[2, i]
-    most = steady * deceleration
-    return speed <= step * deceleration and dx * dx + dy * dy + dz * dz <= most * most
 
 
 ENERGY_BLOCK = 4096
@@ -203,7 +156,7 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow would thi
 
 
 @kernel
-def _reduce(first, last, count, waves, motion, friction, growth, pressure, gravity, rule, step, energies):
+def _reduce(first, last, count, waves, motion, growth, pressure, gravity, way, energies):
     """Reduce the particles from place `first` to `last` - 1 to the limits of the next step.
 
     Parameters
@@ -216,18 +169,14 @@ def _reduce(first, last, count, waves, motion, friction, growth, pressure, gravi
         Pressure waves at n particles.
     motion : Motion
         Motion of n particles.
-    friction : Friction
-        Friction that can stop n particles.
     growth : Growth
         Growth by erosion at n particles.
     pressure : ndarray, shape (n,)
         Basal excess pore pressure [Pa].
     gravity : float
         Acceleration by gravity [m s-2].
-    rule : StepRule
-        Bounds of a step.
-    step : float
-        Length of the last step [s].
+    way : float
+        Way of a particle in a step that is short enough anywhere [m].
     energies : ndarray, shape (blocks,)
         Written, of the blocks of these particles: sum of volume times speed squared [m5 s-2].
 
@@ -243,9 +192,8 @@ def _reduce(first, last, count, waves, motion, friction, growth, pressure, gravi
         As in `StepLimits`.
     """
     summed, light, cosine, thickness, own_thickness, thickening, smoothing_length, stiffness = waves
-    velocity, thrust, _, volume = motion
+    velocity, thrust, volume = motion
     erosion_rate, depth = growth
-    way = rule[1]
     wave_rate, growth_rate, across, fastest, broken = 0.0, 0.0, np.inf, 0.0, -1
     most = 0.0
     for i in range(count):
@@ -258,7 +206,7 @@ def _reduce(first, last, count, waves, motion, friction, growth, pressure, gravi
         if not abs(speed2 + push2 + thickness[i] + pressure[i]) < np.inf:
             broken = i
         celerity, speed = np.sqrt(gravity * cosine[i] * thickness[i]), np.sqrt(speed2)
-        if summed[i] and not _stays(i, speed, step, motion, waves, friction, rule):
+        if summed[i]:
             fastest_wave = np.sqrt(celerity * celerity + value_at(stiffness, i))
             converging = max(thickening[i], 0.0) / own_thickness[i]
             if light[i]:

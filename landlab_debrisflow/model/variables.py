@@ -54,8 +54,6 @@ PARTICLE_VARIABLES = (
     Variable("curvature_yy", "m-1", "second derivative d2z/dy2 of the bed below", written=False, scratch=True),
     Variable("cos_slope", "-", "cosine of the slope of the bed below", initial=1.0, written=False, scratch=True),
     Variable("expected_elevation", "m", "elevation at which the kicks leave it", written=False, scratch=True),
-    Variable("earlier_thrust", "m s-2", "thrust before its sums over neighbours were last done", components=3,
-             initial=float("inf"), written=False, scratch=True),
     Variable("summed", "-", "whether its sums over neighbours were done in this step", bool, False, written=False,
              scratch=True),
     Variable("entrained_volume", "m3", "soil taken in this step", written=False, scratch=True),

@@ -29,7 +29,7 @@ def test_a_rule_is_switched_off_inside_a_scene_only():
     for rules in ([], list(rules_off.RULES), []):
         rules_off.without(scene)(rules)
     assert bounds[0] == bounds[2]
-    assert bounds[1].negligible_way == 0.0 and bounds[1].longest_way == bounds[1].way < bounds[0].longest_way
+    assert bounds[1].longest_way == bounds[1].way < bounds[0].longest_way
 
 
 def test_every_rule_is_left_out_once():

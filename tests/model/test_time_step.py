@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.step_control import FASTER, FIRST, SLOWEST, TO_STOP, StepControl
-from landlab_debrisflow.model.step_rule import GROWTH, NEGLIGIBLE_WAY, STEADY, StepRule, viscous_share
+from landlab_debrisflow.model.step_rule import GROWTH, StepRule, viscous_share
 from landlab_debrisflow.model.time_step import reduce_particles
 
 G, COURANT, WAY = 9.81, 0.6, 2.5
@@ -86,14 +86,13 @@ def particles():
         awake=n, velocity=np.zeros((3, n)), thrust=np.zeros((3, n)), thickness=np.full(n, 2.0), thickening=np.zeros(n),
         smoothing_length=np.full(n, 3.0), volume=np.full(n, 7.0), basal_excess_pore_pressure=np.zeros(n),
         entrainment_rate=np.zeros(n), depth=np.full(n, 2.5), own_thickness=np.full(n, 2.0), light=np.zeros(n, bool),
-        density=np.full(n, 2000.0), earlier_thrust=np.zeros((3, n)),
     )  # fmt: skip
 
 
-def look(particles, computed=None, **friction):
+def look(particles, computed=None):
     computed = np.ones(6, bool) if computed is None else computed
     particles.summed, particles.cos_slope = computed, np.full(6, 0.8)
-    return reduce_particles(particles, G, StepRule(COURANT, WAY, WAY, 0.0, NEGLIGIBLE_WAY, STEADY), **friction)
+    return reduce_particles(particles, G, StepRule(COURANT, WAY, WAY, 0.0))
 
 
 CELERITY = math.sqrt(G * 0.8 * 2.0)
@@ -107,34 +106,6 @@ def test_waves_bound_the_step_where_particles_wait_for_nothing(particles):
     computed = np.ones(6, bool)
     computed[3] = False  # nothing near it moves
     assert look(particles, computed).longest_step == pytest.approx(COURANT * 3.0 / (2.0 * CELERITY))
-
-
-DECELERATION, STEP = 2.0, 0.1  # by friction [m s-2], and the last step [s]
-
-
-@pytest.mark.parametrize(
-    ("speed", "change", "step", "deceleration", "counts"),
-    [
-        (0.0, 0.0, STEP, DECELERATION, False),
-        (0.04, 0.49, STEP, DECELERATION, False),  # 4 mm, less than 1e-2 smoothing lengths; 0.25 of the deceleration
-        (0.06, 0.0, STEP, DECELERATION, True),  # moves too far, here 1e-2 of 0.5 m
-        (0.04, 0.51, STEP, DECELERATION, True),  # its thrust changes too fast
-        (0.04, 0.0, STEP, 0.39, True),  # friction takes 0.039 m/s of it
-        (0.0, 0.0, 0.0, DECELERATION, True),  # no step yet
-        (0.0, 0.0, math.inf, DECELERATION, True),
-        (0.001, 0.0, STEP, 0.0, True),  # water
-    ],
-)
-def test_waves_do_not_count_where_friction_keeps_particles_in_place(
-    particles, speed, change, step, deceleration, counts
-):
-    particles.smoothing_length[3], particles.velocity[0, 3], particles.thrust[1, 3] = 0.5, speed, change
-    stress = np.full(6, deceleration * 2000.0 * 2.0)
-    found = look(particles, step=step, yield_stress=stress).longest_step
-    if counts:
-        assert found == pytest.approx(COURANT * 0.5 / CELERITY)
-    else:
-        assert found > COURANT * 3.0 / CELERITY  # the others lie still, too: only their fall bounds the step
 
 
 def test_converging_flow_counts_as_waves_do(particles):

@@ -37,8 +37,7 @@ def test_still_water_calms_down(amplitude):
 def test_water_over_a_rough_bed_has_a_residual():
     """The weight g cos(theta) of a slope-normal thickness has no potential: a lake over noise goes on circulating.
 
-    The equations do so (residual g sin^3(theta)); at least it stays bounded, and friction that exceeds the residual
-    ends it. With 2 degrees, .34 m/s2, a pool of five particles may swing for ever, by steps of whatever rule.
+    The equations do so (residual g sin^3(theta)); at least it stays bounded, and the smallest friction ends it.
     """
     scene = Scene(scenes.basin(1.0), 100.0, count=300).run()
     assert scene.watch.finite and scene.watch.excess <= 0.0
@@ -47,8 +46,7 @@ def test_water_over_a_rough_bed_has_a_residual():
     residual = G * float(np.mean((slope2 / (1.0 + slope2)) ** 1.5))
     # measured .29 m/s rms and a residual of .50 m/s2 in the mean: less than a second of it
     assert root_mean_square_speed(scene, 1.0) < 0.9 * residual
-    calm = Scene(scenes.basin(1.0), 300.0, angle=3.0, count=300, numerics={"rest_energy": 1e-4}).run()
-    assert math.tan(math.radians(3.0)) * G > residual
+    calm = Scene(scenes.basin(1.0), 300.0, angle=2.0, count=300, numerics={"rest_energy": 1e-4}).run()
     assert calm.flow.at_rest and not calm.speeds.any()
 
 
