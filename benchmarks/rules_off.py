@@ -15,10 +15,15 @@ if not __package__:  # run as a file: the package that is installed goes before 
 from benchmarks import ratio_scenes
 
 RULES = {
-    "soil at mid-step": ("landlab_debrisflow.model.entrainment", "EROSION_TIME", 0.0),
-    "even ground": ("landlab_debrisflow.model.step_rule", "EVEN", 1.0),
+    "soil at mid-step": ("model.entrainment", "EROSION_TIME", 0.0),
+    "even ground": ("model.step_rule", "EVEN", 1.0),
 }
 """Rules: a module, a name in it, and the value with which the rule does nothing."""
+
+
+def replaced(module: str, name: str, value):
+    """Return a context in which a name of a module of the package, such as ``"model.entrainment"``, has a value."""
+    return mock.patch.object(importlib.import_module(f"landlab_debrisflow.{module}"), name, value)
 
 
 def without(scene):
@@ -27,8 +32,7 @@ def without(scene):
     def run(without, **keywords):
         with ExitStack() as stack:
             for rule in without:
-                module, name, value = RULES[rule]
-                stack.enter_context(mock.patch.object(importlib.import_module(module), name, value))
+                stack.enter_context(replaced(*RULES[rule]))
             return scene(**keywords)
 
     return run

@@ -9,14 +9,13 @@ in benchmarks/results, from which benchmarks/two_phase.txt and docs/figures/two_
 
 import argparse
 import time
-from unittest import mock
 
 import numpy as np
 import xarray as xr
 
 from benchmarks import charts, result_files, style
+from benchmarks.rules_off import replaced
 from benchmarks.speed_against_scenes import gully
-from landlab_debrisflow.model.phases import two_phase
 from landlab_debrisflow.physics.column.schemes.lazy import advance
 from validation.cases import two_phase_strips as strips
 
@@ -105,7 +104,7 @@ def compare_partners(counts=(500, 2000), kept=(1, 4, 8, 16, 32)) -> None:
         for count in counts:
             start = None
             for steps_kept in kept:
-                with mock.patch.object(two_phase, "STEPS_WITH_PARTNERS", steps_kept):
+                with replaced("model.phases.two_phase", "STEPS_WITH_PARTNERS", steps_kept):
                     flow, _, steps = strips.run(name, count)
                 found = [strips.profile(flow, phase) for phase in strips.PHASES]
                 places = np.array([(np.average(s, weights=v), np.quantile(s, 0.99)) for s, _, _, v in found]).ravel()
@@ -130,7 +129,7 @@ def count_columns(particles=10_000) -> None:
                 spent = done[ending]
                 spent[0], spent[1] = spent[0] + selected.size, spent[1] + time.process_time() - start
 
-            with mock.patch.object(advance, "grow", counted):
+            with replaced("physics.column.schemes.lazy.advance", "grow", counted):
                 flow.run_one_step(1.5)
             per_step = 1.0 / (particles * (flow.diagnostics.steps - before))
             words = (f"{100.0 * number * per_step:5.1f} % ({1e6 * cpu / max(number, 1):.2f} us each)"

@@ -40,7 +40,8 @@ def test_a_step_longer_than_a_row_takes_lets_in_all_of_them_where_they_belong(hi
 def test_in_the_strip_rows_are_where_the_velocity_has_brought_them():
     flow = DebrisFlow(inclined((20, 80), 5.0, 0.5), inflow=SURGE, erosion="none", numerics={"particle_count": 400})
     flow.run_one_step(3.5)
-    p, inflow = flow._simulation.particles, flow._simulation.inflow
+    simulation = flow._simulation
+    p, inflow = simulation.particles, simulation.inflow
     held, source = inflow.prescribed(p), inflow.sources[0]
     assert np.unique(p.inflow_row[held]).size > 1
     way = source.way(3.5) - source.way(inflow._time[p.inflow_row[held]])
@@ -99,7 +100,8 @@ def test_it_flows_in_obliquely_with_the_discharge_given():
     flow.run_one_step(5.0)
     p = flow.particles
     assert flow.budget["inflow"] == pytest.approx(150.0, rel=0.02)
-    held = flow._simulation.inflow.prescribed(flow._simulation.particles)
+    simulation = flow._simulation
+    held = simulation.inflow.prescribed(simulation.particles)
     ratio = p.velocity_y.values[held] / p.velocity_x.values[held]
     np.testing.assert_allclose(ratio, np.tan(np.radians(30.0)), rtol=1e-12)
     # seen from 30 degrees aside the line is shorter and the flow thicker
@@ -112,8 +114,9 @@ def test_pore_pressure_comes_in_as_given(hill, column):
     undrained = {"coefficient_of_consolidation": 0.0}
     flow = DebrisFlow(hill, inflow=inflow, erosion="none", numerics=COARSE, material=undrained, column=column)
     flow.run_one_step(5.0)
-    p, rows = flow.particles, flow._simulation.particles.inflow_row
-    held, time = rows >= 0, flow._simulation.inflow._time
+    p, simulation = flow.particles, flow._simulation
+    rows, time = simulation.particles.inflow_row, simulation.inflow._time
+    held = rows >= 0
     ratio = (p.basal_excess_pore_pressure / p.liquefaction_pressure).values[held]
     np.testing.assert_allclose(ratio, 0.2 + 0.06 * time[rows[held]], rtol=1e-12)
     assert 3.0 < time[rows[held]].min() < time[rows[held]].max() < 5.0

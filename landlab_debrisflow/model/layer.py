@@ -1,4 +1,4 @@
-"""The flow as a layer over the bed: what follows from its thickness."""
+"""Layer of flow over the bed: depth, smoothing length and liquefaction pressure by its thickness."""
 
 from typing import NamedTuple
 

@@ -55,12 +55,12 @@ class Particles:
             vars(self).update({name: array[index] for name, index in block.indices.items()})
 
     def __getstate__(self) -> dict:
-        """Return what a pickle holds: the blocks, not the views of them, which would be arrays of their own then."""
+        """Return the attributes for a pickle, without views of the blocks: a pickle would make arrays of the views."""
         views = {name for block in self._blocks for name in block.indices}
         return {name: value for name, value in vars(self).items() if name not in views}
 
     def __setstate__(self, state) -> None:
-        """Take what a pickle held; attributes become views of its blocks."""
+        """Take the attributes from a pickle; variables become views of the blocks."""
         vars(self).update(state)
         self._put(self._arrays)
 

@@ -1,4 +1,4 @@
-"""Accounts of erodible soil at nodes: what is asked for, granted and taken."""
+"""Accounts of erodible soil at nodes: demand, grant and erosion."""
 
 from typing import NamedTuple
 

@@ -104,7 +104,7 @@ class Surface:
         _sample(self.values, self.dx, self.dy, x, y, sample)
 
     def elevation_into(self, x, y, elevation) -> None:
-        """Write the elevation [m] of points x, y from the lower left node [m] into an array, all of shape (n,)."""
+        """Write the elevation [m] of points x, y, from the lower left node [m], into an array; each has shape (n,)."""
         _elevation(self.values, self.dx, self.dy, x, y, elevation)
 
 

@@ -16,8 +16,8 @@ from validation.measure import Norms, Result
 @pytest.mark.parametrize("rule", rules_off.RULES)
 def test_a_rule_is_what_it_replaces(rule):
     place, name, off = rules_off.RULES[rule]
-    assert isinstance(getattr(importlib.import_module(place), name), type(off))
-    assert getattr(importlib.import_module(place), name) != off
+    assert isinstance(getattr(importlib.import_module(f"landlab_debrisflow.{place}"), name), type(off))
+    assert getattr(importlib.import_module(f"landlab_debrisflow.{place}"), name) != off
 
 
 def test_a_rule_is_switched_off_inside_a_scene_only():

@@ -38,17 +38,15 @@ def notices(words, tmp_path, capsys) -> int:
     return sum(COMPILING in line for line in err.splitlines())
 
 
-@pytest.mark.parametrize(("kernels", "told"), [(2, 1), (0, 0)])
-def test_demo_tells_once_if_it_compiles(kernels, told, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(demo, "run_demo", events_of(kernels))
-    assert notices(["demo"], tmp_path, capsys) == told
-
-
 @pytest.mark.parametrize(
     ("words", "kernels", "told"),
-    [([], 2, 1), ([], 0, 0), (["--quiet"], 2, 0)], ids=["compiled", "from the cache", "quiet"],
+    [
+        (["demo"], 2, 1), (["demo"], 0, 0), (["run", "SCENE"], 2, 1), (["run", "SCENE"], 0, 0),
+        (["run", "SCENE", "--quiet"], 2, 0),
+    ],
 )  # fmt: skip
-def test_run_tells_once_if_it_compiles_and_is_not_quiet(words, kernels, told, tmp_path, monkeypatch, capsys):
+def test_a_command_tells_once_if_it_compiles_and_is_not_quiet(words, kernels, told, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(runner, "advance", events_of(kernels))
-    assert notices(["run", "SCENE", *words], tmp_path, capsys) == told
+    for module, name in ((demo, "run_demo"), (runner, "advance")):
+        monkeypatch.setattr(module, name, events_of(kernels))
+    assert notices(words, tmp_path, capsys) == told

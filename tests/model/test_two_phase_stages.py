@@ -25,7 +25,8 @@ def test_water_has_neither_column_nor_erosion(slope, inflow):
     """Behind the grains in memory, or between grains that have flowed in later."""
     flow = DebrisFlow(slope, flow="two_phase", inflow=inflow, numerics=FEW)
     flow.run_one_step(4.0)
-    sim, p = flow._simulation, flow._simulation.particles
+    sim = flow._simulation
+    p = sim.particles
     water, end = p.phase == WATER, sim.phases.bearing(p).stop
     assert (end == (~water).sum()) == (inflow is None) and not (~water[end:]).any()
     for nothing in (p.basal_excess_pore_pressure, p.excess_pore_pressure, p.entrained_volume, p.entrainment_rate):
@@ -39,7 +40,8 @@ def test_the_pull_is_that_of_the_present_thrust(slope):
     flow = DebrisFlow(slope, flow="two_phase", inflow=SURGE, numerics=FEW)
     for _ in range(3):
         flow.run_one_step(1.0)
-        sim, p = flow._simulation, flow._simulation.particles
+        sim = flow._simulation
+        p = sim.particles
         motion = Motion(p.velocity, p.pull.copy(), p.water_pull.copy(), p.slope_x, p.slope_y, p.cos_slope)
         pull_along_bed(tuple(sim.state.exchange.partners), p.thrust, motion, 9.81)
         assert p.pull.any() and np.array_equal(motion[1], p.pull)
