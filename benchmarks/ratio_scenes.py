@@ -58,15 +58,20 @@ SUMS = (
 
 
 class Count:
-    """Number and lengths of steps [s], particles advanced in all of them, and CPU time in sums over neighbours [s]."""
+    """Lengths of steps, CPU times at their ends, and CPU time in sums [s]; particles advanced in all steps."""
 
     def __init__(self):
-        self.lengths, self.particle_steps, self.sums = [], 0, 0.0
+        self.lengths, self.ends, self.particle_steps, self.sums = [], [], 0, 0.0
 
     @property
     def steps(self) -> int:
         """Number of steps."""
         return len(self.lengths)
+
+    @property
+    def between(self) -> float:
+        """CPU time of a step after the first, without what a call costs once [s]."""
+        return (self.ends[-1] - self.ends[0]) / (self.steps - 1) if self.steps > 1 else math.nan
 
 
 @contextmanager
@@ -78,6 +83,7 @@ def counted():
     def one_step(simulation, dt):
         advance(simulation, dt)
         found.lengths.append(dt)
+        found.ends.append(time.process_time())
         found.particle_steps += simulation.particles.awake
 
     def timed(original):
@@ -105,7 +111,8 @@ def measured(work, *arguments) -> dict[str, float]:
         wall, cpu = time.perf_counter(), time.process_time()
         work(*arguments)
         cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
-    return {"cpu": cpu, "wall": wall, "steps": count.steps, "particle_steps": count.particle_steps, "sums": count.sums}
+    found = {name: getattr(count, name) for name in ("steps", "particle_steps", "sums", "between")}
+    return {"cpu": cpu, "wall": wall} | found
 
 
 # ---- flows ----
@@ -177,12 +184,15 @@ def valley(count, duration, threads=1):
 
 
 def fixed(duration, counts=(50, 100, 200, 400, 800)):
-    """Measure the CPU time of a step of the valley without particles: the line through some numbers of them."""
+    """Measure the CPU time of a step of the valley without particles: the line through some numbers of them.
+
+    What a call costs once is left out.
+    """
     awake, cost = [], []
     for count in counts:
         found = valley(count, duration)
         awake.append(found["particle_steps"] / found["steps"])
-        cost.append(found["cpu"] / found["steps"])
+        cost.append(found["between"])
     slope, start = np.polyfit(awake, cost, 1)
     return {"start": float(start), "slope": float(slope)}
 

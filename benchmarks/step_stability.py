@@ -126,6 +126,8 @@ def chart():
     panel_of_surges(axes[0, 2], rows, versions)
     for axis in axes[0]:
         axis.legend(fontsize=8, frameon=False)
+        axis.set_xticks([0.15, 0.3, 0.6, 1.0, 2.0], ["0.15", "0.3", "0.6", "1", "2"])
+        axis.minorticks_off()
     return figure
 
 

@@ -20,6 +20,7 @@ COMMAND = "python -m benchmarks.valley_accuracy --against REVISION=PYTHON"
 COUNTS = 250, 500, 1000, 2000, 4000, 8000
 AROUND = 0.97, 0.985, 1.0, 1.015, 1.03
 FINEST, SHORTER = (15_700, 16_000, 16_300), 4
+TICKS = 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100
 MEASURES = {
     "run_out": "run-out (99 % of the deposit) [m]", "centre": "centre of deposit [m]", "eroded": "eroded volume [m³]"
 }  # fmt: skip
@@ -79,6 +80,10 @@ def chart():
                 label=named(version),
             )  # fmt: skip
         style.finish(axis, xscale="log", yscale="log", xlabel="CPU time, one thread [s]", title=f"Error of {words}")
+        for scale, which in ((axis.set_xticks, axis.get_xlim()), (axis.set_yticks, axis.get_ylim())):
+            ticks = [tick for tick in TICKS if which[0] <= tick <= which[1]]
+            scale(ticks, [f"{tick:g}" for tick in ticks])
+        axis.minorticks_off()
     low, high = found["rows"][0]["particles"], found["rows"][-1]["particles"]
     style.legend_below(figure, axes[0, 0], ncol=3, title=f"{low} to {high} particles, from left to right")
     return figure
