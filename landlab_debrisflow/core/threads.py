@@ -53,4 +53,6 @@ def in_ranges(function, count: int, threads: int, *arguments, unit: int = 1) -> 
 
 def over_particles(function, count: int, threads: int) -> list:
     """Call ``function(which)`` on slices that together cover `count` particles; see `in_ranges`."""
-    return in_ranges(lambda first, last: function(slice(first, last)), count, worth(threads, count), unit=UNIT)
+    if worth(threads, count) == 1:
+        return [function(slice(0, count))]
+    return in_ranges(lambda first, last: function(slice(first, last)), count, threads, unit=UNIT)
