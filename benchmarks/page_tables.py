@@ -17,7 +17,7 @@ from benchmarks import paper_speed as speeds
 from benchmarks import result_files, step_tables
 from benchmarks.example_scripts import load
 
-PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "events.md"))
+PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "time_steps.md", "events.md"))
 MARKED = re.compile(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
