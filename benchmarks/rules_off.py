@@ -4,26 +4,20 @@ Requests and answers are those of ratio_scenes.py; the keyword `without` names r
 the scenes, too, with none of them named.
 """
 
-import importlib
 import sys
 from contextlib import ExitStack
 from pathlib import Path
-from unittest import mock
 
 if not __package__:  # run as a file: the package that is installed goes before that of the checkout
     sys.path.append(str(Path(__file__).parents[1]))
 from benchmarks import ratio_scenes
+from validation.replacing import replaced
 
 RULES = {
     "soil at mid-step": ("model.entrainment", "EROSION_TIME", 0.0),
     "even ground": ("model.step_rule", "EVEN", 1.0),
 }
 """Rules: a module, a name in it, and the value with which the rule does nothing."""
-
-
-def replaced(module: str, name: str, value):
-    """Return a context in which a name of a module of the package, such as ``"model.entrainment"``, has a value."""
-    return mock.patch.object(importlib.import_module(f"landlab_debrisflow.{module}"), name, value)
 
 
 def without(scene):

@@ -14,10 +14,10 @@ import numpy as np
 import xarray as xr
 
 from benchmarks import charts, result_files, style
-from benchmarks.rules_off import replaced
 from benchmarks.speed_against_scenes import gully
 from landlab_debrisflow.physics.column.schemes.lazy import advance
 from validation.cases import two_phase_strips as strips
+from validation.replacing import replaced
 
 COUNTS = (500, 2000, 8000)
 SHOWN = ("cap", "collapse")

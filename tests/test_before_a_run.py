@@ -174,7 +174,7 @@ def test_observers_may_print_the_flow(valley):
     observer = Printing()
     DebrisFlow(valley, numerics=COARSE, observers=observer).run_one_step(10.0)
     # at the end of the step that crosses 5 s, and of the last one
-    assert "moving at 5.0" in observer.seen[0] and "moving at 10 s" in observer.seen[2]
+    assert "moving at 5." in observer.seen[0] and "moving at 10 s" in observer.seen[2]
 
 
 def test_waiting_for_inflow_is_a_state_and_an_unfinished_component_has_none():

@@ -172,6 +172,9 @@ def _compute(
         )  # fmt: skip
     except BaseException as failure:
         monitor.finish()
+        if isinstance(failure, KeyboardInterrupt) and flow is not None and flow.unfinished_until is None:
+            with contextlib.suppress(OSError, InputError):  # between two calls no observer has saved it
+                flow.save(directory.checkpoint)
         _note_failure(directory, failure, 0.0 if flow is None else flow.elapsed_time)
         raise
     if flow.at_rest:

@@ -48,7 +48,7 @@ def test_friction_feels_the_curvature(mu, duration):
     """They are at the bottom."""
     speed = 20.0
     _, phi, found = through_the_dip(mu, speed, duration)
-    assert phi.size == 60 and abs(np.degrees(phi)).max() < 10.0
+    assert phi.size == 60 and abs(np.degrees(phi)).max() < 11.0
     exact = np.sqrt(speed_squared(phi, mu, speed))
     # measured 5e-5, 1.0e-3, 5.2e-3 in the mean, less than twice that at worst, half with nodes of 2.5 m: the curvature
     # between nodes is that of a cubic. Without the centripetal force speeds would be 11 and 29 % higher.

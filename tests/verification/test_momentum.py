@@ -25,14 +25,14 @@ class Sums:
         phases = flow._simulation.phases
         self.bed, self.thrust, self.sizes, kick = np.zeros(3), np.zeros(3), 0.0, phases.kick
 
-        def watched(p, exchange, velocity, yield_stress, drag, rest_speed, dt):
+        def watched(p, exchange, velocity, yield_stress, drag, rest_speed, dt, threads):
             ground, cosine = p.surface_sample, p.cos_slope
             normal = cosine * np.array([-ground[1], -ground[2], np.ones(cosine.size)])
             across = ((p.thrust + np.array([[0.0], [0.0], [-G]])) * normal).sum(axis=0)
             self.thrust += dt * (p.volume * p.thrust).sum(axis=1)
             self.bed -= dt * (p.volume * (np.array([[0.0], [0.0], [G]]) + across * normal)).sum(axis=1)
             self.sizes += dt * float((p.volume * G * cosine * p.thickness * 2.33 / p.smoothing_length).sum())
-            kick(p, exchange, velocity, yield_stress, drag, rest_speed, dt)
+            kick(p, exchange, velocity, yield_stress, drag, rest_speed, dt, threads)
 
         monkeypatch.setattr(phases, "kick", watched)
 
@@ -189,7 +189,7 @@ def test_a_body_against_a_wall_loses_what_the_wall_gives(monkeypatch):
         monkeypatch.setattr(step, name, acting)
 
     watch("stop_at_walls", step.stop_at_walls, 2)
-    watch("drift", step.drift, 1)
+    watch("drift", step.drift, 2)
     before = momentum(flow)
     flow.run_one_step(5.0)
     after = momentum(flow)

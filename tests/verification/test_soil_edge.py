@@ -2,8 +2,8 @@
 
 import pytest
 
-from benchmarks.rules_off import replaced
 from validation.cases.soil_edge import cross_edge
+from validation.replacing import replaced
 
 
 @pytest.mark.slow
