@@ -18,7 +18,7 @@ com1DFA              particle steps per second over those of AvaFrame com1DFA 2.
 
 All rows take an hour, so --rows takes words of some: their values replace those that are kept, if the versions are the
 same. Keeps benchmarks/results/ratios.json, from which benchmarks/ratios.txt, docs/figures/ratios.png and a table of
-docs/accuracy.md are made; every row says from which commit, when and under what load. With --quick nothing is kept.
+docs/time_steps.md are made; every row says from which commit, when and under what load. With --quick nothing is kept.
 """
 
 import argparse
