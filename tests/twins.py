@@ -84,10 +84,10 @@ SCENES = {
 """Grid and keywords of a flow each."""
 
 
-def build(name, observers=(), **grid):
+def build(name, observers=(), threads=1, **grid):
     """Return the flow of a scene; `grid` is for the function that makes its grid."""
     make, keywords = SCENES[name]
-    numerics = {"particle_count": 60} | keywords.get("numerics", {})
+    numerics = {"particle_count": 60, "threads": threads} | keywords.get("numerics", {})
     return DebrisFlow(make(**grid), **(keywords | {"numerics": numerics}), observers=observers)
 
 
