@@ -42,7 +42,7 @@ class Numerics:
         choices=QUANTITIES, kind=tuple,
     )  # fmt: skip
     particle_spacing: float | None = parameter("m", "mean distance of particles at release", None, (1e-6, None))
-    threads: int = parameter("-", "threads for the sums over neighbours", 1, (1, 256), kind=int)
+    threads: int = parameter("-", "threads for the stages of a step, of 4000 particles or more", 1, (1, 256), kind=int)
     settle: bool = parameter("-", "lay the mass into the terrain when all is at rest", True, kind=bool)
     preset: str = parameter(
         "-", "values of courant_number, advective_courant_number and rest_energy that are not given: 0.6, 0.5 and 1e-4 "

@@ -39,6 +39,9 @@ class BasalStress(NamedTuple):
 class BasalState(NamedTuple):
     """The base of the flow under each of n particles; friction and erosion laws read it.
 
+    The n particles may be a part of the flow, and several threads may call a law at once, each for another part: a law
+    keeps nothing of a call except in its variables.
+
     Attributes
     ----------
     depth : ndarray, shape (n,); vertical depth of the flow [m]
