@@ -13,7 +13,7 @@ from ..component import DebrisFlow
 from ..fidelity.plan import Plan
 from ..geo.lattice import Lattice
 from ..geo.rasters import checksum_of
-from ..scene.content import given_keys, named_files, read_content, to_mapping
+from ..scene.content import SceneContent, given_keys, named_files, read_content, to_mapping
 from ..scene.digest import digest
 from ..scene.location import located
 from ..scene.outputs import OutputPlaces, output_places
@@ -111,6 +111,11 @@ class Scene:
     # ---- keys ----
 
     @property
+    def content(self) -> SceneContent:
+        """Keys of the scene as checked values, the setup as it is written."""
+        return self._content
+
+    @property
     def terrain_keys(self) -> Any:
         """Keys of the terrain, checked: a `TerrainKeys`."""
         return self._content.terrain
@@ -168,13 +173,9 @@ class Scene:
     def terrain(self) -> xr.Dataset:
         """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
         with located(self._file, "terrain"):
+            written = self._content.setup
             return build_terrain(
-                self.terrain_keys,
-                self.folder,
-                self.release_keys,
-                self._content.setup.inflow,
-                self._varying,
-                self._content.setup.material,
+                self.terrain_keys, self.folder, self.release_keys, written.inflow, self._varying, written.material
             )
 
     @property
