@@ -74,7 +74,7 @@ def make_design(
     ----------
     varied : sequence of Varied
     method : str
-        One of `sampling.METHODS`.
+        One of `SAMPLINGS` of the keys of an ensemble.
     members : int, optional
         Number of members; by default 256, of factorial all combinations.
     seed : int
@@ -98,7 +98,7 @@ def make_design(
         if correlation is not None:
             raise ParameterError("ensemble: correlation is not for factorial, which has all combinations; leave it out")
         columns = _combinations(varied, members)
-        return _dataset(varied, columns, np.zeros(len(columns[0]), int))
+        return make_dataset(varied, columns, np.zeros(len(columns[0]), int))
     count = MEMBERS if members is None else members
     points = draw_points(method, count, len(varied), seed, replicates)
     if correlation is not None:
@@ -107,7 +107,7 @@ def make_design(
         keys = [one.name.key for one in varied]
         points = Points(correlated(points, keys, correlation, method == "latin_hypercube"), points.replicate)
     columns = [one.distribution.values_at(points.uniform[:, k]) for k, one in enumerate(varied)]
-    return _dataset(varied, columns, points.replicate)
+    return make_dataset(varied, columns, points.replicate)
 
 
 def _combinations(varied: Sequence[Varied], members: int | None) -> list[np.ndarray]:
@@ -123,7 +123,21 @@ def _combinations(varied: Sequence[Varied], members: int | None) -> list[np.ndar
     ]  # fmt: skip
 
 
-def _dataset(varied: Sequence[Varied], columns: Sequence[np.ndarray], replicate: np.ndarray) -> xr.Dataset:
+def make_dataset(varied: Sequence[Varied], columns: Sequence[np.ndarray], replicate: np.ndarray) -> xr.Dataset:
+    """Return a design from the values of its members.
+
+    Parameters
+    ----------
+    varied : sequence of Varied
+    columns : sequence of ndarray, shape (members,)
+        Values of each, in their order.
+    replicate : ndarray of int, shape (members,)
+
+    Returns
+    -------
+    xarray.Dataset
+        As `make_design` returns it.
+    """
     variables: dict[str, Any] = {}
     for one, values in zip(varied, columns, strict=True):
         name = one.name

@@ -10,6 +10,7 @@ from scipy import stats
 
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean, python_value
+from ..scene.zones import RASTERS, VECTORS, has_suffix
 from .names import NOISE, Name
 
 FORMS = {
@@ -17,6 +18,13 @@ FORMS = {
     "triangular": ("low", "mode", "high"), "truncated_normal": ("mean", "sd", "low", "high"),
 }  # fmt: skip
 """Distributions that plain values may name, and their parameters; sigma is the standard deviation of the logarithm."""
+
+NEGLIGIBLE = 1e-9
+"""Largest part of a distribution that may lie outside of the bounds: of a million members it has one in a thousand
+ensembles, and this member then is a failure."""
+
+ENDS = 2.0**-54, 1.0 - 2.0**-53
+"""Cumulative probabilities nearest to 0 and 1 at which a quantile is taken: at 0 and 1 it may be infinite."""
 
 REALISATIONS = 2**31
 """Number of different realisations of noise."""
@@ -51,7 +59,7 @@ class Numbers(NamedTuple):
 
     def values_at(self, uniform: np.ndarray) -> np.ndarray:
         """Return the values at cumulative probabilities, shape (n,)."""
-        found = np.asarray(self.quantile(uniform), float)
+        found = np.asarray(self.quantile(np.clip(uniform, *ENDS)), float)
         return np.rint(found).astype(np.int64) if self.whole else found
 
 
@@ -148,7 +156,7 @@ def _check_bounds(name: Name, label: str, frozen: Any) -> None:
     above = 1.0 - float(frozen.cdf(high)) if math.isfinite(high) else 0.0
     if not name.open_below and below and float(frozen.cdf(np.nextafter(low, -np.inf))) == 0.0:
         below = 0.0  # choices of a discrete distribution may lie on the bound itself
-    if below + above > 0.0:
+    if below + above > NEGLIGIBLE:
         unit = "" if name.unit == "-" else f" {name.unit}"
         bracket = "(" if name.open_below else "["
         raise ParameterError(
@@ -209,10 +217,29 @@ def _choices(name: Name, label: str, values: Any, probabilities: Any) -> Choices
             if not (low < value if name.open_below else low <= value) or not value <= high:
                 bracket = "(" if name.open_below else "["
                 raise ParameterError(f"{label}: choices must lie in {bracket}{low:g}, {high:g}], got {value!r}")
-        elif name.number is not None and not isinstance(value, str):
-            raise ParameterError(f"{label}: choices must be numbers [{name.unit}], got {value!r:.60}")
+        elif name.number is not None:
+            check_file(name, f"{label}: choices", value)
     total = sum(numbers)
     return Choices(found, tuple(number / total for number in numbers))
+
+
+def check_file(name: Name, label: str, value: Any) -> None:
+    """Refuse a value in place of a number unless it names a file of values over the map.
+
+    Parameters
+    ----------
+    name : Name
+        Value that is a number.
+    label : str
+        Beginning of the message.
+    value : object
+
+    Raises
+    ------
+    ParameterError
+    """
+    if not has_suffix(value, (*RASTERS, *VECTORS)):
+        raise ParameterError(f"{label} must be numbers [{name.unit}] or names of rasters, got {value!r:.60}")
 
 
 def _noise(label: str, given: Any) -> NoiseRealisations:

@@ -1,43 +1,56 @@
-"""An ensemble: a scene, what varies in it, and its members."""
+"""An ensemble: a scene, the values that vary in it, and its members."""
 
-from collections.abc import Mapping
+import contextlib
+import logging
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError, ParameterError
 from ..core.version import __version__
+from ..run.directory import locked
 from ..run.scene import Scene
 from ..scene.digest import digest
+from ..scene.keys import EnsembleKeys
+from ..scene.location import located
 from .basis import Basis, scheduled, shared_terrain
-from .batch import run_batch
+from .cluster import connected, processors
 from .design import make_design, member_values, varied_values
-from .result import DEFAULT_MAPS
 from .results import EnsembleResults
+from .schedule import Task, run_here, run_on
 from .store import Header, Store
+from .table import design_of_table
 
-BATCH = 8
-"""Members in a batch."""
+log = logging.getLogger("landlab_debrisflow.progress")
+
+DEFAULTS = EnsembleKeys()
 
 
 class Ensemble:
-    """Runs of a scene whose parameters are drawn from distributions.
+    """Runs of a scene whose values are drawn from distributions.
 
     Parameters
     ----------
     scene : Scene, str, Path or mapping
         Scene, a scene file, or its plain values.
-    vary : mapping of str to object
-        Distributions by dotted name, such as ``{"friction.basal_friction_angle": scipy.stats.norm(28, 2)}``.
+    vary : mapping of str to object, optional
+        By the dotted name of a value, such as ``friction.basal_friction_angle`` or ``release 2.volume``: a frozen
+        distribution of `scipy.stats`, a list of choices, or a mapping such as ``{"normal": {"mean": 28, "sd": 2}}``.
+        ``release.factor`` and ``inflow.factor`` are factors on mass and discharge; ``terrain.elevation_noise`` is
+        ``{"rms": 0.3, "length": 20.0}`` [m]. By default what the scene file says.
     members : int, optional
-        Number of members; by default 256.
-    sampling : str
-        One of `sampling.METHODS`.
+        Number of members; by default 256, of factorial and of a table all.
+    sampling : str, Dataset, DataFrame, mapping or Path
+        "latin_hypercube", "random", "sobol", "saltelli" or "factorial"; or a table of members, with a column for each
+        dotted name, also as the name of a file (CSV).
     seed : int
-        Seed: the same one gives the same members.
-    correlation : optional
-        Rank correlations, such as ``{("friction.cohesion", "erosion.growth_rate"): -0.5}``.
+        The same seed gives the same members, to the bit.
+    correlation : mapping or array_like, optional
+        Rank correlations, such as ``{("friction.cohesion", "erosion.growth_rate"): -0.5}``, or their matrix.
     replicates : int, optional
-        Independent samples of which Latin hypercube and Sobol consist; by default 8.
+        Independent samples of which Latin hypercube and Sobol consist, by whose scatter the sampling error is told; by
+        default 8.
     maps : sequence of str
         Names of the maps that are kept.
     batch : int
@@ -52,36 +65,153 @@ class Ensemble:
     ----------
     scene : Scene
     design : xarray.Dataset
-        Values of all members over ``member``.
+        Values of all members over ``member``: a variable with the attribute ``key`` for each dotted name, and
+        ``replicate``.
+
+    Examples
+    --------
+    >>> ensemble = Ensemble(
+    ...     {"terrain": {"example": "gully"}, "friction": "voellmy",
+    ...      "release": {"polygons": [[400020, 5200140], [400045, 5200140], [400045, 5200160]], "depth": 1.5}},
+    ...     vary={"friction.basal_friction_angle": {"normal": {"mean": 28.0, "sd": 0.5}}}, members=8, seed=1,
+    ... )
+    >>> ensemble.design["friction__basal_friction_angle"].values.round(1).max() < 30.0
+    np.True_
     """
 
     def __init__(
-        self, scene: Scene | str | Path | Mapping[str, Any], vary: Mapping[str, Any], members: int | None = None,
-        sampling: str = "latin_hypercube", seed: int = 0, *, correlation: Any = None, replicates: int | None = None,
-        maps: Any = DEFAULT_MAPS, batch: int = BATCH,
+        self, scene: Scene | str | Path | Mapping[str, Any], vary: Mapping[str, Any] | None = None,
+        members: int | None = None, sampling: Any = DEFAULTS.sampling, seed: int = 0, *, correlation: Any = None,
+        replicates: int | None = None, maps: Any = DEFAULTS.maps, batch: int = DEFAULTS.batch,
     ) -> None:  # fmt: skip
         self.scene = _scene(scene)
-        content = self.scene.content
-        self.sampling, self.seed, self.maps, self.batch = sampling, seed, tuple(maps), batch
-        self._varied = varied_values(vary, content)
-        self.design = make_design(self._varied, sampling, members, seed, replicates, correlation)
+        content, is_word = self.scene.content, isinstance(sampling, str) and not sampling.lower().endswith(".csv")
+        words = {"sampling": sampling} if is_word else {}
+        self._keys = EnsembleKeys(
+            members=members, seed=seed, replicates=replicates, maps=maps, batch=batch, **words
+        )  # fmt: skip
+        self.sampling = self._keys.sampling if is_word else "table"
+        if is_word:
+            self._varied = varied_values({} if vary is None else vary, content)
+            self.design = make_design(self._varied, self.sampling, members, seed, replicates, correlation)
+        else:
+            for name, value in (("members", members), ("correlation", correlation), ("replicates", replicates)):
+                if value is not None:
+                    raise ParameterError(f"ensemble: a table has its own members; leave {name} out")
+            self._varied, self.design = design_of_table(sampling, vary or {}, content, self.scene.folder)
+
+    @classmethod
+    def from_file(cls, path: str | Path, **others: Any) -> "Ensemble":
+        """Return the ensemble that a scene file describes under its key ``ensemble``.
+
+        Parameters
+        ----------
+        path : str or Path
+            Scene file.
+        **others
+            Arguments in place of those of the file, such as ``members``.
+
+        Returns
+        -------
+        Ensemble
+
+        Raises
+        ------
+        InputError, ParameterError
+            If the file says nothing of an ensemble, or something in it cannot be used.
+        """
+        return cls.of_scene(Scene.from_file(path), **others)
+
+    @classmethod
+    def of_scene(cls, scene: Scene, **others: Any) -> "Ensemble":
+        """Return the ensemble that a scene describes under its key ``ensemble``.
+
+        Parameters
+        ----------
+        scene : Scene
+        **others
+            Arguments in place of those of the scene.
+
+        Returns
+        -------
+        Ensemble
+
+        Raises
+        ------
+        InputError, ParameterError
+            If the scene says nothing of an ensemble, or something in it cannot be used.
+        """
+        keys = scene.content.ensemble
+        if keys is None:
+            raise InputError(
+                f"{scene.name}: the scene has no key ensemble; give one, with vary: {{friction.basal_friction_angle: "
+                "{normal: {mean: 28, sd: 2}}}"
+            )
+        names = ("vary", "members", "seed", "correlation", "replicates", "maps", "batch")
+        given = {name: getattr(keys, name) for name in names}
+        given["sampling"] = keys.sampling if keys.table is None else Path(keys.table)
+        with located(scene.file, "ensemble"):
+            return cls(scene, **given | others)
+
+    def __repr__(self):
+        return f"<Ensemble of {self.scene.name!r}: {self.members} members, {self.sampling}, of {self.keys}>"
+
+    @property
+    def members(self) -> int:
+        """Number of members."""
+        return self.design.sizes["member"]
+
+    @property
+    def keys(self) -> list[str]:
+        """Dotted names of the values that vary."""
+        return [one.name.key for one in self._varied]
+
+    def values(self, member: int) -> dict[str, Any]:
+        """Return the values of a member by dotted name.
+
+        Parameters
+        ----------
+        member : int
+
+        Returns
+        -------
+        dict of str to object
+        """
+        return member_values(self.design, member)
 
     def digest(self) -> str:
         """Return 32 hexadecimal digits that differ where results may: scene, values of members, maps, batches."""
-        design = {str(name): values.values for name, values in self.design.data_vars.items()}
-        attributes = {str(name): dict(values.attrs) for name, values in self.design.data_vars.items()}
-        duration = self.scene.output_keys.max_duration
-        return digest(
-            [self.scene.digest(), duration, design, attributes, self.seed, self.maps, self.batch, __version__]
-        )
+        return self._digest
 
-    def run(self, *, store: str | Path | None = None) -> EnsembleResults:
+    @cached_property
+    def _digest(self) -> str:
+        design = [[str(name), values.values, dict(values.attrs)] for name, values in self.design.data_vars.items()]
+        keys, duration = self._keys, self.scene.output_keys.max_duration
+        return digest([self.scene.digest(), duration, design, keys.seed, keys.maps, keys.batch, __version__])
+
+    @property
+    def results_directory(self) -> Path:
+        """Directory of the results of the command."""
+        keys = self.scene.content.ensemble
+        return self.scene.folder / ((keys and keys.directory) or f"{self.scene.name}_ensemble")
+
+    def run(
+        self, client: Any = None, store: str | Path | None = None, *, workers: int | None = None,
+        notify: Callable[[str], None] = log.info,
+    ) -> EnsembleResults:  # fmt: skip
         """Run the members that are not in the store yet.
 
         Parameters
         ----------
+        client : distributed.Client or str, optional
+            Client of a cluster, or the address of its scheduler; by default a cluster on this machine that listens on
+            loopback only.
         store : str or Path, optional
             Directory for the results; one of the same ensemble is continued. By default results stay in memory.
+        workers : int, optional
+            Worker processes on this machine; by default one for each processor; 1: the members run in this process.
+        notify : callable
+            Called with a text as batches are done.
 
         Returns
         -------
@@ -90,41 +220,79 @@ class Ensemble:
         Raises
         ------
         InputError
-            If the store holds another ensemble.
+            If the store holds another ensemble, or no scheduler answers.
+        OutputError
+            If the store cannot be written.
         """
-        basis, target = self._basis(), self._open(store)
-        done = set(target.complete_batches())
-        for batch in range(target.batch_count):
-            if batch not in done:
-                members = [(member, member_values(self.design, member)) for member in target.members_of(batch)]
-                target.write(run_batch(basis, batch, members))
+        if client is not None and workers is not None:
+            raise InputError("ensemble: workers are those of the client; leave one of them out")
+        if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
+            raise InputError(f"ensemble: workers must be an integer of 1 or more, got {workers!r}")
+        basis = self._basis()
+        with self._opened(None if store is None else Path(store), basis) as target:
+            tasks = self._missing(target)
+            if not tasks:
+                return EnsembleResults(target)
+            write = _Writer(target, notify)
+            here = client is None and min(len(tasks), workers or processors()) == 1
+            if here:
+                run_here(basis, tasks, write)
+            else:
+                count = None if client is not None else min(len(tasks), workers or processors())
+                with connected(client, count) as found:
+                    run_on(found, basis, tasks, write)
         return EnsembleResults(target)
 
+    def _missing(self, store: Store) -> list[Task]:
+        done = set(store.complete_batches())
+        return [
+            Task(batch, [(member, self.values(member)) for member in store.members_of(batch)])
+            for batch in range(store.batch_count) if batch not in done
+        ]  # fmt: skip
+
     def _basis(self) -> Basis:
-        scene = self.scene
+        scene, keys = self.scene, self._keys
         terrain = shared_terrain(scene.content, scene.folder, self._varied, lambda: scene.terrain)
         releases = scheduled(scene.content.release, terrain, scene.folder)
         return Basis(
-            scene.content, scene.folder, terrain, releases, self._varied, self.maps, self.seed, self.digest()
+            scene.content, scene.folder.resolve(), terrain, releases, self._varied, keys.maps, keys.seed, self.digest()
         )  # fmt: skip
 
-    def _open(self, path: str | Path | None) -> Store:
-        terrain = shared_terrain(self.scene.content, self.scene.folder, self._varied, lambda: self.scene.terrain)
-        from ..scene.terrain import lattice_of
-
+    @contextlib.contextmanager
+    def _opened(self, path: Path | None, basis: Basis) -> Iterator[Store]:
+        """Open the store of this ensemble for writing in a block, or make it."""
+        keys = self._keys
         header = Header(
-            self.digest(), self.scene.to_mapping(), self.sampling, self.seed, self.batch, self.maps,
-            lattice_of(terrain),
+            self.digest(), self.scene.to_mapping(), self.sampling, keys.seed, keys.batch, keys.maps, basis.lattice
         )  # fmt: skip
-        if path is None or not Path(path).exists():
-            return Store.create(None if path is None else Path(path), header, self.design)
-        found = Store.open(path, write=True)
+        if path is None:
+            yield Store.create(None, header, self.design)
+            return
+        path.parent.mkdir(exist_ok=True)
+        found = Store.open(path, write=True) if path.exists() else Store.create(path, header, self.design)
         if found.header.digest != header.digest:
             raise InputError(
                 f"{path} holds another ensemble, of digest {found.header.digest}; this one has {header.digest}: scene, "
                 "values of members, maps or batches differ; choose another store, or remove it"
             )
-        return found
+        with locked(path, "; wait for it, or choose another store"):
+            yield found
+
+
+class _Writer:
+    """Writes batches into a store and tells how many members are done."""
+
+    def __init__(self, store: Store, notify: Callable[[str], None]):
+        self._store, self._notify = store, notify
+        self._done = sum(len(store.members_of(batch)) for batch in store.complete_batches())
+        self._failed = 0
+
+    def __call__(self, found: Any) -> None:
+        self._store.write(found)
+        self._done += len(found.results)
+        self._failed += sum(bool(one.error) for one in found.results)
+        failed = f", {self._failed} failed" if self._failed else ""
+        self._notify(f"ensemble: {self._done} of {self._store.design.sizes['member']} members done{failed}")
 
 
 def _scene(scene: Any) -> Scene:

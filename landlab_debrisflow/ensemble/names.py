@@ -153,5 +153,6 @@ def _items(several: Any, key: str, path: tuple[str | int, ...], content: SceneCo
 
 
 def _name(key: str, path: tuple[str | int, ...], meta: Mapping[str, Any]) -> Name:
-    number = meta["kind"] if meta["kind"] in (float, int) or (meta["file"] and meta["kind"] is not str) else None
+    is_list = meta["kind"] is tuple and not meta["choices"] and meta["length"] is None  # one number does for all
+    number = meta["kind"] if meta["kind"] in (float, int) else float if is_list else None
     return Name(key, path, meta["unit"], meta["meaning"], meta["bounds"], meta["open_below"], number)

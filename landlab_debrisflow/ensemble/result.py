@@ -5,9 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-DEFAULT_MAPS = ("max_depth", "max_speed", "max_impact_pressure", "arrival_time", "deposit_depth", "eroded_depth")
-"""Maps of a member that are kept if no others are asked for, named as the outputs without their prefix."""
-
 ARRIVAL = "arrival_time"
 
 

@@ -9,9 +9,6 @@ from scipy.stats import qmc
 
 from ..core.errors import ParameterError
 
-METHODS = ("latin_hypercube", "random", "sobol", "saltelli", "factorial")
-"""Words for the sampling of an ensemble; besides a table gives the members themselves."""
-
 MEMBERS, REPLICATES = 256, 8
 """Members if no number is given, and independent samples of which Latin hypercube and Sobol then consist: the scatter
 between these tells the sampling error."""

@@ -12,7 +12,7 @@ from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.material import Material
 from ..physics.registry import LAWS
-from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 
 COMMENT_AT, WIDTH = 44, 118
 """Column at which comments begin, and length of a line at most."""
@@ -88,6 +88,7 @@ def scene_text(
     for key, cls in (("material", Material), ("numerics", Numerics), ("output", OutputKeys)):
         lines += _mapping(key, _keys(cls, settings.get(key, {}), {}, full))
     if full:
+        lines += _mapping("ensemble", _keys(EnsembleKeys, {}, {}))
         lines += ["", "# Flow across a line, instead of a release or besides:", "# inflow:"]
         lines += _commented(_keys(Hydrograph, INFLOW, {}))
     return "\n".join(line.rstrip() for line in lines) + "\n"
