@@ -15,7 +15,7 @@ STORE = "members.zarr"
 def add_command(commands) -> None:
     """Add the command to the commands of a parser."""
     parser = command(
-        commands, "ensemble", _ensemble, "run the members of a scene's ensemble; given again, those that are missing",
+        commands, "ensemble", _ensemble, "run the members of a scene's ensemble; given again, the missing members",
         epilog(),
     )  # fmt: skip
     parser.add_argument("scene", type=Path, help="scene file with the key ensemble")

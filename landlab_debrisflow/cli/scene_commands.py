@@ -49,7 +49,7 @@ def add_commands(commands) -> None:
 
 
 def command(commands, name: str, function, words: str, end: str | None = None):
-    """Add a command to those of a parser; return its parser."""
+    """Add a command to a parser of commands; return the parser of the command."""
     parser = commands.add_parser(
         name, help=words, description=f"{words[0].upper()}{words[1:]}.", epilog=end,
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -1,4 +1,4 @@
-"""Basis of an ensemble: all that its members share, read from files once."""
+"""Basis of an ensemble: keys, terrain and releases that its members share, read from files once."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ class Basis(NamedTuple):
     terrain : xarray.Dataset
         Ground as `Scene.terrain`, wide enough for every member.
     releases : tuple of ScheduledRelease or None
-        Releases by their place in the scene; None for those at points.
+        Releases by their place in the scene; None for a release at points.
     varied : tuple of Varied
         Varied values with their distributions.
     maps : tuple of str
@@ -135,7 +135,7 @@ def rebuilt_terrain(content: SceneContent, folder: Path, lattice: Lattice) -> xr
 
 
 def scheduled(keys: Sequence[ReleaseKeys], terrain: xr.Dataset, folder: Path) -> tuple[ScheduledRelease | None, ...]:
-    """Return the releases by their place in the scene, None for those at points.
+    """Return the releases by their place in the scene, None for a release at points.
 
     Parameters
     ----------

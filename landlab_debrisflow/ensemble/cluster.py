@@ -1,4 +1,4 @@
-"""Connection to the workers of an ensemble: those of a given cluster, or of one on this machine."""
+"""Connection to the workers of an ensemble, on a given cluster or on this machine."""
 
 import logging
 import os
@@ -14,9 +14,6 @@ log = logging.getLogger("landlab_debrisflow")
 
 LOOPBACK = "127.0.0.1"
 """Address on which a cluster of this machine listens: no other machine reaches it."""
-
-TIMEOUT = 10.0
-"""Longest time until a scheduler answers [s]."""
 
 LIBRARIES = ("numpy", "numba", "scipy")
 """Libraries whose other versions may change results in the last bits."""
@@ -80,11 +77,11 @@ def _local(distributed: Any, workers: int) -> Iterator[Any]:
 @contextmanager
 def _remote(distributed: Any, address: str) -> Iterator[Any]:
     try:
-        client = distributed.Client(address, timeout=TIMEOUT, set_as_default=False)
+        client = distributed.Client(address, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise InputError(
-            f"ensemble: no scheduler answers at {address} within {TIMEOUT:g} s ({str(error).splitlines()[0]}); start "
-            "one with: dask scheduler, or leave the scheduler out to use this machine"
+            f"ensemble: no scheduler answers at {address} ({str(error).splitlines()[0]}); start one with: dask "
+            "scheduler, or leave the scheduler out to use this machine"
         ) from error
     with client:
         yield client

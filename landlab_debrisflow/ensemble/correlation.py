@@ -36,7 +36,7 @@ def correlated(points: Points, keys: Sequence[str], correlation: Any, stratified
     Raises
     ------
     ParameterError
-        If a name is unknown or no distribution has such correlations.
+        If a name is unknown or no distribution has these correlations.
     """
     matrix = 2.0 * np.sin(np.pi / 6.0 * rank_matrix(keys, correlation))
     np.fill_diagonal(matrix, 1.0)

@@ -103,7 +103,7 @@ def make_design(
     points = draw_points(method, count, len(varied), seed, replicates)
     if correlation is not None:
         if method == "saltelli":
-            raise ParameterError("ensemble: Sobol indices are those of independent values; leave correlation out")
+            raise ParameterError("ensemble: Sobol indices are defined for independent values; leave correlation out")
         keys = [one.name.key for one in varied]
         points = Points(correlated(points, keys, correlation, method == "latin_hypercube"), points.replicate)
     columns = [one.distribution.values_at(points.uniform[:, k]) for k, one in enumerate(varied)]

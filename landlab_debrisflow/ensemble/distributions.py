@@ -20,8 +20,8 @@ FORMS = {
 """Distributions that plain values may name, and their parameters; sigma is the standard deviation of the logarithm."""
 
 NEGLIGIBLE = 1e-9
-"""Largest part of a distribution that may lie outside of the bounds: of a million members it has one in a thousand
-ensembles, and this member then is a failure."""
+"""Largest part of a distribution that may lie outside of the bounds: one of a thousand ensembles of a million members
+then has a member outside, which is a failure."""
 
 ENDS = 2.0**-54, 1.0 - 2.0**-53
 """Cumulative probabilities nearest to 0 and 1 at which a quantile is taken: at 0 and 1 it may be infinite."""
@@ -109,7 +109,7 @@ class NoiseRealisations(NamedTuple):
 
 
 def distribution_of(name: Name, given: Any) -> Distribution:
-    """Return the distribution of a value from what a user gave for it.
+    """Return the distribution of a value that a user gave as a distribution, list or mapping.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ AMOUNTS = ("depth", "largest_depth", "volume")
 
 
 def with_values(content: SceneContent, values: Mapping[tuple[str | int, ...], Any]) -> SceneContent:
-    """Return the keys of a scene with some values replaced, all checked.
+    """Return the keys of a scene with new values in place of some, checked.
 
     Parameters
     ----------

@@ -1,25 +1,22 @@
 """An ensemble: a scene, the values that vary in it, and its members."""
 
-import contextlib
 import logging
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import InputError, ParameterError
 from ..core.version import __version__
-from ..run.directory import locked
 from ..run.scene import Scene
 from ..scene.digest import digest
 from ..scene.keys import EnsembleKeys
 from ..scene.location import located
 from .basis import Basis, scheduled, shared_terrain
-from .cluster import connected, processors
 from .design import make_design, member_values, varied_values
 from .results import EnsembleResults
-from .schedule import Task, run_here, run_on
-from .store import Header, Store
+from .running import opened, run_missing
+from .store import Header
 from .table import design_of_table
 
 log = logging.getLogger("landlab_debrisflow.progress")
@@ -38,7 +35,7 @@ class Ensemble:
         By the dotted name of a value, such as ``friction.basal_friction_angle`` or ``release 2.volume``: a frozen
         distribution of `scipy.stats`, a list of choices, or a mapping such as ``{"normal": {"mean": 28, "sd": 2}}``.
         ``release.factor`` and ``inflow.factor`` are factors on mass and discharge; ``terrain.elevation_noise`` is
-        ``{"rms": 0.3, "length": 20.0}`` [m]. By default what the scene file says.
+        ``{"rms": 0.3, "length": 20.0}`` [m]. A table of members needs none.
     members : int, optional
         Number of members; by default 256, of factorial and of a table all.
     sampling : str, Dataset, DataFrame, mapping or Path
@@ -109,7 +106,7 @@ class Ensemble:
         path : str or Path
             Scene file.
         **others
-            Arguments in place of those of the file, such as ``members``.
+            Arguments of the class in place of values of the file, such as ``members``.
 
         Returns
         -------
@@ -118,7 +115,7 @@ class Ensemble:
         Raises
         ------
         InputError, ParameterError
-            If the file says nothing of an ensemble, or something in it cannot be used.
+            If the file has no key ``ensemble``, or a value below it cannot be used.
         """
         return cls.of_scene(Scene.from_file(path), **others)
 
@@ -130,7 +127,7 @@ class Ensemble:
         ----------
         scene : Scene
         **others
-            Arguments in place of those of the scene.
+            Arguments of the class in place of values of the scene.
 
         Returns
         -------
@@ -139,7 +136,7 @@ class Ensemble:
         Raises
         ------
         InputError, ParameterError
-            If the scene says nothing of an ensemble, or something in it cannot be used.
+            If the scene has no key ``ensemble``, or a value below it cannot be used.
         """
         keys = scene.content.ensemble
         if keys is None:
@@ -224,75 +221,22 @@ class Ensemble:
         OutputError
             If the store cannot be written.
         """
-        if client is not None and workers is not None:
-            raise InputError("ensemble: workers are those of the client; leave one of them out")
-        if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
-            raise InputError(f"ensemble: workers must be an integer of 1 or more, got {workers!r}")
-        basis = self._basis()
-        with self._opened(None if store is None else Path(store), basis) as target:
-            tasks = self._missing(target)
-            if not tasks:
-                return EnsembleResults(target)
-            write = _Writer(target, notify)
-            here = client is None and min(len(tasks), workers or processors()) == 1
-            if here:
-                run_here(basis, tasks, write)
-            else:
-                count = None if client is not None else min(len(tasks), workers or processors())
-                with connected(client, count) as found:
-                    run_on(found, basis, tasks, write)
+        keys, basis = self._keys, self.basis()
+        header = Header(
+            self.digest(), self.scene.to_mapping(), self.sampling, keys.seed, keys.batch, keys.maps, basis.lattice
+        )  # fmt: skip
+        with opened(None if store is None else Path(store), header, self.design) as target:
+            run_missing(basis, target, client, workers, notify)
         return EnsembleResults(target)
 
-    def _missing(self, store: Store) -> list[Task]:
-        done = set(store.complete_batches())
-        return [
-            Task(batch, [(member, self.values(member)) for member in store.members_of(batch)])
-            for batch in range(store.batch_count) if batch not in done
-        ]  # fmt: skip
-
-    def _basis(self) -> Basis:
+    def basis(self) -> Basis:
+        """Return all that the members share, read from the files of the scene."""
         scene, keys = self.scene, self._keys
         terrain = shared_terrain(scene.content, scene.folder, self._varied, lambda: scene.terrain)
         releases = scheduled(scene.content.release, terrain, scene.folder)
         return Basis(
             scene.content, scene.folder.resolve(), terrain, releases, self._varied, keys.maps, keys.seed, self.digest()
         )  # fmt: skip
-
-    @contextlib.contextmanager
-    def _opened(self, path: Path | None, basis: Basis) -> Iterator[Store]:
-        """Open the store of this ensemble for writing in a block, or make it."""
-        keys = self._keys
-        header = Header(
-            self.digest(), self.scene.to_mapping(), self.sampling, keys.seed, keys.batch, keys.maps, basis.lattice
-        )  # fmt: skip
-        if path is None:
-            yield Store.create(None, header, self.design)
-            return
-        path.parent.mkdir(exist_ok=True)
-        found = Store.open(path, write=True) if path.exists() else Store.create(path, header, self.design)
-        if found.header.digest != header.digest:
-            raise InputError(
-                f"{path} holds another ensemble, of digest {found.header.digest}; this one has {header.digest}: scene, "
-                "values of members, maps or batches differ; choose another store, or remove it"
-            )
-        with locked(path, "; wait for it, or choose another store"):
-            yield found
-
-
-class _Writer:
-    """Writes batches into a store and tells how many members are done."""
-
-    def __init__(self, store: Store, notify: Callable[[str], None]):
-        self._store, self._notify = store, notify
-        self._done = sum(len(store.members_of(batch)) for batch in store.complete_batches())
-        self._failed = 0
-
-    def __call__(self, found: Any) -> None:
-        self._store.write(found)
-        self._done += len(found.results)
-        self._failed += sum(bool(one.error) for one in found.results)
-        failed = f", {self._failed} failed" if self._failed else ""
-        self._notify(f"ensemble: {self._done} of {self._store.design.sizes['member']} members done{failed}")
 
 
 def _scene(scene: Any) -> Scene:

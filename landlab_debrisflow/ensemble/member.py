@@ -33,7 +33,7 @@ from .result import ARRIVAL, MemberResult, touched_window
 
 
 class MemberOutcome(NamedTuple):
-    """Result of a member, with what is told of its run.
+    """Result of a member, with units of its measures and the time of its run.
 
     Attributes
     ----------
@@ -50,12 +50,12 @@ class MemberOutcome(NamedTuple):
 
 
 class MemberRun(NamedTuple):
-    """What a run of a member needs.
+    """Ground, releases and setup of a member.
 
     Attributes
     ----------
     terrain : xarray.Dataset or None
-        Ground of the member; None: that of the basis.
+        Ground of the member; None: the ground of the basis.
     releases : tuple of ScheduledRelease
         Releases in the order of their times.
     setup : Setup
@@ -122,7 +122,7 @@ def run_member(basis: Basis, member: int, values: Mapping[str, Any]) -> MemberOu
     try:
         with collected_warnings():
             result, attributes = _run(basis, member, given, prepare_member(basis, given))
-    except Exception as error:  # a member that fails is kept with its error, all others count
+    except Exception as error:  # a member that fails is kept with its error, and further members count
         text = f"{type(error).__name__}: {error}"
         result, attributes = MemberResult(member, given, {}, slice(0, 0), slice(0, 0), {}, text), {}
     return MemberOutcome(result, attributes, thread_time() - began)

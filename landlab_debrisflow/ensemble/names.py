@@ -15,10 +15,10 @@ FACTOR, NOISE = "factor", "elevation_noise"
 """Keys that only ensembles have: a factor on a mass, and noise on the elevation."""
 
 REFUSED = {
-    "particle_count": "one number of particles holds for all members, so that their differences are those of the "
-    "parameters; set it in the scene, or give fidelity: auto",
+    "particle_count": "one number of particles holds for all members, so that parameters alone make their "
+    "differences; set it in the scene, or give fidelity: auto",
     "threads": "a member has one thread",
-    "settle": "maps are those of settled deposits",
+    "settle": "maps show settled deposits",
     "window": "all members have the nodes of the scene",
 }
 REFUSED |= dict.fromkeys(("particle_spacing", "tolerance", "hold"), REFUSED["particle_count"])
@@ -72,8 +72,8 @@ def find_name(key: str, content: SceneContent) -> Name:
     Raises
     ------
     ParameterError
-        If there is no such value (the message asks for the one that was probably meant), if the name fits several
-        releases, or if ensembles do not vary the value.
+        If the scene has no value of this name (the message asks for the one that was probably meant), if the name fits
+        several releases, or if ensembles do not vary the value.
     """
     names = {name.key: name for name in scene_names(content)}
     if key in names:
@@ -97,7 +97,7 @@ def find_name(key: str, content: SceneContent) -> Name:
 
 
 def scene_names(content: SceneContent) -> Iterator[Name]:
-    """Yield all values of a scene by their dotted names, also those that ensembles do not vary.
+    """Yield all values of a scene by their dotted names, also values that ensembles do not vary.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def scene_names(content: SceneContent) -> Iterator[Name]:
 
 
 def _below(obj: Any, key: str, path: tuple[str | int, ...], content: SceneContent) -> Iterator[Name]:
-    """Yield the values of an object of a declared class, and of such objects in it."""
+    """Yield the values of an object of a declared class, and of objects of declared classes in it."""
     for name, field in keys_of(type(obj)).items() if dataclasses.is_dataclass(obj) else ():
         meta, value = field.metadata, getattr(obj, field.name)
         inner, below = f"{key}.{name}", (*path, name)

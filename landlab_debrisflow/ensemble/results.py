@@ -79,7 +79,7 @@ class EnsembleResults:
 
     @property
     def batch(self) -> int:
-        """Members in a batch: sums over members are made by batches, and these added in their order."""
+        """Members in a batch; sums over members are sums of batches, added in the order of the batches."""
         return self._store.header.batch
 
     @property

@@ -40,7 +40,7 @@ def draw_points(method: str, members: int, dimensions: int, seed: int, replicate
     dimensions : int
         Number of varied values.
     seed : int
-        Seed: the same one gives the same points.
+        Equal seeds give equal points.
     replicates : int, optional
         Number of independent samples of a Latin hypercube or of Sobol's sequence.
 
@@ -85,7 +85,7 @@ def _no_replicates(method: str, replicates: int | None) -> None:
 
 
 def _replicates(members: int, replicates: int | None) -> int:
-    """Return the number of independent samples: those asked for, by default 8 of two members or more each."""
+    """Return the number of independent samples, by default 8 of two members or more each."""
     if replicates is None:
         return REPLICATES if members >= 2 * REPLICATES else 1
     if not 1 <= replicates <= members:

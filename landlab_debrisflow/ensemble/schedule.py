@@ -53,7 +53,7 @@ def run_on(client: Any, basis: Basis, tasks: Iterable[Task], write: Callable[[Ba
     """Run batches as tasks on the workers of a client.
 
     The basis goes to every worker once. A batch whose worker is lost runs again on another one. A batch that has ended
-    several workers is run member by member, so that the member that does it is found and the others count.
+    several workers is run member by member, so that the member that ends a worker is found and further members count.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ class _Schedule:
 
     @staticmethod
     def _key(task: Task) -> str:
-        return f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps what failed under its key
+        return f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps a failed task under its key
 
     def _finish(self, future: Any) -> None:
         from distributed import KilledWorker

@@ -1,4 +1,4 @@
-"""Store of an ensemble: what it is, and a group for each batch, written by one process alone."""
+"""Store of an ensemble: header, design and a group for each batch, written by one process alone."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -22,7 +22,7 @@ CHUNK = 2**20
 
 
 class Header(NamedTuple):
-    """What an ensemble is.
+    """Identity of an ensemble: digest, scene, sampling and lattice.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ from .names import NOISE, Name, find_name
 
 
 class Listed(NamedTuple):
-    """Numbers that a table lists: they are drawn from no distribution."""
+    """Numbers that a table lists, drawn from no distribution."""
 
     def values_at(self, uniform: np.ndarray) -> np.ndarray:
         """Refuse to draw values.
@@ -29,7 +29,7 @@ class Listed(NamedTuple):
         InputError
             Always.
         """
-        raise InputError("ensemble: the values of a table are listed, nothing can be drawn from them")
+        raise InputError("ensemble: the values of a table are listed, no distribution draws them")
 
 
 def design_of_table(
@@ -63,7 +63,7 @@ def design_of_table(
     for key in vary:
         if not str(key).endswith(f".{NOISE}"):
             raise ParameterError(
-                f"ensemble: vary: {key}: the members are those of a table; keep vary or the table, with vary only for "
+                f"ensemble: vary: {key}: a table holds the members; keep vary or the table, with vary only for "
                 f"terrain.{NOISE}"
             )
     counts = {values.size for values in columns.values()}

@@ -32,14 +32,14 @@ class EnsembleKeys:
         "-", "number of runs; by default 256, of factorial and of a table all", None, (1, 1_000_000), kind=int
     )
     sampling: str = parameter("-", "how members are drawn", SAMPLINGS[0], choices=SAMPLINGS)
-    seed: int = parameter("-", "the same one gives the same members", 0, (0, 2**63 - 1), kind=int)
+    seed: int = parameter("-", "equal seeds give equal members", 0, (0, 2**63 - 1), kind=int)
     replicates: int | None = parameter(
         "-", "independent samples of which latin_hypercube and sobol consist, by whose scatter the sampling error is "
         "told; by default 8", None, (1, None), kind=int,
     )  # fmt: skip
     correlation: Any = parameter("-", "rank correlations of pairs of values: {first: {second: 0.5}}", None, kind=dict)
     fidelity: str = parameter(
-        "-", "particles, column and steps: those of the scene, or found by pilot runs of some members", FIDELITIES[0],
+        "-", "particles, column and steps: of the scene, or found by pilot runs of some members", FIDELITIES[0],
         choices=FIDELITIES,
     )  # fmt: skip
     maps: Any = parameter("-", "maps of the members that are kept", KEPT_MAPS, kind=tuple, choices=MAPS)

@@ -54,7 +54,7 @@ def test_noise_has_different_realisations():
     [
         (ANGLE, stats.norm(2.0, 2.0), r"15.9 % of the distribution lie outside \(0, 89.9\] deg; .*truncated_normal"),
         (COUNT, stats.uniform(0.0, 6.0), r"50 % of the distribution lie outside \[3, 100\]"),
-        (ANGLE, {"norml": {"mean": 2, "sd": 1}}, r"unknown distribution 'norml' \(did you mean 'normal'\?\)"),
+        (ANGLE, {"normals": {"mean": 2, "sd": 1}}, r"unknown distribution 'normals' \(did you mean 'normal'\?\)"),
         (ANGLE, {"normal": {"mean": 28.0, "std": 1.0}}, r"normal needs mean, sd, got"),
         (ANGLE, {"normal": {"mean": 28.0, "sd": -1.0}}, r"normal: sd must be more than 0, got -1"),
         (ANGLE, {"uniform": {"low": 30.0, "high": 20.0}}, r"low must be less than high, got 30 and 20"),

@@ -99,7 +99,7 @@ def test_a_member_that_fails_is_kept_and_others_count():
 def test_noise_is_new_for_every_member_and_known_from_its_number():
     vary = {"terrain.elevation_noise": {"rms": 0.2, "length": 20.0}}
     ensemble = Ensemble(SCENE, vary, 2, "random", seed=5)
-    basis, plain = ensemble._basis(), gully()[0]
+    basis, plain = ensemble.basis(), gully()[0]
     first, second = (
         prepare_member(basis, ensemble.values(member)).terrain["topographic__elevation"].values - plain
         for member in (0, 1)

@@ -8,7 +8,6 @@ import pytest
 
 from landlab_debrisflow import InputError, Scene
 from landlab_debrisflow.ensemble import Ensemble, EnsembleResults
-from landlab_debrisflow.ensemble import ensemble as module
 from landlab_debrisflow.scene.gully import LATTICE
 
 from .scenes import SCENE, VARY, same
@@ -26,18 +25,6 @@ def finished(ensemble, tmp_path_factory):
     return path
 
 
-def count_runs(monkeypatch):
-    """Return the numbers of the batches that are run from now on."""
-    run, batches = module.run_here, []
-
-    def counted(basis, tasks, write):
-        batches.extend(task.batch for task in tasks)
-        run(basis, tasks, write)
-
-    monkeypatch.setattr(module, "run_here", counted)
-    return batches
-
-
 def test_a_store_is_read_back_as_it_was_written(ensemble, finished):
     memory, results = ensemble.run(workers=1), EnsembleResults.open(finished)
     pairs = list(zip(memory.members(), results.members(), strict=True))
@@ -50,13 +37,13 @@ def test_a_store_is_read_back_as_it_was_written(ensemble, finished):
     assert repr(results) == "<EnsembleResults with 5 of 5 members>"
 
 
-def test_a_finished_ensemble_runs_nothing(ensemble, finished, monkeypatch):
-    batches = count_runs(monkeypatch)
-    ensemble.run(store=finished, workers=1)
-    assert batches == []
+def test_a_finished_ensemble_runs_nothing(ensemble, finished):
+    told = []
+    ensemble.run(store=finished, workers=1, notify=told.append)
+    assert told == []
 
 
-def test_an_interrupted_ensemble_goes_on(ensemble, finished, tmp_path, monkeypatch):
+def test_an_interrupted_ensemble_goes_on(ensemble, finished, tmp_path):
     """Half a batch is as good as none."""
     path = tmp_path / "members.zarr"
     told = []
@@ -76,9 +63,8 @@ def test_an_interrupted_ensemble_goes_on(ensemble, finished, tmp_path, monkeypat
     group.write_text(json.dumps(text))
     shutil.copytree(finished / "batches" / "000002", path / "batches" / "000002")
     (path / "batches" / "000002" / "zarr.json").write_text('{"zarr_form')
-    batches = count_runs(monkeypatch)
-    results = ensemble.run(store=path, workers=1)
-    assert batches == [1, 2]
+    results = ensemble.run(store=path, workers=1, notify=(again := []).append)
+    assert again == ["ensemble: 4 of 5 members done", "ensemble: 5 of 5 members done"]
     whole = EnsembleResults.open(finished)
     assert all(same(*pair) for pair in zip(results.members(), whole.members(), strict=True))
 

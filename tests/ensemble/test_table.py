@@ -56,7 +56,7 @@ def test_words_of_a_table_are_choices():
         ({"sampling": {ANGLE: [24.0], "release.volume": [1.0, 2.0]}}, InputError, r"must have one length"),
         ({"sampling": {ANGLE: []}}, InputError, r"must have one length of 1 or more, got \[0\]"),
         ({"sampling": COLUMNS, "members": 3}, ParameterError, r"a table has its own members; leave members out"),
-        ({"sampling": COLUMNS, "vary": VARY}, ParameterError, r"the members are those of a table"),
+        ({"sampling": COLUMNS, "vary": VARY}, ParameterError, r"a table holds the members"),
         ({"sampling": {"friction.angle": [1.0]}}, ParameterError, r"unknown name 'friction.angle'"),
         ({"sampling": "none.csv"}, InputError, r"none.csv: No such file"),
         ({"sampling": 3}, InputError, r"a table must be a Dataset, a DataFrame, a mapping or a file, got 3"),
