@@ -41,6 +41,8 @@ def _ensemble(arguments) -> int:
         monitor.close()
         failures = results.failures
         if not arguments.quiet:
+            if results.plan is not None:
+                say(str(results.plan))
             say(f"{ensemble.members - len(failures)} of {ensemble.members} members came to their end")
             for one in failures[:3]:
                 values = ", ".join(f"{key} {value}" for key, value in one.values.items())

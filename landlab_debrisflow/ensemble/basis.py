@@ -13,6 +13,7 @@ from ..geo.lattice import Lattice
 from ..scene.content import SceneContent
 from ..scene.release_keys import ReleaseKeys
 from ..scene.releases import ScheduledRelease, schedule_releases
+from ..scene.setup import Setup
 from ..scene.terrain import BED_FIELDS, build_terrain, lattice_of
 from ..scene.zones import KINDS as ZONED
 from ..scene.zones import varying_parameters
@@ -60,6 +61,10 @@ class Basis(NamedTuple):
     def lattice(self) -> Lattice:
         """Nodes of all members."""
         return lattice_of(self.terrain)
+
+    def with_setup(self, setup: Setup) -> "Basis":
+        """Return the basis with another setup of the scene."""
+        return self._replace(content=self.content._replace(setup=setup))
 
     @property
     def ground_varies(self) -> bool:

@@ -14,8 +14,10 @@ from ..scene.keys import EnsembleKeys
 from ..scene.location import located
 from .basis import Basis, scheduled, shared_terrain
 from .design import make_design, member_values, varied_values
+from .pilots import plan_ensemble
+from .plan import EnsemblePlan
 from .results import EnsembleResults
-from .running import opened, run_missing
+from .running import opened, run_missing, stored_plan
 from .store import Header
 from .table import design_of_table
 
@@ -48,6 +50,9 @@ class Ensemble:
     replicates : int, optional
         Independent samples of which Latin hypercube and Sobol consist, by whose scatter the sampling error is told; by
         default 8.
+    fidelity : {"scene", "auto"}
+        Whether particles, column and steps are those of the scene, or chosen for all members by pilot runs of at most
+        eight, so that the numerical error of the maps stays below a fifth of the spread between members.
     maps : sequence of str
         Names of the maps that are kept.
     batch : int
@@ -79,13 +84,14 @@ class Ensemble:
     def __init__(
         self, scene: Scene | str | Path | Mapping[str, Any], vary: Mapping[str, Any] | None = None,
         members: int | None = None, sampling: Any = DEFAULTS.sampling, seed: int = 0, *, correlation: Any = None,
-        replicates: int | None = None, maps: Any = DEFAULTS.maps, batch: int = DEFAULTS.batch,
+        replicates: int | None = None, fidelity: str = DEFAULTS.fidelity, maps: Any = DEFAULTS.maps,
+        batch: int = DEFAULTS.batch,
     ) -> None:  # fmt: skip
         self.scene = _scene(scene)
         content, is_word = self.scene.content, isinstance(sampling, str) and not sampling.lower().endswith(".csv")
         words = {"sampling": sampling} if is_word else {}
         self._keys = EnsembleKeys(
-            members=members, seed=seed, replicates=replicates, maps=maps, batch=batch, **words
+            members=members, seed=seed, replicates=replicates, fidelity=fidelity, maps=maps, batch=batch, **words
         )  # fmt: skip
         self.sampling = self._keys.sampling if is_word else "table"
         if is_word:
@@ -144,7 +150,7 @@ class Ensemble:
                 f"{scene.name}: the scene has no key ensemble; give one, with vary: {{friction.basal_friction_angle: "
                 "{normal: {mean: 28, sd: 2}}}"
             )
-        names = ("vary", "members", "seed", "correlation", "replicates", "maps", "batch")
+        names = ("vary", "members", "seed", "correlation", "replicates", "fidelity", "maps", "batch")
         given = {name: getattr(keys, name) for name in names}
         given["sampling"] = keys.sampling if keys.table is None else Path(keys.table)
         with located(scene.file, "ensemble"):
@@ -184,7 +190,8 @@ class Ensemble:
     def _digest(self) -> str:
         design = [[str(name), values.values, dict(values.attrs)] for name, values in self.design.data_vars.items()]
         keys, duration = self._keys, self.scene.output_keys.max_duration
-        return digest([self.scene.digest(), duration, design, keys.seed, keys.maps, keys.batch, __version__])
+        own = [keys.seed, keys.maps, keys.batch, self.automatic]
+        return digest([self.scene.digest(), duration, design, own, __version__])
 
     @property
     def results_directory(self) -> Path:
@@ -221,13 +228,43 @@ class Ensemble:
         OutputError
             If the store cannot be written.
         """
-        keys, basis = self._keys, self.basis()
+        keys, path, basis = self._keys, None if store is None else Path(store), self.basis()
+        plan = None
+        if self.automatic:
+            known = None if path is None else stored_plan(path)
+            plan = self.plan(notify) if known is None else EnsemblePlan.from_mapping(known)
+            basis = basis.with_setup(plan.applied(basis.content.setup))
         header = Header(
-            self.digest(), self.scene.to_mapping(), self.sampling, keys.seed, keys.batch, keys.maps, basis.lattice
+            self.digest(), self.scene.to_mapping(), self.sampling, keys.seed, keys.batch, keys.maps, basis.lattice,
+            None if plan is None else plan.to_mapping(),
         )  # fmt: skip
-        with opened(None if store is None else Path(store), header, self.design) as target:
+        with opened(path, header, self.design) as target:
             run_missing(basis, target, client, workers, notify)
         return EnsembleResults(target)
+
+    @property
+    def automatic(self) -> bool:
+        """Whether particles, column and steps are found by pilot runs."""
+        return self._keys.fidelity == "auto" or self.scene.content.setup.numerics.automatic
+
+    def plan(self, notify: Callable[[str], None] = log.info) -> EnsemblePlan:
+        """Choose particles, column and steps for all members by pilot runs of some, in this process.
+
+        Parameters
+        ----------
+        notify : callable
+            Called with a text when a pilot run begins.
+
+        Returns
+        -------
+        EnsemblePlan
+
+        Raises
+        ------
+        InputError, ParameterError, SimulationError
+            If pilots cannot be run.
+        """
+        return plan_ensemble(self.basis(), self.design, notify)
 
     def basis(self) -> Basis:
         """Return all that the members share, read from the files of the scene."""

@@ -1,6 +1,6 @@
 """Result of one run of an ensemble."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -82,6 +82,16 @@ def touched_window(maps: Mapping[str, np.ndarray]) -> tuple[slice, slice]:
     if not spans[0].size:
         return slice(0, 0), slice(0, 0)
     rows, columns = (slice(int(span[0]), int(span[-1]) + 1) for span in spans)
+    return rows, columns
+
+
+def common_window(results: Iterable[MemberResult]) -> tuple[slice, slice]:
+    """Return rows and columns of the smallest window that holds the windows of some results; empty without any."""
+    touched = [one for one in results if one.rows.stop > one.rows.start]
+    spans = [[one.rows for one in touched], [one.columns for one in touched]]
+    rows, columns = (
+        slice(min((one.start for one in span), default=0), max((one.stop for one in span), default=0)) for span in spans
+    )
     return rows, columns
 
 

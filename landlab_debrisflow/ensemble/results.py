@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..geo.lattice import Lattice
+from .plan import EnsemblePlan
 from .result import MemberResult
 from .store import Store
 
@@ -81,6 +82,12 @@ class EnsembleResults:
     def batch(self) -> int:
         """Members in a batch; sums over members are sums of batches, added in the order of the batches."""
         return self._store.header.batch
+
+    @property
+    def plan(self) -> EnsemblePlan | None:
+        """Particles, column and steps that pilot runs chose; None: those of the scene."""
+        plain = self._store.header.plan
+        return None if plain is None else EnsemblePlan.from_mapping(plain)
 
     @property
     def replicates(self) -> np.ndarray:

@@ -53,6 +53,11 @@ def opened(path: Path | None, header: Header, design: xr.Dataset) -> Iterator[St
         yield found
 
 
+def stored_plan(path: Path) -> dict[str, Any] | None:
+    """Return the plan of the ensemble in a store as plain values, None if no store is there."""
+    return Store.open(path).header.plan if path.exists() else None
+
+
 def run_missing(
     basis: Basis, store: Store, client: Any, workers: int | None, notify: Callable[[str], None]
 ) -> None:  # fmt: skip

@@ -37,6 +37,8 @@ class Header(NamedTuple):
     maps : tuple of str
         Names of the kept maps.
     lattice : Lattice
+    plan : dict or None
+        Plan of the ensemble as plain values; None: particles, column and steps are those of the scene.
     version : str
         Version of the package.
     """
@@ -48,6 +50,7 @@ class Header(NamedTuple):
     batch: int
     maps: tuple[str, ...]
     lattice: Lattice
+    plan: dict[str, Any] | None = None
     version: str = __version__
 
 
