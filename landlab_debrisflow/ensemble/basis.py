@@ -14,11 +14,13 @@ from ..scene.content import SceneContent
 from ..scene.release_keys import ReleaseKeys
 from ..scene.releases import ScheduledRelease, schedule_releases
 from ..scene.setup import Setup
+from ..scene.shapes import shapes_of
 from ..scene.terrain import BED_FIELDS, build_terrain, lattice_of
 from ..scene.zones import KINDS as ZONED
 from ..scene.zones import varying_parameters
 from .design import Varied
 from .distributions import Choices
+from .edits import AMOUNTS
 from .names import FACTOR, NOISE
 
 
@@ -154,6 +156,35 @@ def scheduled(keys: Sequence[ReleaseKeys], terrain: xr.Dataset, folder: Path) ->
     """
     found = [schedule_releases([one], terrain, folder) for one in keys]
     return tuple(one[0] if one else None for one in found)
+
+
+def check_amounts(content: SceneContent, folder: Path, varied: Sequence[Varied], lattice: Lattice) -> None:
+    """Refuse the size of a release that varies in vain, because attributes of its polygons count.
+
+    Parameters
+    ----------
+    content : SceneContent
+    folder : Path
+    varied : sequence of Varied
+    lattice : Lattice
+
+    Raises
+    ------
+    InputError
+    """
+    for one in varied:
+        if one.name.path[0] != "release" or one.name.path[-1] not in AMOUNTS:
+            continue
+        k = int(one.name.path[1])
+        for shape in shapes_of(content.release[k].polygons, "polygon", lattice, folder):
+            given = {
+                str(name).lower() for name, value in shape.attributes.items() if value == value and value is not None
+            }
+            if own := sorted(given & set(AMOUNTS)):
+                raise InputError(
+                    f"ensemble: {one.name.key} would vary in vain: {shape.label} has an attribute {own[0]}, which "
+                    f"counts; vary release {k + 1}.{FACTOR} instead"
+                )
 
 
 def _terrain(content: SceneContent, folder: Path, releases: Sequence[ReleaseKeys]) -> xr.Dataset:

@@ -12,7 +12,8 @@ from ..run.scene import Scene
 from ..scene.digest import digest
 from ..scene.keys import EnsembleKeys
 from ..scene.location import located
-from .basis import Basis, scheduled, shared_terrain
+from ..scene.terrain import lattice_of
+from .basis import Basis, check_amounts, scheduled, shared_terrain
 from .design import make_design, member_values, varied_values
 from .pilots import plan_ensemble
 from .plan import EnsemblePlan
@@ -270,6 +271,7 @@ class Ensemble:
         """Return all that the members share, read from the files of the scene."""
         scene, keys = self.scene, self._keys
         terrain = shared_terrain(scene.content, scene.folder, self._varied, lambda: scene.terrain)
+        check_amounts(scene.content, scene.folder, self._varied, lattice_of(terrain))
         releases = scheduled(scene.content.release, terrain, scene.folder)
         return Basis(
             scene.content, scene.folder.resolve(), terrain, releases, self._varied, keys.maps, keys.seed, self.digest()

@@ -42,7 +42,6 @@ def opened(path: Path | None, header: Header, design: xr.Dataset) -> Iterator[St
     if path is None:
         yield Store.create(None, header, design)
         return
-    path.parent.mkdir(exist_ok=True)
     found = Store.open(path, write=True) if path.exists() else Store.create(path, header, design)
     if found.header.digest != header.digest:
         raise InputError(

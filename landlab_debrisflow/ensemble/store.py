@@ -1,6 +1,7 @@
 """Store of an ensemble: header, design and a group for each batch, written by one process alone."""
 
 import json
+import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -85,7 +86,7 @@ class Store:
         Parameters
         ----------
         path : Path or None
-            Directory that does not exist, or is empty; None: in memory.
+            Directory that does not exist; None: in memory.
         header : Header
         design : xarray.Dataset
 
@@ -98,19 +99,17 @@ class Store:
         OutputError
             If the directory cannot be written.
         """
-        zarr = _zarr()
+        if path is None:
+            return cls(_new_group(_zarr().storage.MemoryStore(), header, design), "the ensemble in memory")
+        # a process that is killed meanwhile leaves no half of a store
+        unfinished = path.with_name(f".{path.name}.unfinished")
         try:
-            group = zarr.create_group(zarr.storage.MemoryStore() if path is None else path, overwrite=path is not None)
-            place = group.create_group(DESIGN, attributes={"columns": list(design.data_vars)})
-            for name, values in design.data_vars.items():
-                place.create_array(str(name), data=values.values, attributes=dict(values.attrs))
-            group.create_group(BATCHES)
-            # last, because a store without it is none: a process that is killed before leaves no half of an ensemble
-            plain = header._asdict() | {"lattice": header.lattice._asdict()}
-            group.attrs.update({"kind": KIND, "format": FORMAT, "version": header.version, "header": plain})
+            path.parent.mkdir(exist_ok=True)
+            _new_group(unfinished, header, design)
+            os.replace(unfinished, path)
         except OSError as error:
             raise OutputError(f"cannot write the store {path}: {error.strerror or error}; choose another") from error
-        return cls(group, "the ensemble in memory" if path is None else str(path))
+        return cls.open(path, write=True)
 
     @classmethod
     def open(cls, path: str | Path, *, write: bool = False) -> "Store":
@@ -227,6 +226,18 @@ class Store:
             measured = {} if error else dict(zip(names, numbers[k].tolist(), strict=True))
             rows, columns = slice(top, bottom), slice(left, right)
             yield MemberResult(member, member_values(self.design, member), measured, rows, columns, kept, error)
+
+
+def _new_group(place: Any, header: Header, design: xr.Dataset) -> Any:
+    """Return a new group for an ensemble, at a path or in a store of zarr."""
+    group = _zarr().create_group(place, overwrite=True)
+    columns = group.create_group(DESIGN, attributes={"columns": list(design.data_vars)})
+    for name, values in design.data_vars.items():
+        columns.create_array(str(name), data=values.values, attributes=dict(values.attrs))
+    group.create_group(BATCHES)
+    plain = header._asdict() | {"lattice": header.lattice._asdict()}
+    group.attrs.update({"kind": KIND, "format": FORMAT, "version": header.version, "header": plain})
+    return group
 
 
 def _flat(one: MemberResult, names: tuple[str, ...]) -> np.ndarray:

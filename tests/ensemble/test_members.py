@@ -1,11 +1,13 @@
 """Members: the run of a member is that of a scene with its values."""
 
+import geopandas
 import numpy as np
 import pytest
 import rasterio
+import shapely
 from scipy import stats
 
-from landlab_debrisflow import ParameterError, Scene, simulate
+from landlab_debrisflow import InputError, ParameterError, Scene, simulate
 from landlab_debrisflow.ensemble import Ensemble
 from landlab_debrisflow.ensemble.member import prepare_member
 from landlab_debrisflow.ensemble.noise import correlated_noise
@@ -143,6 +145,20 @@ def test_members_have_the_nodes_of_the_scene_whatever_they_can_reach(tmp_path):
     assert results.failures == []
     west = min(scene.lattice.bounds[0] for scene in scenes)
     assert results.lattice.bounds[0] == west < scenes[1].lattice.bounds[0]
+
+
+def test_a_volume_that_an_attribute_overrides_is_refused(tmp_path):
+    shape = shapely.Polygon(square(20.0, 140.0))
+    frame = geopandas.GeoDataFrame({"Volume": [500.0]}, geometry=[shape], crs="EPSG:32632")
+    frame.to_file(tmp_path / "slides.geojson")
+    scene = Scene.from_mapping(SCENE | {"release": {"polygons": "slides.geojson"}}, tmp_path)
+    vary = {"release.volume": [500.0, 600.0]}
+    with pytest.raises(
+        InputError, match=r"release.volume would vary in vain: .* attribute volume.*vary release 1.factor"
+    ):
+        Ensemble(scene, vary, sampling="factorial").run(workers=1)
+    results = Ensemble(scene, {"release.factor": [1.2]}, sampling="factorial").run(workers=1)
+    assert results.measures.budget_released.values == pytest.approx([600.0], rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import InputError, Scene
+from landlab_debrisflow.core.errors import OutputError
 from landlab_debrisflow.ensemble import Ensemble, EnsembleResults
+from landlab_debrisflow.run.directory import locked
 from landlab_debrisflow.scene.gully import LATTICE
 
 from .scenes import SCENE, VARY, same
@@ -85,6 +87,23 @@ def test_a_store_of_another_version_is_named(finished, tmp_path):
     (path / "zarr.json").write_text(json.dumps(text))
     with pytest.raises(InputError, match=r"members.zarr is of landlab_debrisflow 0.0.9 and format 1, this is"):
         EnsembleResults.open(path)
+
+
+def test_a_store_whose_making_was_killed_is_made_anew(ensemble, tmp_path):
+    (tmp_path / ".members.zarr.unfinished").mkdir()
+    (tmp_path / ".members.zarr.unfinished" / "zarr.json").write_text("{")
+    assert ensemble.run(store=tmp_path / "members.zarr", workers=1).done.all()
+    assert [path.name for path in tmp_path.iterdir()] == ["members.zarr"]
+
+
+def test_one_process_at_a_time_writes(ensemble, finished):
+    with locked(finished, "; wait"), pytest.raises(OutputError, match="another process writes there; wait for it, or"):
+        ensemble.run(store=finished, workers=1)
+
+
+def test_a_store_that_cannot_be_written_is_named(ensemble, tmp_path):
+    with pytest.raises(OutputError, match=r"cannot write the store .*none/there/members.zarr"):
+        ensemble.run(store=tmp_path / "none" / "there" / "members.zarr", workers=1)
 
 
 def test_what_is_no_store_is_refused(ensemble, tmp_path):
