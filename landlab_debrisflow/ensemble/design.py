@@ -14,7 +14,7 @@ from ..scene.content import SceneContent
 from .correlation import correlated
 from .distributions import Choices, Distribution, NoiseRealisations, choices_text, distribution_of
 from .names import Name, find_name
-from .sampling import MEMBERS, Points, all_combinations, draw_points
+from .sampling import Points, all_combinations, default_members, draw_points
 
 
 class Varied(NamedTuple):
@@ -99,7 +99,7 @@ def make_design(
             raise ParameterError("ensemble: correlation is not for factorial, which has all combinations; leave it out")
         columns = _combinations(varied, members)
         return make_dataset(varied, columns, np.zeros(len(columns[0]), int))
-    count = MEMBERS if members is None else members
+    count = default_members(method, len(varied)) if members is None else members
     points = draw_points(method, count, len(varied), seed, replicates)
     if correlation is not None:
         if method == "saltelli":

@@ -1,5 +1,6 @@
 """An ensemble: a scene, the values that vary in it, and its members."""
 
+import dataclasses
 import logging
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -9,6 +10,7 @@ from typing import Any
 from ..core.errors import InputError, ParameterError
 from ..core.version import __version__
 from ..run.scene import Scene
+from ..scene.content import SceneContent
 from ..scene.digest import digest
 from ..scene.keys import EnsembleKeys
 from ..scene.location import located
@@ -89,7 +91,8 @@ class Ensemble:
         batch: int = DEFAULTS.batch,
     ) -> None:  # fmt: skip
         self.scene = _scene(scene)
-        content, is_word = self.scene.content, isinstance(sampling, str) and not sampling.lower().endswith(".csv")
+        self._content = content = _content_of(self.scene)
+        is_word = isinstance(sampling, str) and not sampling.lower().endswith(".csv")
         words = {"sampling": sampling} if is_word else {}
         self._keys = EnsembleKeys(
             members=members, seed=seed, replicates=replicates, fidelity=fidelity, maps=maps, batch=batch, **words
@@ -191,7 +194,8 @@ class Ensemble:
     def _digest(self) -> str:
         design = [[str(name), values.values, dict(values.attrs)] for name, values in self.design.data_vars.items()]
         keys, duration = self._keys, self.scene.output_keys.max_duration
-        own = [keys.seed, keys.maps, keys.batch, self.automatic]
+        setup = self._content.setup  # a plan has replaced its numerics and column
+        own = [keys.seed, keys.maps, keys.batch, self.automatic, setup.numerics, setup.column]
         return digest([self.scene.digest(), duration, design, own, __version__])
 
     @property
@@ -246,7 +250,7 @@ class Ensemble:
     @property
     def automatic(self) -> bool:
         """Whether particles, column and steps are found by pilot runs."""
-        return self._keys.fidelity == "auto" or self.scene.content.setup.numerics.automatic
+        return self._keys.fidelity == "auto" or self._content.setup.numerics.automatic
 
     def plan(self, notify: Callable[[str], None] = log.info) -> EnsemblePlan:
         """Choose particles, column and steps for all members by pilot runs of some, in this process.
@@ -269,13 +273,21 @@ class Ensemble:
 
     def basis(self) -> Basis:
         """Return all that the members share, read from the files of the scene."""
-        scene, keys = self.scene, self._keys
-        terrain = shared_terrain(scene.content, scene.folder, self._varied, lambda: scene.terrain)
-        check_amounts(scene.content, scene.folder, self._varied, lattice_of(terrain))
-        releases = scheduled(scene.content.release, terrain, scene.folder)
+        content, folder, keys = self._content, self.scene.folder, self._keys
+        terrain = shared_terrain(content, folder, self._varied, lambda: self.scene.terrain)
+        check_amounts(content, folder, self._varied, lattice_of(terrain))
+        releases = scheduled(content.release, terrain, folder)
         return Basis(
-            scene.content, scene.folder.resolve(), terrain, releases, self._varied, keys.maps, keys.seed, self.digest()
+            content, folder.resolve(), terrain, releases, self._varied, keys.maps, keys.seed, self.digest()
         )  # fmt: skip
+
+
+def _content_of(scene: Scene) -> SceneContent:
+    """Return the keys of a scene, with numerics and column of its plan if it has one."""
+    content, plan = scene.content, scene.adopted_plan
+    if plan is None:
+        return content
+    return content._replace(setup=dataclasses.replace(content.setup, numerics=plan.numerics, column=plan.column))
 
 
 def _scene(scene: Any) -> Scene:

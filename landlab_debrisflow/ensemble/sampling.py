@@ -1,5 +1,6 @@
 """Points in the unit cube from which the members of an ensemble are drawn."""
 
+import inspect
 import itertools
 import warnings
 from typing import NamedTuple
@@ -12,6 +13,12 @@ from ..core.errors import ParameterError
 MEMBERS, REPLICATES = 256, 8
 """Members if no number is given, and independent samples of which Latin hypercube and Sobol then consist: the scatter
 between these tells the sampling error."""
+
+BASE_POINTS = 64
+"""Base points of a design of Saltelli if no number of members is given."""
+
+GENERATOR = "rng" if "rng" in inspect.signature(qmc.Sobol).parameters else "seed"
+"""Name by which scipy takes a generator, another one before version 1.15."""
 
 
 class Points(NamedTuple):
@@ -75,7 +82,7 @@ def draw_points(method: str, members: int, dimensions: int, seed: int, replicate
         if method == "sobol":
             parts.append(_sobol(dimensions, size, generator))
         else:
-            parts.append(qmc.LatinHypercube(dimensions, rng=generator).random(size))
+            parts.append(qmc.LatinHypercube(dimensions, **{GENERATOR: generator}).random(size))
     return Points(np.concatenate(parts), np.repeat(np.arange(count), sizes))
 
 
@@ -105,7 +112,12 @@ def _check_powers(members: int, count: int, sizes: list[int]) -> None:
 def _sobol(dimensions: int, size: int, generator: np.random.Generator) -> np.ndarray:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # sizes are powers of two
-        return qmc.Sobol(dimensions, rng=generator).random(size)
+        return qmc.Sobol(dimensions, **{GENERATOR: generator}).random(size)
+
+
+def default_members(method: str, dimensions: int) -> int:
+    """Return the number of members of an ensemble for which none is given."""
+    return BASE_POINTS * (dimensions + 2) if method == "saltelli" else MEMBERS
 
 
 def saltelli_base(members: int, dimensions: int) -> int:

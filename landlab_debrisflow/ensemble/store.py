@@ -168,11 +168,11 @@ class Store:
         maps = np.concatenate(flat, axis=1)
         try:
             group = self._group.create_group(f"{BATCHES}/{found.batch:06d}", overwrite=True)
-            group.create_array("windows", data=np.array(windows, np.int32))
+            _put(group, "windows", np.array(windows, np.int32))
             if measures.size:
-                group.create_array("measures", data=measures)
+                _put(group, "measures", measures)
             if maps.size:
-                group.create_array("maps", data=maps, chunks=(len(self.header.maps), min(CHUNK, maps.shape[1])))
+                _put(group, "maps", maps, chunks=(len(maps), min(CHUNK, maps.shape[1])))
             group.attrs.update({
                 "measures": found.attributes, "errors": [one.error for one in found.results],
                 "seconds": found.seconds, "complete": True,
@@ -233,11 +233,16 @@ def _new_group(place: Any, header: Header, design: xr.Dataset) -> Any:
     group = _zarr().create_group(place, overwrite=True)
     columns = group.create_group(DESIGN, attributes={"columns": list(design.data_vars)})
     for name, values in design.data_vars.items():
-        columns.create_array(str(name), data=values.values, attributes=dict(values.attrs))
+        _put(columns, str(name), values.values, attributes=dict(values.attrs))
     group.create_group(BATCHES)
     plain = header._asdict() | {"lattice": header.lattice._asdict()}
     group.attrs.update({"kind": KIND, "format": FORMAT, "version": header.version, "header": plain})
     return group
+
+
+def _put(group: Any, name: str, values: np.ndarray, **others: Any) -> None:
+    """Write values as a new array of a group."""
+    group.create_array(name, shape=values.shape, dtype=values.dtype, **others)[...] = values
 
 
 def _flat(one: MemberResult, names: tuple[str, ...]) -> np.ndarray:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from landlab_debrisflow import InputError
+from landlab_debrisflow import InputError, Scene
 from landlab_debrisflow.ensemble import Ensemble
 from landlab_debrisflow.ensemble.pilots import spread_members
 from landlab_debrisflow.ensemble.plan import (
@@ -112,6 +112,16 @@ def test_the_plan_is_part_of_the_results_and_made_once(tmp_path):
     assert other.digest() != ensemble.digest() and not other.automatic
     scene = SCENE | {"numerics": {"particle_count": "auto"}}
     assert Ensemble(scene, VARY, 4, "random").automatic
+
+
+@pytest.mark.slow
+def test_a_plan_of_the_scene_holds_for_all_members():
+    scene = Scene.from_mapping(SCENE)
+    plan = scene.plan(hold="eroded", tolerance=0.5)
+    ensemble, plain = (Ensemble(one, VARY, 2, "random") for one in (scene.with_plan(plan), scene))
+    setup = ensemble.basis().content.setup
+    assert (setup.numerics, setup.column) == (plan.numerics, plan.column) and setup.friction == scene.setup.friction
+    assert ensemble.digest() != plain.digest() and not ensemble.automatic
 
 
 @pytest.mark.slow

@@ -6,8 +6,11 @@ from SALib.sample import sobol as salib_sobol
 from scipy import stats
 
 from landlab_debrisflow import ParameterError
+from landlab_debrisflow.ensemble import Ensemble
 from landlab_debrisflow.ensemble.correlation import correlated, rank_matrix
 from landlab_debrisflow.ensemble.sampling import draw_points
+
+from .scenes import SCENE, VARY
 
 KEYS = ["a", "b", "c"]
 
@@ -54,6 +57,11 @@ def test_saltelli_has_the_order_of_salib():
             assert (blocks[:, k + 1] == swapped).all()
     with pytest.raises(ParameterError, match=r"saltelli needs 5 members, .* got 41; give 40 or 80"):
         draw_points("saltelli", 41, 3, 0)
+
+
+def test_a_design_of_saltelli_has_whole_base_points_by_default():
+    design = Ensemble(SCENE, VARY, sampling="saltelli").design
+    assert design.sizes["member"] == 64 * (2 + 2)
 
 
 @pytest.mark.parametrize(("method", "replicates"), [("random", 4), ("saltelli", 2)])
