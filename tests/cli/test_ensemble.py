@@ -1,5 +1,11 @@
 """Command ensemble: what it prints, and with which exit code."""
 
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 
 from landlab_debrisflow.cli import exit_codes, main
@@ -66,6 +72,23 @@ def test_errors_name_file_and_line(scene, tmp_path, capsys):
     (tmp_path / scene).write_text(text.replace("members:", "member:"))
     line = refused(["ensemble", scene], exit_codes.USER_ERROR, capsys)
     assert "unknown key 'member' (did you mean 'members'?)" in line
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no groups of processes that get Ctrl-C")
+def test_ctrl_c_in_a_terminal_ends_workers_in_order(scene, tmp_path):
+    """A terminal sends it to all processes of the group."""
+    text = (tmp_path / scene).read_text().replace("members: 3", "members: 400")
+    (tmp_path / scene).write_text(text.replace("max_duration: 3.0", "max_duration: 30.0"))
+    words = [sys.executable, "-m", "landlab_debrisflow.cli.main", "ensemble", scene, "--workers", "2"]
+    environment = os.environ | {"PYTHONPATH": str(Path(main.__file__).parents[2])}
+    with subprocess.Popen(words, stderr=subprocess.PIPE, text=True, start_new_session=True, env=environment) as run:
+        lines = [run.stderr.readline()]
+        os.killpg(run.pid, signal.SIGINT)
+        lines += run.stderr.readlines()
+    assert run.returncode == 130 and "members done" in lines[0]
+    assert lines[-1] == "landlab-debrisflow: interrupted\n" and not [line for line in lines if "Traceback" in line]
+    assert 2 <= EnsembleResults.open("slope_ensemble/members.zarr").done.sum() < 400
 
 
 @pytest.mark.slow
