@@ -44,6 +44,7 @@ def test_members_of_a_scene_are_run(scene, capsys):
     assert "slope_ensemble/members.zarr holds another ensemble" in line
 
 
+@pytest.mark.slow
 def test_members_that_fail_are_told(scene, tmp_path, capsys):
     text = (
         (tmp_path / scene).read_text().replace("release.factor", "release.depth").replace("0.5, 1.0, 1.5", "1, 2, 900")

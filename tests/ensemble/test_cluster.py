@@ -133,7 +133,8 @@ def test_a_member_that_ends_its_worker_is_found_and_others_count():
     assert [one.error == "" for one in results.members()] == [True, False, True]
 
 
-def test_a_scheduler_out_of_reach_is_named(ensemble, tmp_path):
+def test_a_scheduler_out_of_reach_is_named(tmp_path):
+    ensemble = Ensemble(SCENE, VARY, 1, "random")
     with (
         dask.config.set({"distributed.comm.timeouts.connect": "0.1s"}),
         pytest.raises(InputError, match=r"no scheduler answers at tcp://127.0.0.1:9 .*; start one with: dask"),

@@ -27,9 +27,10 @@ def with_zone(zone):
 
 def compare(ensemble, scene):
     """Compare the first member of an ensemble with the maps of a scene."""
-    (found,), maps = ensemble.run(workers=1).members(), simulate(None, Scene.from_mapping(scene))
+    results, maps = ensemble.run(workers=1), simulate(None, Scene.from_mapping(scene))
+    (found,) = results.members()
     assert found.error == ""
-    for name in ensemble.run(workers=1).maps:
+    for name in results.maps:
         expected = maps[f"debris_flow__{name}"].values.astype(np.float32)
         if name == "arrival_time":
             expected[expected < 0.0] = np.nan
@@ -37,13 +38,21 @@ def compare(ensemble, scene):
     return found
 
 
+def test_a_member_is_the_run_of_a_scene_with_its_values():
+    vary = {ANGLE: [24.0], "release.volume": [900.0]}
+    scene = SCENE | {
+        "friction": {"law": "voellmy", "basal_friction_angle": 24.0},
+        "release": {"polygons": square(20.0, 140.0), "volume": 900.0},
+    }
+    found = compare(Ensemble(SCENE, vary, sampling="factorial"), scene)
+    assert found.values == {key: choices[0] for key, choices in vary.items()}
+    assert found.maps["max_depth"].dtype == np.float32 and found.maps["max_depth"].any(axis=0).all()
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("vary", "scene"),
     [
-        ({ANGLE: [24.0], "release.volume": [900.0]}, SCENE | {
-            "friction": {"law": "voellmy", "basal_friction_angle": 24.0},
-            "release": {"polygons": square(20.0, 140.0), "volume": 900.0},
-        }),
         ({"release.polygons": [square(60.0, 140.0, 20.0)]}, SCENE | {
             "release": {"polygons": square(60.0, 140.0, 20.0), "depth": 1.5},
         }),
@@ -54,12 +63,11 @@ def compare(ensemble, scene):
         ({"numerics.shock_viscosity": [2.0]}, SCENE | {"numerics": {"particle_count": 40, "shock_viscosity": 2.0}}),
     ],
 )  # fmt: skip
-def test_a_member_is_the_run_of_a_scene_with_its_values(vary, scene):
-    found = compare(Ensemble(SCENE, vary, sampling="factorial"), scene)
-    assert found.values == {key: choices[0] for key, choices in vary.items()}
-    assert found.maps["max_depth"].dtype == np.float32 and found.maps["max_depth"].any(axis=0).all()
+def test_other_members_are_runs_of_scenes_with_their_values(vary, scene):
+    compare(Ensemble(SCENE, vary, sampling="factorial"), scene)
 
 
+@pytest.mark.slow
 def test_a_value_outside_zones_leaves_that_of_the_zone():
     scene = with_zone(ZONE)
     other = scene | {"friction": {"law": "voellmy", "basal_friction_angle": 22.0}}
@@ -124,6 +132,7 @@ def test_noise_has_its_correlation():
         assert np.mean(product) / 0.09 == pytest.approx(np.exp(-((distance / 50.0) ** 2)), abs=0.07)
 
 
+@pytest.mark.slow
 def test_members_have_the_nodes_of_the_scene_whatever_they_can_reach(tmp_path):
     """A window that follows from the releases is that of all releases among the choices."""
     elevation, _, lattice = gully()

@@ -124,6 +124,7 @@ def test_a_member_without_flow_has_an_empty_window():
         assert one.error == "" and one.on_lattice("max_speed", LATTICE.shape).shape == LATTICE.shape
 
 
+@pytest.mark.slow
 def test_maps_that_are_asked_for_are_kept():
     results = Ensemble(SCENE, VARY, 1, "random", maps=["max_run_up", "arrival_time"]).run(workers=1)
     (one,) = results.members()

@@ -24,6 +24,7 @@ def test_a_mapping_a_frame_and_a_file_give_the_same_members(tmp_path):
     assert len({one.digest() for one in ensembles}) == 1 and ensembles[0].sampling == "table"
 
 
+@pytest.mark.slow
 def test_members_of_a_design_give_their_results_again():
     vary = VARY | {
         "terrain.elevation_noise": {"rms": 0.1, "length": 10.0},
