@@ -24,6 +24,14 @@ def test_a_mapping_a_frame_and_a_file_give_the_same_members(tmp_path):
     assert len({one.digest() for one in ensembles}) == 1 and ensembles[0].sampling == "table"
 
 
+def test_a_member_does_not_depend_on_members_before_it():
+    """Members run on one grid, one after the other."""
+    ensemble = Ensemble(SCENE, VARY, 2, "random")
+    alone = Ensemble(SCENE, sampling=ensemble.design.isel(member=[1])).run(workers=1)
+    (first,), (_, second) = alone.members(), ensemble.run(workers=1).members()
+    assert first.measures["budget_eroded"] > 0.0 and same(first._replace(member=1), second)
+
+
 @pytest.mark.slow
 def test_members_of_a_design_give_their_results_again():
     vary = VARY | {
