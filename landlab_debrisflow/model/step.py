@@ -81,7 +81,7 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     yield_stress, drag = np.zeros((2, p.awake))
 
     def resist(which: slice) -> None:
-        yield_stress[which], drag[which] = basal_resistance(p, which, friction)
+        basal_resistance(p, which, friction, out=(yield_stress[which], drag[which]))
 
     over_particles(resist, phases.bearing(p).stop, threads)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt, threads)
