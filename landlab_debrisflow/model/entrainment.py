@@ -71,7 +71,7 @@ def entrain(
     phases.limit_entrainment(exchange, rate)
     entrained, ratio = p.entrained_volume[bearing], p.entrained_ratio[bearing]
     if _demand(rate, p.volume, p.depth, p.share, dt, demanded) and bed.soil is not None:
-        entrained[:], ratio[:] = bed.erode(bed.footprints(p, x, y), demanded)
+        bed.erode(bed.footprints(p, x, y), demanded, out=(entrained, ratio))
         if bed.saturation is not None:
             dry_pores(p, bed, material)
     else:

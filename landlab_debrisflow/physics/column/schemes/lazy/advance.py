@@ -117,7 +117,7 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
         modes = modes_of(scheme.levels)
         advance_modes(columns, in_modes, modes)
         to_levels(columns, in_modes, modes)
-        commit(columns, in_modes, forcing, basal_pressure)
+        commit(columns, in_modes, forcing[:-1], basal_pressure)
     if (others := selected[contact > IMPERMEABLE]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
 
@@ -145,4 +145,4 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
         grow_by_flux(columns, takes_in, present, scheme, modes)
     if stays.size:
         diffuse(columns, stays, present, ending, scheme, modes)
-    commit(columns, selected, forcing, basal_pressure)
+    commit(columns, selected, forcing[:-1], basal_pressure)
