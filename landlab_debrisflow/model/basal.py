@@ -180,18 +180,15 @@ def press_on_bed(first, velocity, curvature, cosine, load, weighing):
 
     Returns
     -------
-    speed : ndarray, shape (n,)
-        [m s-1]
-    normal_gravity : ndarray, shape (n,)
-        Slope-normal gravity with the centripetal part [m s-2].
-    effective_normal_stress : ndarray, shape (n,)
-        [Pa]
+    ndarray, shape (3, n)
+        Rows: speed [m s-1]; slope-normal gravity with the centripetal part [m s-2]; effective normal stress [Pa].
     """
     curvature_xx, curvature_xy, curvature_yy = curvature
     thickness, density, pressure = load
     gravity, bearing_density, least_radius = weighing
     n = thickness.size
-    speed, normal_gravity, effective_normal_stress = np.empty(n), np.empty(n), np.empty(n)
+    found = np.empty((3, n))  # one array is handed to Python in a third of the time of three
+    speed, normal_gravity, effective_normal_stress = found[0], found[1], found[2]
     for k in range(n):
         i = first + k
         u, v, w = velocity[0, i], velocity[1, i], velocity[2, i]
@@ -202,7 +199,7 @@ def press_on_bed(first, velocity, curvature, cosine, load, weighing):
         normal_gravity[k] = max(0.0, (gravity + bend) * cosine[i])
         stress = (density[k] - bearing_density) * normal_gravity[k] * thickness[k] - pressure[k]
         effective_normal_stress[k] = max(0.0, stress)
-    return speed, normal_gravity, effective_normal_stress
+    return found
 
 
 def basal_resistance(p, which: slice, friction: BasalLaw, pressure=None, asking: bool = False, out=None):

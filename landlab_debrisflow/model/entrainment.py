@@ -55,8 +55,7 @@ def entrain(
     bearing, material = phases.bearing(p), erosion.material
     x, y = p.x, p.y
     if bed.soil is not None:
-        x, y = x.copy(), y.copy()
-        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
+        x, y = _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
         if bed.pore_pressure is not None:  # soil at the front brings the pressure that the front has made there
             load_bed(p, bed, material, time + EROSION_TIME * dt, EROSION_TIME * dt, bed.footprints(p, x, y))
     rate = np.zeros(bearing.stop)
@@ -82,7 +81,8 @@ def entrain(
         solid_fraction=phases.solid_fraction, slip_ratio=slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,
     )  # fmt: skip
-    velocity_ratio = np.ones(p.awake)
+    velocity_ratio = np.empty(p.awake)
+    velocity_ratio[rate.size :] = 1.0
 
     def mix_some(which: slice) -> None:
         layer = Layer(
@@ -164,12 +164,12 @@ def _demand(rate, volume, depth, share, dt, demanded):
 
 @kernel
 def _go(x, y, velocity, raster, time, nearest):
-    """Move points along straight ways for a time [s], in place, unless they end outside of core nodes.
+    """Return places of particles after straight ways for a time [s], shape (2, n) [m], none outside of core nodes.
 
     Parameters
     ----------
     x, y : ndarray, shape (n,)
-        Position of the particles, of which the first m move [m].
+        Position of the particles, of which the first m move; the others stay [m].
     velocity : ndarray, shape (3, n)
         Their velocity [m s-1].
     raster : Raster
@@ -180,8 +180,12 @@ def _go(x, y, velocity, raster, time, nearest):
         Node nearest to each, changed in place.
     """
     status, columns, rows, dx, dy, _ = raster
+    place = np.empty((2, x.size))
+    for i in range(x.size):
+        place[0, i], place[1, i] = x[i], y[i]
     for i in range(nearest.size):
         new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
         node = nearest_node(new_x, new_y, dx, dy, columns, rows)
         if node >= 0 and status[node] == CORE:
-            x[i], y[i], nearest[i] = new_x, new_y, node
+            place[0, i], place[1, i], nearest[i] = new_x, new_y, node
+    return place

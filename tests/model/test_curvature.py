@@ -8,7 +8,6 @@ from landlab_debrisflow.model.basal import BedLoad, Weighing, press_on_bed
 from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 from landlab_debrisflow.physics.material import Material
-from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G, SPACING = 9.81, 5.0
 
