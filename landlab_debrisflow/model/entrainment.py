@@ -55,7 +55,7 @@ def entrain(
     bearing, material = phases.bearing(p), erosion.material
     x, y = p.x, p.y
     if bed.soil is not None:
-        x, y = _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
+        x, y = _go(x, y, p.velocity, tuple(bed.raster), EROSION_TIME * dt, p.nearest_node[: p.awake])
         if bed.pore_pressure is not None:  # soil at the front brings the pressure that the front has made there
             load_bed(p, bed, material, time + EROSION_TIME * dt, EROSION_TIME * dt, bed.footprints(p, x, y))
     rate = np.zeros(bearing.stop)
