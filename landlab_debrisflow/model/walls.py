@@ -33,11 +33,12 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
         `state` and `changed` with ghosts behind the n particles; the arrays given if there is none.
     """
     position, support = state.position, 2.0 * state.smoothing.length
-    count = _find(position.x, position.y, support, walls, _NONE, _NOWHERE)
+    raster = tuple(walls)
+    count = _find(position.x, position.y, support, raster, _NONE, _NOWHERE)
     if count == 0:
         return state, changed
     source, wall = np.empty(count, np.int64), np.empty((2, count))
-    _find(position.x, position.y, support, walls, source, wall)
+    _find(position.x, position.y, support, raster, source, wall)
     x, y, velocity = position.x[source], position.y[source], state.velocity[:, source]
     gap, moving = wall - np.array([x, y]), velocity.copy()
     for axis, place in enumerate((x, y)):
@@ -74,7 +75,7 @@ def bear(x, y, pull, sample, walls: Raster | None) -> None:
         return
     size = np.sqrt((pull**2).sum(axis=0))
     pull *= TOUCHING * walls.spacing / np.maximum(size, 1e-300)
-    stop_at_walls(x, y, pull, sample, walls, 1.0, np.zeros(size.size, np.int8))
+    stop_at_walls(x, y, pull, sample, tuple(walls), 1.0, np.zeros(size.size, np.int8))
     pull *= size / (TOUCHING * walls.spacing)
 
 

@@ -113,7 +113,6 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
     )
     plain = tuple(found)  # kernels are called faster with plain tuples (core/structs.py)
     _sort(x, y, support, changed, plain)
-    _wake(plain)
     return found
 
 
@@ -133,9 +132,51 @@ def _extent(x, y, support):
     return west, east - west, south, north - south, x.size / total
 
 
+@inner
+def _wake(cells):
+    """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
+
+    Parameters
+    ----------
+    cells : Cells
+        Sorted into bins; reach, awake and computed are written.
+    """
+    columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
+    inside, stirred, sleepers = reach.copy(), awake.copy(), False
+    for row in range(rows):
+        for column in range(columns):
+            c = _U64(row * columns + column)
+            if start[c] == start[c + _ONE]:
+                continue
+            reached, sleepers = inside[c] / size, sleepers | (not stirred[c])
+            w = int(np.ceil(reached))
+            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+                gap = max(abs(r - row) - 1, 0)
+                half = int(np.ceil(np.sqrt(reached * reached - gap * gap)))
+                first, last = max(column - half, 0), min(column + half, columns - 1)
+                for d in range(_U64(r * columns + first), _U64(r * columns + last + 1)):
+                    reach[d] = max(reach[d], inside[c])
+    if not sleepers:
+        computed[:] = True
+        return
+    for row in range(rows):
+        for column in range(columns):
+            c, w = row * columns + column, int(np.ceil(inside[row * columns + column] / size))
+            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
+                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+                    gap_x, gap_y, d = max(abs(q - column) - 1, 0), max(abs(r - row) - 1, 0), r * columns + q
+                    if (gap_x * gap_x + gap_y * gap_y) * size * size < inside[c] * inside[c]:
+                        awake[c] |= stirred[d]
+                        awake[d] |= stirred[c]
+    for c in range(_U64(awake.size)):
+        awake[c] &= start[c] < start[c + _ONE]
+        for k in range(_U64(start[c]), _U64(start[c + _ONE])):
+            computed[_U64(order[k])] = awake[c]
+
+
 @kernel
 def _sort(x, y, support, changed, cells):
-    """Write order, start, bins, the largest support *in* each cell as reach, and as awake whether it has changed.
+    """Write order, start and bins, then the reach of cells, and which of them are awake.
 
     Parameters
     ----------
@@ -176,48 +217,7 @@ def _sort(x, y, support, changed, cells):
         reach[c], stirred[c] = largest, any_changed
     start[start.size - 1] = x.size
     _pad(places)
-
-
-@kernel
-def _wake(cells):
-    """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
-
-    Parameters
-    ----------
-    cells : Cells
-        Sorted by `_sort`; reach, awake and computed are written.
-    """
-    columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
-    inside, stirred, sleepers = reach.copy(), awake.copy(), False
-    for row in range(rows):
-        for column in range(columns):
-            c = _U64(row * columns + column)
-            if start[c] == start[c + _ONE]:
-                continue
-            reached, sleepers = inside[c] / size, sleepers | (not stirred[c])
-            w = int(np.ceil(reached))
-            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-                gap = max(abs(r - row) - 1, 0)
-                half = int(np.ceil(np.sqrt(reached * reached - gap * gap)))
-                first, last = max(column - half, 0), min(column + half, columns - 1)
-                for d in range(_U64(r * columns + first), _U64(r * columns + last + 1)):
-                    reach[d] = max(reach[d], inside[c])
-    if not sleepers:
-        computed[:] = True
-        return
-    for row in range(rows):
-        for column in range(columns):
-            c, w = row * columns + column, int(np.ceil(inside[row * columns + column] / size))
-            for r in range(max(row - w, 0), min(row + w, rows - 1) + 1):
-                for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
-                    gap_x, gap_y, d = max(abs(q - column) - 1, 0), max(abs(r - row) - 1, 0), r * columns + q
-                    if (gap_x * gap_x + gap_y * gap_y) * size * size < inside[c] * inside[c]:
-                        awake[c] |= stirred[d]
-                        awake[d] |= stirred[c]
-    for c in range(_U64(awake.size)):
-        awake[c] &= start[c] < start[c + _ONE]
-        for k in range(_U64(start[c]), _U64(start[c + _ONE])):
-            computed[_U64(order[k])] = awake[c]
+    _wake(cells)
 
 
 def cells_of_phase(cells: Cells, in_phase) -> Cells:

@@ -88,7 +88,7 @@ class Cover:
         if self._area.size < slots.count:
             self._area, self._touched = np.zeros(slots.count), np.empty(slots.count, np.int64)
         scratch = slots.of_node, slots.node, slots.used, self._area, self._touched
-        *self._last, slots.used, are_enough = _find_footprints(self._raster, *given, *scratch)
+        *self._last, slots.used, are_enough = _find_footprints(tuple(self._raster), *given, *scratch)
         return are_enough
 
 

@@ -57,15 +57,15 @@ class Surface:
         rows, columns = elevation.shape
         self.values = np.empty((rows + 2, columns + 2))
         self.values[1:-1, 1:-1] = elevation if invalid is None or not invalid.any() else _fill(elevation, invalid)
-        self._extend()
+        self.extend()
 
     def move_to(self, nodes, elevation):
         """Set the elevation [m] of nodes given by their flat index."""
         v = self.values
         if _set(v, nodes, elevation):
-            self._extend()
+            self.extend()
 
-    def _extend(self) -> None:
+    def extend(self) -> None:
         """Set the rim: linear beyond the edge."""
         v = self.values
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
@@ -136,15 +136,24 @@ def _fill(values, invalid):
     return values
 
 
+@inner
+def set_node(values, node, elevation):
+    """Set the elevation [m] of a node; return whether it lies so near the edge that the rim depends on it.
+
+    `values`, shape (rows + 2, columns + 2), are elevations with one more node on every side [m].
+    """
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    r, c = node // columns, node % columns
+    values[r + 1, c + 1] = elevation
+    return r < 2 or c < 2 or r > rows - 3 or c > columns - 3
+
+
 @kernel
 def _set(values, nodes, elevation):
     """Set nodes; return whether any lies so near the edge that the rim depends on it."""
-    rows, columns = values.shape[0] - 2, values.shape[1] - 2
     edge = False
     for k in range(nodes.size):
-        r, c = nodes[k] // columns, nodes[k] % columns
-        values[r + 1, c + 1] = elevation[k]
-        edge |= r < 2 or c < 2 or r > rows - 3 or c > columns - 3
+        edge |= set_node(values, nodes[k], elevation[k])
     return edge
 
 

@@ -164,18 +164,19 @@ def split_diffusion(column, stretch, condition):
 def commit(columns, selected, forcing, basal_pressure):
     """Record the present as the last update of columns at levels, and clip them to liquefaction.
 
-    `columns` are the `LazyColumns`, `selected` indices of some, int; `basal_pressure` has shape (n,).
+    `columns` are the `LazyColumns`, `selected` indices of some, int; `forcing` are the members of the `ColumnForcing`,
+    without shearing; `basal_pressure` has shape (n,).
 
     Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
     profile, state, clipped = columns
-    volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
+    volumes, thicknesses, loads, _, _, _, _, _, lower, bounded = forcing
     cells = profile.shape[1] - 1
     for i in selected:
         column, load = state[i], loads[i]
         column.contact_is_new, column.volume_at_update, column.load_at_update = 0.0, volumes[i], load
         column.base_pressure, column.diffusion = column.bed_pressure, 0.0
-        if forcing.bounded:
+        if bounded:
             removed = 0.0
             for k in range(cells):
                 pressure, most = profile[i, k], load * (cells - k) / cells
@@ -183,7 +184,7 @@ def commit(columns, selected, forcing, basal_pressure):
                 removed += (pressure - profile[i, k]) * (0.5 if k == 0 else 1.0)
             clipped[i] += removed * thicknesses[i] / cells
         if column.contact >= INFLOW:
-            suction = -forcing.water_to_buoyant * load if forcing.bounded else profile[i, 0]
+            suction = -lower * load if bounded else profile[i, 0]
             basal_pressure[i] = max(profile[i, 0], suction)
 
 
