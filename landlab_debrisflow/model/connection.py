@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner
 from ..spatial.cells import sort_into_cells
 
 
@@ -78,7 +78,7 @@ def _join_cells(spheres, order, one, other, parent):
     return whole
 
 
-@kernel
+@allocating_kernel
 def _join(spheres, columns, order, start, window, parent):
     """Join neighbours to bodies: write for each particle the one that stands for its body.
 

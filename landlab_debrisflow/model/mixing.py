@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..core.structs import struct
 
 
@@ -97,7 +97,7 @@ class Erosion(NamedTuple):
     peclet_number: np.ndarray
 
 
-@kernel
+@allocating_kernel
 def mix(entrained, soil, layer, mixture, erosion, time, dt):
     """Add entrained soil to the matter of particles, in place.
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner, kernel
 from ..core.lanes import LANES
 
 CELL_WIDTH = 1.3
@@ -133,7 +133,7 @@ def _extent(x, y, support):
     return west, east - west, south, north - south, x.size / total
 
 
-@kernel
+@allocating_kernel
 def _sort(x, y, support, changed, cells):
     """Write order, start, bins, the largest support *in* each cell as reach, and as awake whether it has changed.
 
@@ -178,7 +178,7 @@ def _sort(x, y, support, changed, cells):
     _pad(places)
 
 
-@kernel
+@allocating_kernel
 def _wake(cells):
     """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..core.structs import struct
 
 
@@ -56,7 +56,7 @@ class Demand(NamedTuple):
     touched: np.ndarray
 
 
-@kernel
+@allocating_kernel
 def take_soil(footprints, demanded, area, accounts, demand):
     """Add up the demand for soil at every node, grant the part that the soil can supply, and lower the node.
 

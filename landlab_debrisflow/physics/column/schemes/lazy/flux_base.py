@@ -5,7 +5,7 @@ Nothing diffuses in from the bed, so that the content of the column is conserved
 
 import numpy as np
 
-from .....core.jit import inner, kernel
+from .....core.jit import allocating_kernel, inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL
 from .modes import NEUMANN, diffuse_profile
 from .prescribed_base import LEAST_STRETCH, add_loading_by_erosion, load_strain, split_diffusion
@@ -31,7 +31,7 @@ def impermeable_inflow(columns, selected, present, scheme):
             column.bed_pressure *= load / unstrained
 
 
-@kernel
+@allocating_kernel
 def grow_by_flux(columns, selected, present, scheme, modes):
     """Diffuse columns that grow by soil that brings its own pressure alone; see `prescribed_base.grow`.
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from .....core.jit import inner, kernel
+from .....core.jit import allocating_kernel, inner
 from ..contact import BY_EROSION, IMPERMEABLE
 from .boundary_layer import boundary_layer, layer_content, mode_of_layer
 from .modes import BRIEF, NEUMANN, bounds_of
@@ -27,7 +27,7 @@ def base_slope(profile, i, cells):
     return min(max(slope, min(0.0, 2.0 * step)), max(0.0, 2.0 * step)) * cells
 
 
-@kernel
+@allocating_kernel
 def to_modes(columns, selected, modes):
     """Turn columns at levels into modes over an impermeable base; `advance_modes` comes next.
 
@@ -103,7 +103,7 @@ def _forget_loads(column):
     column.load_scale = 1.0
 
 
-@kernel
+@allocating_kernel
 def to_levels(columns, selected, modes):
     """Turn columns in modes, just updated, into pressures at levels; arguments as in `to_modes`."""
     profile, state, _ = columns
@@ -124,7 +124,7 @@ def to_levels(columns, selected, modes):
         column.contact, column.layer_jump = BY_EROSION, 0.0
 
 
-@kernel
+@allocating_kernel
 def advance_modes(columns, selected, modes):
     """Update columns in modes: let them decay under the loads since the last update; arguments as in `to_modes`."""
     profile, state, _ = columns
@@ -205,7 +205,7 @@ def _expand_base(profile, column, i, modes):
     column.base_rate, column.base_curvature, column.remainder = -rate, bend / 2.0, remainder / 6.0
 
 
-@kernel
+@allocating_kernel
 def clip_modes(columns, selected, forcing, modes):
     """Clip columns in modes, just updated, to liquefaction at their levels; count the pressure removed.
 

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from .....core.jit import inner, kernel
+from .....core.jit import allocating_kernel, inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL, UNLOADED
 from ..contact import INFLOW
 from .boundary_layer import basal_filling, boundary_layer, is_resolved, layer_content
@@ -32,7 +32,7 @@ def load_strain(load, old_load, volume, start):
     return load * start / (old_load * volume) if old_load > 0.0 and load > 0.0 and volume > 0.0 else 1.0
 
 
-@kernel
+@allocating_kernel
 def diffuse(columns, selected, present, ending, scheme, modes):
     """Diffuse and load columns whose grains keep their place; arguments as in `grow`.
 
@@ -77,7 +77,7 @@ def diffuse(columns, selected, present, ending, scheme, modes):
                 _fill_base_level(profile, column, i, (inside, jump, evenly), 0.0, diffusion)
 
 
-@kernel
+@allocating_kernel
 def grow(columns, selected, present, ending, scheme, modes):
     """Diffuse columns that grow by soil that comes in at a prescribed base.
 
