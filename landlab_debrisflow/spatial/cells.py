@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import allocating_kernel, inner, kernel
+from ..core.jit import inner, kernel
 from ..core.lanes import LANES
 
 CELL_WIDTH = 1.3
@@ -112,8 +112,8 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
         computed=np.empty(n, np.bool_),
     )
     plain = tuple(found)  # kernels are called faster with plain tuples (core/structs.py)
-    _sort(x, y, support, changed, plain)
-    _wake(plain)
+    _sort(x, y, support, changed, plain, np.empty(n, np.uint64))
+    _wake(plain, found.reach.copy(), found.awake.copy())
     return found
 
 
@@ -133,8 +133,8 @@ def _extent(x, y, support):
     return west, east - west, south, north - south, x.size / total
 
 
-@allocating_kernel
-def _sort(x, y, support, changed, cells):
+@kernel
+def _sort(x, y, support, changed, cells, bin_of):
     """Write order, start, bins, the largest support *in* each cell as reach, and as awake whether it has changed.
 
     Parameters
@@ -145,10 +145,11 @@ def _sort(x, y, support, changed, cells):
         Whether each particle has changed.
     cells : Cells
         Bins, reach and awake are 0 on entry.
+    bin_of : ndarray of uint64, shape (n,)
+        Scratch.
     """
     columns, rows, size, west, south, _, order, start, bins, places, reach, stirred, _ = cells
     columns_of_bins, per_metre = BINS_PER_CELL * columns, 1.0 / size
-    bin_of = np.empty(x.size, np.uint64)
     for i in range(x.size):
         row = min(np.int64((y[i] - south) * per_metre), rows - 1)
         column = min(np.int64((x[i] - west) * (BINS_PER_CELL * per_metre)), columns_of_bins - 1)
@@ -178,17 +179,19 @@ def _sort(x, y, support, changed, cells):
     _pad(places)
 
 
-@allocating_kernel
-def _wake(cells):
+@kernel
+def _wake(cells, inside, stirred):
     """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
 
     Parameters
     ----------
     cells : Cells
         Sorted by `_sort`; reach, awake and computed are written.
+    inside, stirred : ndarray
+        Copies of reach and awake.
     """
     columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
-    inside, stirred, sleepers = reach.copy(), awake.copy(), False
+    sleepers = False
     for row in range(rows):
         for column in range(columns):
             c = _U64(row * columns + column)

@@ -72,13 +72,14 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
         _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
     if count := counts[IN_MODES]:
         selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
-        advance_modes(columns, selected, modes)
+        work = np.empty((2, scheme.levels))
+        advance_modes(columns, selected, modes, work)
         # write the present basal pressure, and list the columns that are out of bounds
         _, state, _ = columns
         counts = accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
         if count := counts[IN_MODES]:
             selected = due[IN_MODES, :count].copy()
-            clip_modes(columns, selected, forcing, modes)
+            clip_modes(columns, selected, forcing, modes, work)
             accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
 
 
@@ -94,9 +95,10 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
     )  # fmt: skip
     _synchronise(columns, selected, before, basal_pressure, scheme)
     closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
+    work = np.empty((2, scheme.levels))
     if count := set_contact(columns, selected, forcing, scheme, closing):
-        to_modes(columns, closing[:count], modes)
-        advance_modes(columns, closing[:count], modes)
+        to_modes(columns, closing[:count], modes, work)
+        advance_modes(columns, closing[:count], modes, work)
 
 
 def _synchronise(columns, selected, forcing, basal_pressure, scheme):
@@ -108,9 +110,9 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     _, state, _ = columns
     contact = state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
-        modes = modes_of(scheme.levels)
-        advance_modes(columns, in_modes, modes)
-        to_levels(columns, in_modes, modes)
+        modes, work = modes_of(scheme.levels), np.empty((2, scheme.levels))
+        advance_modes(columns, in_modes, modes, work)
+        to_levels(columns, in_modes, modes, work)
         commit(columns, in_modes, forcing, basal_pressure)
     if (others := selected[contact > IMPERMEABLE]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
@@ -128,14 +130,15 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     """
     _, state, _ = columns
     contact, modes = state["contact"][selected], modes_of(scheme.levels)
+    work = np.empty((2, scheme.levels))
     present = Present(volume=forcing.volume, load=forcing.liquefaction_pressure)
     if (some := selected[contact == SEALED]).size:
         impermeable_inflow(columns, some, present, scheme)
     growing = scheme.moves_with_grains & (forcing.volume[selected] > state["volume_at_update"][selected])
     if (some := selected[growing & (contact < INFLOW)]).size:
-        grow(columns, some, present, ending, scheme, modes)
+        grow(columns, some, present, ending, scheme, modes, work)
     if (some := selected[growing & (contact >= INFLOW)]).size:
-        grow_by_flux(columns, some, present, scheme, modes)
+        grow_by_flux(columns, some, present, scheme, modes, work)
     if (some := selected[~growing]).size:
-        diffuse(columns, some, present, ending, scheme, modes)
+        diffuse(columns, some, present, ending, scheme, modes, work)
     commit(columns, selected, forcing, basal_pressure)
