@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..core.constants import THINNEST
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..core.structs import struct
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import NOT_ASKED, BasalState, BasalStress, Phases
@@ -156,7 +156,7 @@ def _variables(p, which: slice, basal: BasalLaw, asking: bool):
     return SimpleNamespace(**{name: value.copy() if asking else value for name, value in values.items()})
 
 
-@kernel
+@allocating_kernel
 def press_on_bed(first, velocity, curvature, cosine, load, weighing):
     """Return speed, normal gravity and effective normal stress at the base of particles.
 

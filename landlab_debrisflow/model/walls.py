@@ -6,7 +6,7 @@ against the wall. The faces of closed nodes are the walls, so each ghost is in x
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..physics.contracts import FlowState, Position, Smoothing
 from ..spatial.raster import BLOCK, CLOSED, Raster, is_walled, nearest_place
 from ..spatial.summation import SMOOTHING_RATIO
@@ -92,7 +92,7 @@ ALIKE_IN_MIXTURE = ("phase", "share", "cross_term", "mean_pressure")
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 
-@kernel
+@allocating_kernel
 def _find(x, y, support, raster, source, wall):
     """Return the number of ghosts of particles at x, y with a support [m], and write them if there is room.
 

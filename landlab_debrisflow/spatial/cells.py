@@ -112,7 +112,8 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
         computed=np.empty(n, np.bool_),
     )
     plain = tuple(found)  # kernels are called faster with plain tuples (core/structs.py)
-    _sort(x, y, support, changed, plain)
+    scratch = np.empty(n, np.uint64), np.empty(cells), np.empty(cells, np.bool_)
+    _sort(x, y, support, changed, plain, scratch)
     return found
 
 
@@ -133,16 +134,18 @@ def _extent(x, y, support):
 
 
 @inner
-def _wake(cells):
+def _wake(cells, inside, stirred):
     """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
 
     Parameters
     ----------
     cells : Cells
         Sorted into bins; reach, awake and computed are written.
+    inside, stirred : ndarray, shape (columns * rows,)
+        Scratch for reach and awake as they come in.
     """
     columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
-    inside, stirred, sleepers = reach.copy(), awake.copy(), False
+    inside[:], stirred[:], sleepers = reach, awake, False
     for row in range(rows):
         for column in range(columns):
             c = _U64(row * columns + column)
@@ -175,7 +178,7 @@ def _wake(cells):
 
 
 @kernel
-def _sort(x, y, support, changed, cells):
+def _sort(x, y, support, changed, cells, scratch):
     """Write order, start and bins, then the reach of cells, and which of them are awake.
 
     Parameters
@@ -186,10 +189,12 @@ def _sort(x, y, support, changed, cells):
         Whether each particle has changed.
     cells : Cells
         Bins, reach and awake are 0 on entry.
+    scratch : tuple of ndarray
+        Of n uint64, and for every cell a float and a bool.
     """
     columns, rows, size, west, south, _, order, start, bins, places, reach, stirred, _ = cells
+    bin_of, inside, was_stirred = scratch
     columns_of_bins, per_metre = BINS_PER_CELL * columns, 1.0 / size
-    bin_of = np.empty(x.size, np.uint64)
     for i in range(x.size):
         row = min(np.int64((y[i] - south) * per_metre), rows - 1)
         column = min(np.int64((x[i] - west) * (BINS_PER_CELL * per_metre)), columns_of_bins - 1)
@@ -217,7 +222,7 @@ def _sort(x, y, support, changed, cells):
         reach[c], stirred[c] = largest, any_changed
     start[start.size - 1] = x.size
     _pad(places)
-    _wake(cells)
+    _wake(cells, inside, was_stirred)
 
 
 def cells_of_phase(cells: Cells, in_phase) -> Cells:

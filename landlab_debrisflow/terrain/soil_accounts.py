@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel, kernel
 from ..core.structs import struct
 from .surface import set_node
 
@@ -60,7 +60,7 @@ class Demand(NamedTuple):
     touched: np.ndarray
 
 
-@kernel
+@allocating_kernel
 def taken_at(nodes, slot_of, taken):
     """Return the depth eroded in this call at some nodes, shape (n,) [m]; slots of nodes as in `slots.Slots`."""
     found = np.empty(nodes.size)

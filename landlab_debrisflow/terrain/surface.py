@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner, kernel
 
 
 class SurfaceSample(NamedTuple):
@@ -185,7 +185,7 @@ def _between(v0, v1, v2, v3, s, most):
     return v1 + s * (m1 + s * (k2 + s * k3))
 
 
-@kernel
+@allocating_kernel
 def _elevation(values, dx, dy, x, y, elevation):
     """Write the elevation of points [m], as `_sample` does; parameters as there."""
     rows, columns = values.shape[0] - 2, values.shape[1] - 2
@@ -200,7 +200,7 @@ def _elevation(values, dx, dy, x, y, elevation):
         elevation[i] = _between(v[0], v[1], v[2], v[3], q - r, dy)
 
 
-@kernel
+@allocating_kernel
 def _sample(values, dx, dy, x, y, sample):
     """Write the `SurfaceSample` of points x, y, shape (n,) [m], from node values with their rim [m].
 

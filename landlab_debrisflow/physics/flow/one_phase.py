@@ -4,7 +4,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import allocating_kernel
 from ...core.parameters import declared
 from ...spatial.summation import SummationInput, sum_over_neighbours
 from ..contracts import FlowState
@@ -58,7 +58,7 @@ class OnePhase:
         sum_over_neighbours(cells, given, shock_viscosity, sums, threads)
 
 
-@kernel
+@allocating_kernel
 def _pressure_of(cosine, density, gradient_term, thickness, gravity):
     """Return pressure coefficient [m s-2], celerity [m s-1] and inertia [-] as `SummationInput` has them, shape (3, n).
 

@@ -77,14 +77,15 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
         _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
     if count := counts[IN_MODES]:
         selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
-        advance_modes(columns, selected, modes)
+        work = np.empty((2, scheme.levels))
+        advance_modes(columns, selected, modes, work)
         # write the present basal pressure, and list the columns that are out of bounds
         _, state, _ = columns
         given = _account(forcing, 0.0, basal_pressure, scheme)
         counts = accumulate(state, selected, *given, due, ROUNDING)
         if count := counts[IN_MODES]:
             selected = due[IN_MODES, :count].copy()
-            clip_modes(columns, selected, forcing, modes)
+            clip_modes(columns, selected, forcing, modes, work)
             accumulate(state, selected, *given, due, EXCESS)
 
 
@@ -100,9 +101,10 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
     )  # fmt: skip
     _synchronise(columns, selected, before, basal_pressure, scheme)
     closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
+    work = np.empty((2, scheme.levels))
     if count := set_contact(columns, selected, forcing, scheme, closing):
-        to_modes(columns, closing[:count], modes)
-        advance_modes(columns, closing[:count], modes)
+        to_modes(columns, closing[:count], modes, work)
+        advance_modes(columns, closing[:count], modes, work)
 
 
 def _synchronise(columns, selected, forcing, basal_pressure, scheme):
@@ -114,9 +116,9 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     _, state, _ = columns
     contact = state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
-        modes = modes_of(scheme.levels)
-        advance_modes(columns, in_modes, modes)
-        to_levels(columns, in_modes, modes)
+        modes, work = modes_of(scheme.levels), np.empty((2, scheme.levels))
+        advance_modes(columns, in_modes, modes, work)
+        to_levels(columns, in_modes, modes, work)
         commit(columns, in_modes, forcing[:-1], basal_pressure)
     if (others := selected[contact > IMPERMEABLE]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
@@ -133,6 +135,7 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     base, and the content of the layer over jump and thickness.
     """
     _, state, _ = columns
+    work = np.empty((2, scheme.levels))
     modes, lists = modes_of(scheme.levels), np.empty((4, selected.size), np.int64)
     present = Present(volume=forcing.volume, load=forcing.liquefaction_pressure)
     counts = list_by_base(state, selected, forcing.volume, scheme.moves_with_grains, lists)
@@ -140,9 +143,9 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     if sealed.size:
         impermeable_inflow(columns, sealed, present, scheme)
     if grows.size:
-        grow(columns, grows, present, ending, scheme, modes)
+        grow(columns, grows, present, ending, scheme, modes, work)
     if takes_in.size:
-        grow_by_flux(columns, takes_in, present, scheme, modes)
+        grow_by_flux(columns, takes_in, present, scheme, modes, work)
     if stays.size:
-        diffuse(columns, stays, present, ending, scheme, modes)
+        diffuse(columns, stays, present, ending, scheme, modes, work)
     commit(columns, selected, forcing[:-1], basal_pressure)
