@@ -199,29 +199,41 @@ def _sample(values, dx, dy, x, y, sample):
     spacings [m]; `sample` is written.
     """
     elevation, slope_x, slope_y, curvature_xx, curvature_xy, curvature_yy = sample
-    rows, columns = values.shape[0] - 2, values.shape[1] - 2
-    f = np.empty((3, 4))  # on four rows: value, first and second derivative along x, per node
+    f = np.empty((3, 4))
     for i in range(x.size):
-        p, q = x[i] / dx, y[i] / dy
-        c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
-        s, t = p - c, q - r
-        for b in range(4):
-            v0, v1, v2, v3 = values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3]
-            rise = v2 - v1
-            m1, m2 = _tangent(v1 - v0, rise, dx), _tangent(rise, v3 - v2, dx)
-            k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-            f[0, b] = v1 + s * (m1 + s * (k2 + s * k3))
-            f[1, b] = m1 + s * (2.0 * k2 + s * 3.0 * k3)
-            f[2, b] = 2.0 * k2 + s * 6.0 * k3
-        rise = f[0, 2] - f[0, 1]
-        m1, m2 = _tangent(f[0, 1] - f[0, 0], rise, dy), _tangent(rise, f[0, 3] - f[0, 2], dy)
+        z, zx, zy, zxx, zxy, zyy = read_point(values, dx, dy, x[i], y[i], f)
+        elevation[i], slope_x[i], slope_y[i] = z, zx, zy
+        curvature_xx[i], curvature_xy[i], curvature_yy[i] = zxx, zxy, zyy
+
+
+@inner
+def read_point(values, dx, dy, x, y, f):
+    """Return elevation [m], slopes [-] along x and y, and curvatures [m-1] along xx, xy and yy at a point x, y [m].
+
+    `values`, `dx`, `dy` as in `_sample`; `f`, shape (3, 4), is scratch. What a caller does not use is not computed.
+    """
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    p, q = x / dx, y / dy
+    c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
+    s, t = p - c, q - r
+    for b in range(4):  # on four rows: value, first and second derivative along x, per node
+        v0, v1, v2, v3 = values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3]
+        rise = v2 - v1
+        m1, m2 = _tangent(v1 - v0, rise, dx), _tangent(rise, v3 - v2, dx)
         k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        elevation[i] = f[0, 1] + t * (m1 + t * (k2 + t * k3))
-        slope_y[i], curvature_yy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy, (2.0 * k2 + t * 6.0 * k3) / (dy * dy)
-        rise, m1, m2 = f[1, 2] - f[1, 1], 0.5 * (f[1, 2] - f[1, 0]), 0.5 * (f[1, 3] - f[1, 1])
-        k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        slope_x[i] = (f[1, 1] + t * (m1 + t * (k2 + t * k3))) / dx
-        curvature_xy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / (dx * dy)
-        rise, m1, m2 = f[2, 2] - f[2, 1], 0.5 * (f[2, 2] - f[2, 0]), 0.5 * (f[2, 3] - f[2, 1])
-        k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        curvature_xx[i] = (f[2, 1] + t * (m1 + t * (k2 + t * k3))) / (dx * dx)
+        f[0, b] = v1 + s * (m1 + s * (k2 + s * k3))
+        f[1, b] = m1 + s * (2.0 * k2 + s * 3.0 * k3)
+        f[2, b] = 2.0 * k2 + s * 6.0 * k3
+    rise = f[0, 2] - f[0, 1]
+    m1, m2 = _tangent(f[0, 1] - f[0, 0], rise, dy), _tangent(rise, f[0, 3] - f[0, 2], dy)
+    k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+    z = f[0, 1] + t * (m1 + t * (k2 + t * k3))
+    zy, zyy = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy, (2.0 * k2 + t * 6.0 * k3) / (dy * dy)
+    rise, m1, m2 = f[1, 2] - f[1, 1], 0.5 * (f[1, 2] - f[1, 0]), 0.5 * (f[1, 3] - f[1, 1])
+    k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+    zx = (f[1, 1] + t * (m1 + t * (k2 + t * k3))) / dx
+    zxy = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / (dx * dy)
+    rise, m1, m2 = f[2, 2] - f[2, 1], 0.5 * (f[2, 2] - f[2, 0]), 0.5 * (f[2, 3] - f[2, 1])
+    k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+    zxx = (f[2, 1] + t * (m1 + t * (k2 + t * k3))) / (dx * dx)
+    return z, zx, zy, zxx, zxy, zyy
