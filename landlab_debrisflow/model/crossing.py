@@ -10,8 +10,9 @@ wall one node thick.
 import numpy as np
 
 from ..core.jit import inner, kernel
+from ..core.lanes import lane_surroundings
 from ..spatial.raster import CLOSED, Raster, is_walled, nearest_place
-from ..terrain.surface import read_point
+from ..terrain.surface import slopes_at
 
 WALL_NEAR = 2
 """Distance in nodes within which a closed node is near."""
@@ -109,7 +110,7 @@ def _cross(position, slopes, curvature, motion, ground, raster, ways, short_time
     most : float
         Longest step by other limits [s].
     """
-    x, y = position
+    (x, y), (values, spacing_x, spacing_y) = position, ground
     velocity, way, longest_way = motion[0], ways[0], ways[1]
     status, columns, rows, dx, dy, walled = raster
     place, bend, found, shortest = np.empty(short_times.size, np.int64), np.empty(short_times.size), 0, most
@@ -135,7 +136,7 @@ def _cross(position, slopes, curvature, motion, ground, raster, ways, short_time
         place[found], bend[found] = i, turn
         found += 1
         shortest = min(shortest, time_over(_way_by_turn(turn, ways), speed2, gain))
-    values, scratch = ground[0], np.empty((3, 4))
+    around = lane_surroundings()
     for k in range(found):
         i = place[k]
         if short_times[i] >= shortest:
@@ -144,7 +145,7 @@ def _cross(position, slopes, curvature, motion, ground, raster, ways, short_time
         u, v = velocity[0, i], velocity[1, i]
         over_map = np.sqrt(u * u + v * v)
         there_x, there_y = x[i] + longest_way * u / over_map, y[i] + longest_way * v / over_map
-        _, slope_x, slope_y, _, _, _ = read_point(values, ground[1], ground[2], there_x, there_y, scratch)
+        slope_x, slope_y = slopes_at(values, spacing_x, spacing_y, there_x, there_y, around)
         to_end = np.sqrt((slope_x - slopes[0][i]) ** 2 + (slope_y - slopes[1][i]) ** 2)
         shortest = min(shortest, time_over(_way_by_turn(max(to_end, bend[k]), ways), speed2, gain))
     return shortest
