@@ -9,7 +9,7 @@ wall one node thick.
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner
 from ..core.lanes import lane_surroundings
 from ..spatial.raster import CLOSED, Raster, is_walled, nearest_place
 from ..terrain.surface import slopes_at
@@ -82,7 +82,7 @@ def _way_by_turn(turn, ways):
     return longest_way if turn <= most_turn else max(way, longest_way * most_turn / turn)
 
 
-@kernel
+@allocating_kernel
 def _cross(position, slopes, curvature, motion, ground, raster, ways, short_times, most):
     """Return the longest step in which particles cross no more than they may where the surface turns [s].
 

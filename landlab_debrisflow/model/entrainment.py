@@ -7,7 +7,7 @@ changes: at an edge of erodible soil by half a step of travel.
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel, kernel
 from ..core.threads import over_particles
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
@@ -162,7 +162,7 @@ def _demand(rate, volume, depth, share, dt, demanded):
     return found
 
 
-@kernel
+@allocating_kernel
 def _go(x, y, velocity, raster, time, nearest):
     """Return places of particles after straight ways for a time [s], shape (2, n) [m], none outside of core nodes.
 

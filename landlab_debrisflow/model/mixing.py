@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import allocating_kernel
+from ..core.jit import kernel
 from ..core.structs import struct
 
 

@@ -145,7 +145,9 @@ def _wake(cells, inside, stirred):
         Scratch for reach and awake as they come in.
     """
     columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
-    inside[:], stirred[:], sleepers = reach, awake, False
+    sleepers = False
+    for c in range(_U64(reach.size)):
+        inside[c], stirred[c] = reach[c], awake[c]
     for row in range(rows):
         for column in range(columns):
             c = _U64(row * columns + column)
