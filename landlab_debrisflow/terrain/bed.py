@@ -162,6 +162,8 @@ class Bed:
 
     def eroded_in_event(self, nodes):
         """Return the depth eroded at some nodes since the event began [m]."""
+        if self.soil is None:
+            return np.zeros(nodes.size) if self._earlier is None else self._earlier[nodes]
         self._fit(self._cover.slots.count)
         taken = taken_at(nodes, self._cover.slots.of_node, self._taken)
         return taken if self._earlier is None else self._earlier[nodes] + taken
