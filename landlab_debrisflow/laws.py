@@ -7,7 +7,8 @@ Examples
 500.0
 """
 
-from .core.jit import inner, kernel
+from .core.jit import allocating_kernel as kernel
+from .core.jit import inner
 from .core.parameters import declared, on_nodes, parameter
 from .core.variables import Variable
 from .physics.bed_state import BedState

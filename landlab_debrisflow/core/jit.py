@@ -23,7 +23,7 @@ import numba
 from numba.core import event as events
 from numba.extending import register_jitable
 
-__all__ = ["approximate_kernel", "events", "inner", "kernel"]
+__all__ = ["allocating_kernel", "approximate_kernel", "events", "inner", "kernel"]
 
 _REORDER = {"reassoc", "contract", "arcp", "nsz"}
 
@@ -33,8 +33,13 @@ _CHOICES: dict[str, Any] = {
     "no_cfunc_wrapper": True,  # nothing is called from C
 }
 
-kernel: Any = numba.njit(cache=True, fastmath=_REORDER, **_CHOICES)
-"""Decorator of functions that Python calls."""
+allocating_kernel: Any = numba.njit(cache=True, fastmath=_REORDER, **_CHOICES)
+"""Decorator of functions that Python calls, and that may make arrays."""
+
+kernel: Any = numba.njit(cache=True, fastmath=_REORDER, _nrt=False, **_CHOICES)
+"""Decorator of functions that Python calls, and that make no array: `np.empty`, `copy` and sums of whole arrays do not
+compile. numba then counts no references to arrays: a call takes less than half the time (15 arrays: 0.35 instead of
+0.79 us)."""
 
 approximate_kernel: Any = numba.njit(cache=True, fastmath=_REORDER | {"afn"}, **_CHOICES)
 """`kernel` for sums of floats whose reciprocal roots may be the processor's estimate, refined once (3e-7)."""

@@ -27,6 +27,9 @@ def _lanes() -> int:
 LANES = _lanes()
 """Floats in one vector register."""
 
+DOUBLES = LANES // 2
+"""Numbers of double precision in one vector register."""
+
 
 def lane_floats():
     """Return an array of float32, shape (LANES,), not initialised; it lives until the kernel that asked for it ends."""
@@ -38,8 +41,18 @@ def lane_places():
     return np.empty(LANES, np.int32)
 
 
-def _on_the_stack(function, number):
-    """Let kernels have the array that `function` returns on their stack, as numbers of a numba type."""
+def lane_doubles():
+    """Return an array of float64, shape (DOUBLES,), not initialised; it lives until the kernel that asked ends."""
+    return np.empty(DOUBLES)
+
+
+def lane_surroundings():
+    """Return an array of float64, shape (16 DOUBLES,), for 16 nodes per lane, as `lane_doubles` does."""
+    return np.empty(16 * DOUBLES)
+
+
+def _on_the_stack(function, number, count):
+    """Let kernels have the array of `count` numbers of a numba type that `function` returns on their stack."""
 
     @type_callable(function)
     def find_type(context):
@@ -49,15 +62,15 @@ def _on_the_stack(function, number):
     def make(context, builder, signature, arguments):
         size = context.get_abi_sizeof(context.get_value_type(number))
         with builder.goto_entry_block():
-            room = builder.alloca(ir.ArrayType(context.get_value_type(number), LANES))
-            room.align = size * LANES
+            room = builder.alloca(ir.ArrayType(context.get_value_type(number), count))
+            room.align = 4 * LANES
         array = make_array(signature.return_type)(context, builder)
 
         def constant(value):
             return context.get_constant(types.intp, value)
 
         populate_array(
-            array, data=builder.bitcast(room, array.data.type), shape=(constant(LANES),), strides=(constant(size),),
+            array, data=builder.bitcast(room, array.data.type), shape=(constant(count),), strides=(constant(size),),
             itemsize=constant(size), meminfo=None,
         )  # fmt: skip
         return array._getvalue()
@@ -110,5 +123,7 @@ def _append_hits(context, builder, signature, arguments):
     return builder.add(count, builder.zext(moved, count.type))
 
 
-_on_the_stack(lane_floats, types.float32)
-_on_the_stack(lane_places, types.int32)
+_on_the_stack(lane_floats, types.float32, LANES)
+_on_the_stack(lane_places, types.int32, LANES)
+_on_the_stack(lane_doubles, types.float64, DOUBLES)
+_on_the_stack(lane_surroundings, types.float64, 16 * DOUBLES)

@@ -170,7 +170,7 @@ class EnsemblePlan(Printed):
 
 
 def with_steps(setup: Setup, preset: str) -> Setup:
-    """Return a setup with the steps of a preset; those of the setup if the preset is empty."""
+    """Return a setup with the steps of a preset, or as it is if the preset is empty."""
     if not preset:
         return setup
     values: dict[str, Any] = {"preset": preset} | PRESETS[preset]

@@ -85,7 +85,7 @@ class EnsembleResults:
 
     @property
     def plan(self) -> EnsemblePlan | None:
-        """Particles, column and steps that pilot runs chose; None: those of the scene."""
+        """Particles, column and steps that pilot runs chose; None without pilot runs."""
         plain = self._store.header.plan
         return None if plain is None else EnsemblePlan.from_mapping(plain)
 

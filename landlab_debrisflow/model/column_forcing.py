@@ -98,6 +98,8 @@ def column_forcing(p, which: slice, columns: ColumnPhysics, entrained, entrained
 
 def forcing_of(forcing: ColumnForcing, which: slice) -> ColumnForcing:
     """Return the part of a forcing that belongs to the columns at `which`; numbers of all columns stay as they are."""
+    if which.stop - which.start == forcing.volume.size:
+        return forcing
 
     def part(value):
         return value[which] if isinstance(value, np.ndarray) and value.size > 1 else value
@@ -112,7 +114,7 @@ def _shearing(p, which: slice, columns: ColumnPhysics) -> Shearing:
     thickness, density = p.thickness[which], p.density[which]
     weight = BedLoad(thickness=thickness, density=density, pressure=np.zeros(thickness.size))
     speed, _, load = press_on_bed(
-        which.start or 0, p.velocity, p.surface_sample, p.cos_slope, weight, weighing_on(material, columns.spacing)
+        which.start or 0, p.velocity, p.curvature, p.cos_slope, weight, weighing_on(material, columns.spacing)
     )  # fmt: skip
     return shearing_of(material, speed * shear_per_speed(thickness, material), load)
 

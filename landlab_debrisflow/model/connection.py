@@ -38,7 +38,7 @@ def find_bodies(x, y, z, support):
     parent = np.arange(x.size)
     spheres = Spheres(x=x, y=y, z=z, support=support)
     window = np.ceil(cells.reach / cells.size).astype(int)
-    _join(spheres, cells.columns, cells.order, cells.start, window, parent)
+    _join(spheres, cells.columns, cells.order, cells.start, window, parent, np.zeros(window.size, np.bool_))
     return np.unique(parent, return_inverse=True)[1]
 
 
@@ -79,7 +79,7 @@ def _join_cells(spheres, order, one, other, parent):
 
 
 @kernel
-def _join(spheres, columns, order, start, window, parent):
+def _join(spheres, columns, order, start, window, parent, whole):
     """Join neighbours to bodies: write for each particle the one that stands for its body.
 
     Parameters
@@ -91,18 +91,18 @@ def _join(spheres, columns, order, start, window, parent):
         Number of cells in x and in y within which neighbours may lie.
     parent : ndarray of int, shape (n,)
         Each particle itself, on entry.
+    whole : ndarray of bool, shape (cells,)
+        Whether all particles of a cell are known to be of one body; false on entry.
     """
-    whole = np.zeros(start.size - 1, np.bool_)  # the two cells are already known to belong to one body
     for cell in range(start.size - 1):
         row, column, w = cell // columns, cell % columns, window[cell]
         here = start[cell], start[cell + 1]
         if here[0] == here[1]:
             continue
-        whole[cell] = _join_cells(spheres, order, here, here, parent)
         for r in range(row, max(row - w, 0) - 1, -1):
-            for q in range(max(column - w, 0), min(column + w, columns - 1) + 1):
+            for q in range(min(column + w, columns - 1), max(column - w, 0) - 1, -1):  # the cell itself comes first
                 other = r * columns + q
-                if other >= cell or start[other] == start[other + 1]:  # every pair of particles is examined once
+                if other > cell or start[other] == start[other + 1]:  # every pair of particles is examined once
                     continue
                 first, second = order[here[0]], order[start[other]]
                 if whole[cell] and whole[other] and _root(parent, first) == _root(parent, second):

@@ -9,8 +9,10 @@ wall one node thick.
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner
+from ..core.lanes import lane_surroundings
 from ..spatial.raster import CLOSED, Raster, is_walled, nearest_place
+from ..terrain.surface import slopes_at
 
 WALL_NEAR = 2
 """Distance in nodes within which a closed node is near."""
@@ -19,7 +21,7 @@ NO_WALLS = Raster(np.empty(0, np.uint8), 0, 0, 1.0, 1.0, np.empty(0, bool))
 """A raster without nodes."""
 
 
-def find_time_across(p, surface, walls, rule, gravity: float, most: float) -> float:
+def find_time_across(p, surface, walls, rule, gravity: float, short_times, most: float) -> float:
     """Return the longest step in which no particle crosses more terrain than it may, or `most` if that is shorter [s].
 
     Parameters
@@ -34,18 +36,15 @@ def find_time_across(p, surface, walls, rule, gravity: float, most: float) -> fl
         Bounds of a step.
     gravity : float
         Acceleration by gravity [m s-2].
+    short_times : ndarray, shape (awake,)
+        Time in which each particle may go the way that is short enough anywhere [s].
     most : float
         Longest step by other limits [s].
     """
-    place, ahead = np.empty(p.awake, np.int64), np.empty((2, p.awake))
-    motion = p.velocity, p.thrust, gravity
-    found, shortest = _look_ahead(p.x, p.y, motion, walls or NO_WALLS, rule.way, rule.longest_way, most, place, ahead)
-    if found == 0:
-        return float(shortest)
-    there = surface.sample(ahead[0, :found], ahead[1, :found])
-    here, curvature = (p.slope_x, p.slope_y), (p.curvature_xx, p.curvature_xy, p.curvature_yy)
-    ways = rule.way, rule.longest_way, rule.turn
-    return float(_cross(place[:found], here, (there.slope_x, there.slope_y), curvature, motion, ways, shortest))
+    motion, slopes = (p.velocity, p.thrust, gravity), (p.slope_x, p.slope_y)
+    curvature = p.curvature_xx, p.curvature_xy, p.curvature_yy
+    ways, ground = (rule.way, rule.longest_way, rule.turn), (surface.values, surface.dx, surface.dy)
+    return float(_cross((p.x, p.y), slopes, curvature, motion, ground, walls or NO_WALLS, ways, short_times, most))
 
 
 @inner
@@ -76,41 +75,49 @@ def _is_wall_near(row, column, status, columns, rows):
     return False
 
 
-@kernel
-def _look_ahead(x, y, motion, raster, way, longest_way, most, place, ahead):
-    """Find the particles that may go farther than `way`, and the place that each of them may reach.
+@inner
+def _way_by_turn(turn, ways):
+    """Return how far a particle may go where the surface turns by an angle [rad] on the longest way [m]."""
+    way, longest_way, most_turn = ways
+    return longest_way if turn <= most_turn else max(way, longest_way * most_turn / turn)
+
+
+@allocating_kernel
+def _cross(position, slopes, curvature, motion, ground, raster, ways, short_times, most):
+    """Return the longest step in which particles cross no more than they may where the surface turns [s].
+
+    The first loop knows only how the surface bends below the particles; what it finds is not too short. The second
+    looks at the end of the longest way of those particles that could make it shorter, which are few.
 
     Parameters
     ----------
-    x, y : ndarray, shape (n,)
-        Position [m].
+    position : tuple of ndarray, shape (n,)
+        Map coordinates x and y of all particles [m].
+    slopes : tuple of ndarray, shape (n,)
+        Slopes of the bed, dz/dx and dz/dy, below all particles [-].
+    curvature : tuple of ndarray, shape (n,)
+        d2z/dx2, d2z/dxdy and d2z/dy2 below all particles [m-1].
     motion : tuple
         Velocity [m s-1] and thrust [m s-2], shape (3, n), and gravity [m s-2].
+    ground : tuple
+        Elevation of nodes with their rim [m], and node spacings [m] (`Surface`).
     raster : Raster
         Nodes and their statuses; without nodes there are no walls.
-    way, longest_way : float
-        Way in a step over bending and over even ground [m].
+    ways : tuple of float
+        Way in a step over bending and over even ground [m], and the largest turn of even ground [rad].
+    short_times : ndarray, shape (m,)
+        Time for the first of these ways, of the m particles that are awake [s].
     most : float
         Longest step by other limits [s].
-    place : ndarray of int, shape (m,)
-        Written: places of particles found, as many as there are. The m particles are awake.
-    ahead : ndarray, shape (2, m)
-        Written: position at the end of the longest way [m].
-
-    Returns
-    -------
-    found : int
-        Number of particles found.
-    shortest : float
-        Longest step for the others, at most `most` [s].
     """
+    (x, y), (values, spacing_x, spacing_y) = position, ground
+    velocity, way, longest_way = motion[0], ways[0], ways[1]
     status, columns, rows, dx, dy, walled = raster
-    velocity, found, shortest = motion[0], 0, most
-    for i in range(place.size):
-        speed2, gain = _pace(i, motion)
-        time = time_over(way, speed2, gain)
-        if time >= most:
+    place, bend, found, shortest = np.empty(short_times.size, np.int64), np.empty(short_times.size), 0, most
+    for i in range(short_times.size):
+        if short_times[i] >= shortest:
             continue
+        speed2, gain = _pace(i, motion)
         u, v = velocity[0, i], velocity[1, i]
         over_map = np.sqrt(u * u + v * v)
         # slower than what it may gain on the way, it may go anywhere
@@ -119,49 +126,26 @@ def _look_ahead(x, y, motion, raster, way, longest_way, most, place, ahead):
             row, column = nearest_place(y[i], dy, rows), nearest_place(x[i], dx, columns)
             short = is_walled(row, column, walled, columns) and _is_wall_near(row, column, status, columns, rows)
         if short:
-            shortest = min(shortest, time)
-        else:
-            place[found] = i
-            ahead[0, found], ahead[1, found] = x[i] + longest_way * u / over_map, y[i] + longest_way * v / over_map
-            found += 1
-    return found, shortest
-
-
-@kernel
-def _cross(place, here, there, curvature, motion, ways, shortest):
-    """Return the longest step in which particles cross no more than they may where the surface turns [s].
-
-    Parameters
-    ----------
-    place : ndarray of int, shape (k,)
-        Places of the particles.
-    here : tuple of ndarray, shape (n,)
-        Slopes of the bed, dz/dx and dz/dy, below all particles [-].
-    there : tuple of ndarray, shape (k,)
-        Slopes at the end of the longest way [-].
-    curvature : tuple of ndarray, shape (n,)
-        d2z/dx2, d2z/dxdy and d2z/dy2 below all particles [m-1].
-    motion : tuple
-        As in `_look_ahead`.
-    ways : tuple of float
-        Way in a step over bending and over even ground [m], and the largest turn of even ground [rad].
-    shortest : float
-        Longest step by other limits [s].
-    """
-    way, longest_way, most_turn = ways
-    velocity = motion[0]
-    for k in range(place.size):
-        i = place[k]
-        speed2, gain = _pace(i, motion)
-        if time_over(way, speed2, gain) >= shortest:
+            shortest = short_times[i]
             continue
+        # change of the slopes, which is at least the angle between the normals, if the bend goes on
+        scale = longest_way / over_map
+        along_x = scale * (curvature[0][i] * u + curvature[1][i] * v)
+        along_y = scale * (curvature[1][i] * u + curvature[2][i] * v)
+        turn = np.sqrt(along_x * along_x + along_y * along_y)
+        place[found], bend[found] = i, turn
+        found += 1
+        shortest = min(shortest, time_over(_way_by_turn(turn, ways), speed2, gain))
+    around = lane_surroundings()
+    for k in range(found):
+        i = place[k]
+        if short_times[i] >= shortest:
+            continue
+        speed2, gain = _pace(i, motion)
         u, v = velocity[0, i], velocity[1, i]
-        scale = longest_way / np.sqrt(u * u + v * v)
-        # change of the slopes, which is at least the angle between the normals: to the end, and if the bend goes on
-        to_end = np.sqrt((there[0][k] - here[0][i]) ** 2 + (there[1][k] - here[1][i]) ** 2)
-        x = scale * (curvature[0][i] * u + curvature[1][i] * v)
-        y = scale * (curvature[1][i] * u + curvature[2][i] * v)
-        turn = max(to_end, np.sqrt(x * x + y * y))
-        here_way = longest_way if turn <= most_turn else max(way, longest_way * most_turn / turn)
-        shortest = min(shortest, time_over(here_way, speed2, gain))
+        over_map = np.sqrt(u * u + v * v)
+        there_x, there_y = x[i] + longest_way * u / over_map, y[i] + longest_way * v / over_map
+        slope_x, slope_y = slopes_at(values, spacing_x, spacing_y, there_x, there_y, around)
+        to_end = np.sqrt((slope_x - slopes[0][i]) ** 2 + (slope_y - slopes[1][i]) ** 2)
+        shortest = min(shortest, time_over(_way_by_turn(max(to_end, bend[k]), ways), speed2, gain))
     return shortest

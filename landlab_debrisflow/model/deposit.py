@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..core.jit import kernel
+
 
 def resting_depth(p, origins, bed):
     """Return nodes, shape (k,), and the depth of particles that lie still on them, shape (k,) [m].
@@ -28,13 +30,22 @@ def resting_depth(p, origins, bed):
     return every, np.bincount(place, np.concatenate([depth, given / bed.raster.area]), every.size)
 
 
+@kernel
+def _span(values):
+    """Return the least and the largest of some values; infinity and its negative if there is none."""
+    least, largest = np.inf, -np.inf
+    for i in range(values.size):
+        least, largest = min(least, values[i]), max(largest, values[i])
+    return least, largest
+
+
 def extent(p, origins, inflow, raster) -> tuple[float, float]:
     """Return least and largest y of the ground that a step may change [m]; the first is larger if there is none.
 
     `p` are the particles, `origins` the places of mass that has never moved, `inflow` the inflow to come, `raster` the
     nodes.
     """
-    south, north = (p.y.min(), p.y.max()) if p.y.size else (np.inf, -np.inf)
+    south, north = _span(p.y)
     if nodes := origins.span:  # nodes to which mass that never moved may return
         first, last = nodes[0] // raster.columns * raster.dy, nodes[1] // raster.columns * raster.dy
         south, north = min(south, first), max(north, last)

@@ -7,7 +7,7 @@ changes: at an edge of erodible soil by half a step of travel.
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel, kernel
 from ..core.threads import over_particles
 from ..physics.bed_state import SATURATED_BED, BedState
 from ..physics.contracts import is_jump_condition
@@ -55,8 +55,7 @@ def entrain(
     bearing, material = phases.bearing(p), erosion.material
     x, y = p.x, p.y
     if bed.soil is not None:
-        x, y = x.copy(), y.copy()
-        _go(x, y, p.velocity, bed.raster, EROSION_TIME * dt, p.nearest_node[: p.awake])
+        x, y = _go(x, y, p.velocity, tuple(bed.raster), EROSION_TIME * dt, p.nearest_node[: p.awake])
         if bed.pore_pressure is not None:  # soil at the front brings the pressure that the front has made there
             load_bed(p, bed, material, time + EROSION_TIME * dt, EROSION_TIME * dt, bed.footprints(p, x, y))
     rate = np.zeros(bearing.stop)
@@ -66,35 +65,36 @@ def entrain(
         erosion.law.entrainment_rate(_erosion_state(p, which, bed, erosion, resistance), rate[which])
 
     over_particles(ask_some, rate.size, threads)
-    rate[prescribed[prescribed < rate.size]] = 0.0
+    if prescribed.size:
+        rate[prescribed[prescribed < rate.size]] = 0.0
     phases.limit_entrainment(exchange, rate)
-    np.divide(rate * p.volume[bearing], p.depth[bearing] * p.share[bearing], out=demanded)
-    demanded *= dt
-    p.entrained_volume[bearing] = p.entrained_ratio[bearing] = 0.0
-    if bed.soil is not None and demanded.any():
-        footprints = bed.footprints(p, x, y)
-        p.entrained_volume[bearing], p.entrained_ratio[bearing] = bed.erode(footprints, demanded)
+    entrained, ratio = p.entrained_volume[bearing], p.entrained_ratio[bearing]
+    if _demand(rate, p.volume, p.depth, p.share, dt, demanded) and bed.soil is not None:
+        bed.erode(bed.footprints(p, x, y), demanded, out=(entrained, ratio))
         if bed.saturation is not None:
             dry_pores(p, bed, material)
+    else:
+        entrained[:] = ratio[:] = 0.0
     # the friction of the flow already contains the momentum of soil that a jump condition gives: as if it slipped along
     slip_ratio = 1.0 if is_jump_condition(erosion.law) else material.basal_slip_ratio
     soil = Soil(
         solid_fraction=phases.solid_fraction, slip_ratio=slip_ratio, porosity=material.soil_porosity,
         solid_density=material.solid_density, bearing_density=material.bearing_density,
     )  # fmt: skip
-    velocity_ratio = np.ones(p.awake)
+    velocity_ratio = np.empty(p.awake)
+    velocity_ratio[rate.size :] = 1.0
 
     def mix_some(which: slice) -> None:
         layer = Layer(
-            depth=p.depth[which], thickness=p.thickness[which], share=p.share[which], cosine=p.cos_slope[which],
+            depth=p.depth, thickness=p.thickness, share=p.share, cosine=p.cos_slope,
             coefficient_of_consolidation=phases.coefficient_of_consolidation(p, which),
         )  # fmt: skip
-        mixture = Mixture(volume=p.volume[which], porosity=p.porosity[which], density=p.density[which])
+        mixture = Mixture(volume=p.volume, porosity=p.porosity, density=p.density)
         erosion_record = Erosion(
-            rate=p.entrainment_rate[which], first_time=p.first_erosion_time[which],
-            peclet_number=p.basal_peclet_number[which],
-        )  # fmt: skip
-        velocity_ratio[which] = mix(p.entrained_volume[which], soil, layer, mixture, erosion_record, time, dt)
+            rate=p.entrainment_rate, first_time=p.first_erosion_time, peclet_number=p.basal_peclet_number
+        )
+        place = which.start, which.stop
+        mix(*place, p.entrained_volume, soil, layer, mixture, erosion_record, time, dt, velocity_ratio)
 
     over_particles(mix_some, rate.size, threads)
     phases.share_entrained(p, exchange)
@@ -105,9 +105,10 @@ def _erosion_state(p, bearing: slice, bed, erosion: BasalLaw, resistance):
     """Return the base under particles `p[bearing]` as a law reads it, a `BasalState`; arguments as in `entrain`."""
     yield_stress, drag = resistance
     nodes = p.nearest_node[bearing]
-    state = basal_state(p, bearing, erosion, eroded_depth=bed.eroded_in_event(nodes))
-    shear = yield_stress[bearing] + drag[bearing] * state.speed
-    return state._replace(stress=state.stress._replace(shear=shear), bed=_bed_state(bed, nodes))
+    return basal_state(
+        p, bearing, erosion, eroded_depth=bed.eroded_in_event(nodes),
+        resistance=(yield_stress[bearing], drag[bearing]), bed=_bed_state(bed, nodes),
+    )  # fmt: skip
 
 
 def _bed_state(bed, nodes) -> BedState:
@@ -138,13 +139,37 @@ def dry_pores(p, bed, material) -> None:
 
 
 @kernel
+def _demand(rate, volume, depth, share, dt, demanded):
+    """Write the volume of soil that particles demand in a step, shape (m,) [m3]; return whether any demands soil.
+
+    Parameters
+    ----------
+    rate : ndarray, shape (m,)
+        Erosion rate per map area that the first m particles ask for [m s-1].
+    volume, depth, share : ndarray, shape (n,)
+        Volume [m3], depth of the flow [m] and fraction of the own phase [-] of all particles.
+    dt : float
+        Length of the step [s].
+    demanded : ndarray, shape (m,)
+        Written [m3].
+    """
+    for i in range(rate.size):
+        demanded[i] = rate[i] * volume[i] / (depth[i] * share[i])
+    found = False
+    for i in range(rate.size):
+        demanded[i] *= dt
+        found |= demanded[i] != 0.0
+    return found
+
+
+@allocating_kernel
 def _go(x, y, velocity, raster, time, nearest):
-    """Move points along straight ways for a time [s], in place, unless they end outside of core nodes.
+    """Return places of particles after straight ways for a time [s], shape (2, n) [m], none outside of core nodes.
 
     Parameters
     ----------
     x, y : ndarray, shape (n,)
-        Position of the particles, of which the first m move [m].
+        Position of the particles, of which the first m move; the others stay [m].
     velocity : ndarray, shape (3, n)
         Their velocity [m s-1].
     raster : Raster
@@ -155,8 +180,12 @@ def _go(x, y, velocity, raster, time, nearest):
         Node nearest to each, changed in place.
     """
     status, columns, rows, dx, dy, _ = raster
+    place = np.empty((2, x.size))
+    for i in range(x.size):
+        place[0, i], place[1, i] = x[i], y[i]
     for i in range(nearest.size):
         new_x, new_y = x[i] + time * velocity[0, i], y[i] + time * velocity[1, i]
         node = nearest_node(new_x, new_y, dx, dy, columns, rows)
         if node >= 0 and status[node] == CORE:
-            x[i], y[i], nearest[i] = new_x, new_y, node
+            place[0, i], place[1, i], nearest[i] = new_x, new_y, node
+    return place

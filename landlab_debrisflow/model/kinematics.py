@@ -64,7 +64,7 @@ def along_bed(i, push, slope_x, slope_y, cosine, gravity):
 
 
 @kernel
-def kick(first, velocity, push, sample, cosine, resistance, gravity, dt):
+def kick(first, velocity, push, slope, cosine, resistance, gravity, dt):
     """Accelerate particles along the bed for `dt` seconds, friction included, in place.
 
     Friction opposes the motion, never reverses it, and holds a body whose driving stress is below
@@ -77,8 +77,8 @@ def kick(first, velocity, push, sample, cosine, resistance, gravity, dt):
         Place of the first particle to kick.
     velocity, push : ndarray, shape (3, all)
         Velocity [m s-1], and acceleration by forces between particles [m s-2].
-    sample : SurfaceSample
-        Surface of the bed below all particles.
+    slope : tuple of ndarray, shape (all,)
+        Slope of the bed below all particles along x and y [-].
     cosine : ndarray, shape (all,)
         Cosine of the slope of the bed [-].
     resistance : Resistance
@@ -88,7 +88,7 @@ def kick(first, velocity, push, sample, cosine, resistance, gravity, dt):
         Acceleration by gravity [m s-2].
     """
     yield_stress, drag, mass, rest_speed = resistance
-    _, slope_x, slope_y, _, _, _ = sample
+    slope_x, slope_y = slope
     for k in range(mass.size):
         i = first + k
         ax, ay, az = along_bed(i, push, slope_x, slope_y, cosine, gravity)

@@ -48,8 +48,8 @@ class Layer(NamedTuple):
         Fraction of the thickness that belongs to the particle's own phase [-].
     cosine : ndarray, shape (n,)
         Cosine of the slope of the bed [-].
-    coefficient_of_consolidation : ndarray, shape (n,) or (1,)
-        c_v [m2 s-1].
+    coefficient_of_consolidation : ndarray, shape (m,) or (1,)
+        c_v of the m particles that are mixed [m2 s-1].
     """
 
     depth: np.ndarray
@@ -98,16 +98,18 @@ class Erosion(NamedTuple):
 
 
 @kernel
-def mix(entrained, soil, layer, mixture, erosion, time, dt):
-    """Add entrained soil to the matter of particles, in place.
+def mix(first, last, entrained, soil, layer, mixture, erosion, time, dt, velocity_ratio):
+    """Add entrained soil to the matter of the particles from place `first` to `last` - 1, in place.
 
     The soil enters with the basal velocity v_b = `slip_ratio` v, and the flow accelerates it to v:
     d(v)/dt = - (v - v_b) dm/dt / m, so v goes like m^(slip_ratio - 1), m being the mass.
 
     Parameters
     ----------
-    entrained : ndarray, shape (m,)
-        Soil taken by the m particles that bear on the bed; changed to the volume that their own phase keeps [m3].
+    first, last : int
+        Places of the particles.
+    entrained : ndarray, shape (n,)
+        Soil taken by each; changed to the volume that the own phase keeps [m3].
     soil : Soil
         Soil that the flow takes up.
     layer : Layer
@@ -118,18 +120,14 @@ def mix(entrained, soil, layer, mixture, erosion, time, dt):
         Record of the erosion, written in place.
     time, dt : float
         Beginning and length of the step [s].
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Velocity after over velocity before [-].
+    velocity_ratio : ndarray, shape (n,)
+        Written: velocity after over velocity before [-].
     """
     solid_fraction, slip_ratio, soil_porosity, solid_density, bearing_density = soil
     depth, thickness, share, cosine, coefficient_of_consolidation = layer
     volume, porosity, density = mixture
     erosion_rate, first_time, peclet_number = erosion
-    velocity_ratio = np.empty(entrained.size)
-    for i in range(entrained.size):
+    for i in range(first, last):
         rate, before = entrained[i] * depth[i] * share[i] / (volume[i] * dt), volume[i]
         erosion_rate[i] = rate
         velocity_ratio[i] = 1.0
@@ -147,7 +145,6 @@ def mix(entrained, soil, layer, mixture, erosion, time, dt):
             if slip_ratio > 0.0:
                 velocity_ratio[i] **= 1.0 - slip_ratio
             # as `column.diagnostics.basal_peclet_number`, without its arrays: this is done in every step
-            peclet_number[i] = rate * cosine[i] * thickness[i] / value_at(coefficient_of_consolidation, i)
+            peclet_number[i] = rate * cosine[i] * thickness[i] / value_at(coefficient_of_consolidation, i - first)
             if np.isnan(first_time[i]):
                 first_time[i] = time
-    return velocity_ratio

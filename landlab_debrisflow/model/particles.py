@@ -80,6 +80,11 @@ class Particles:
         return self.z, self.slope_x, self.slope_y, self.curvature_xx, self.curvature_xy, self.curvature_yy
 
     @property
+    def curvature(self):
+        """Second derivatives of the bed below, xx, xy and yy, the arrays themselves; each of shape (n,) [m-1]."""
+        return self.curvature_xx, self.curvature_xy, self.curvature_yy
+
+    @property
     def spacing(self):
         """Spacing of particles of one phase, (V/h)^(1/2) with the depth h of this phase; shape (n,) [m]."""
         return np.sqrt(self.volume / (self.depth * self.share))

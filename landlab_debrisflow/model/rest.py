@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..core.structs import struct
 from .connection import find_bodies
 
@@ -206,7 +206,7 @@ class Bodies:
         self.at_rest, self.known = False, UNKNOWN if arrested.any() else self.known
 
 
-@kernel
+@allocating_kernel
 def _measure(awake, members, bodies, rest_energy, creep_energy, time):
     """Measure the kinetic energy of every body, and the speed at which its particles come to rest.
 

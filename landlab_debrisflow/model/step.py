@@ -81,12 +81,12 @@ def friction_and_kick(p, exchange, friction: BasalLaw, phases, walls: Raster | N
     yield_stress, drag = np.zeros((2, p.awake))
 
     def resist(which: slice) -> None:
-        yield_stress[which], drag[which] = basal_resistance(p, which, friction)
+        basal_resistance(p, which, friction, out=(yield_stress[which], drag[which]))
 
     over_particles(resist, phases.bearing(p).stop, threads)
     phases.kick(p, exchange, p.velocity, yield_stress, drag, p.rest_speed[: p.awake], dt, threads)
     if walls is not None:
-        stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, walls, 2.0 * dt, p.touched_wall[: p.awake])
+        stop_at_walls(p.x, p.y, p.velocity, p.surface_sample, tuple(walls), 2.0 * dt, p.touched_wall[: p.awake])
     return yield_stress, drag
 
 
@@ -116,12 +116,13 @@ def move(p, bed, velocity_ratio, outflow, phases, time: float, dt: float, thread
         If a position is not a number.
     """
     eroded, position, exit_node = p.entrained_volume[: p.awake].any(), (p.x, p.y, p.z), np.empty(p.awake, np.int64)
+    raster = tuple(bed.raster)
 
     def drift_some(which: slice) -> bool:
         if eroded:  # the bed is lower: the flow does not gain energy by this fall
             bed.surface.elevation_into(p.x[which], p.y[which], p.z[which])
         return drift(
-            which.start, position, p.velocity, velocity_ratio[which], bed.raster, dt, p.expected_elevation,
+            which.start, position, p.velocity, velocity_ratio[which], raster, dt, p.expected_elevation,
             p.touched_wall, exit_node[which],
         )  # fmt: skip
 
@@ -153,11 +154,11 @@ def sample_bed(p, bed, gravity: float, dt: float = 0.0, threads: int = 1) -> Non
         x=p.x, y=p.y, z=p.z, cosine=p.cos_slope, lowest_z=p.lowest_z, nearest_node=p.nearest_node,
         expected_elevation=p.expected_elevation,
     )  # fmt: skip
-    position, reference = (p.x, p.y, p.z), (p.reference_position, p.reference_volume)
+    raster, position, reference = tuple(bed.raster), (p.x, p.y, p.z), (p.reference_position, p.reference_volume)
 
     def sample_some(which: slice) -> None:
         bed.surface.sample_into(p.x[which], p.y[which], tuple(values[which] for values in sample))
-        follow_bed(which.start, which.stop, sample, p.velocity, place, bed.raster, gravity, dt)
+        follow_bed(which.start, which.stop, sample, p.velocity, place, raster, gravity, dt)
         count_still_steps(which.start, which.stop, position, p.volume, p.smoothing_length, *reference, p.still_steps)
 
     over_particles(sample_some, p.count, threads)

@@ -133,17 +133,18 @@ def reduce_particles(particles, gravity: float, rule: StepRule, stiff=NOT_STIFF,
     )  # fmt: skip
     motion = Motion(velocity=p.velocity, thrust=p.thrust, volume=p.volume)
     growth = Growth(rate=p.entrainment_rate, depth=p.depth)
-    energies = np.zeros(p.awake // ENERGY_BLOCK + 1)
+    energies, short_times = np.zeros(p.awake // ENERGY_BLOCK + 1), np.empty(p.awake)
     found = in_ranges(
         _reduce, p.awake, worth(threads, p.awake), p.awake, waves, motion, growth,
-        p.basal_excess_pore_pressure, gravity, rule.way, energies, unit=ENERGY_BLOCK,
+        p.basal_excess_pore_pressure, gravity, rule.way, energies, short_times,
+        unit=ENERGY_BLOCK,
     )  # fmt: skip
     wave_rates, growth_rates, times_across, speeds, places = zip(*found, strict=True)
     wave_rate, growth_rate, across = max(wave_rates), max(growth_rates), min(times_across)
     energy, fastest, broken = float(energies.sum()), max(speeds), max(places)
     others = min(rule.courant_number / max(wave_rate, 1e-300), GROWTH / max(growth_rate, 1e-300))
     if ground is not None and across < others and rule.way < rule.longest_way and broken < 0:
-        across = find_time_across(p, *ground, rule, gravity, others)
+        across = find_time_across(p, *ground, rule, gravity, short_times, others)
     return StepLimits(min(others, across), energy, fastest, broken)
 
 
@@ -156,7 +157,7 @@ of |dW/dr| over that of W, 7/(3 l). A light particle that meets a flow would thi
 
 
 @kernel
-def _reduce(first, last, count, waves, motion, growth, pressure, gravity, way, energies):
+def _reduce(first, last, count, waves, motion, growth, pressure, gravity, way, energies, short_times):
     """Reduce the particles from place `first` to `last` - 1 to the limits of the next step.
 
     Parameters
@@ -179,6 +180,8 @@ def _reduce(first, last, count, waves, motion, growth, pressure, gravity, way, e
         Way of a particle in a step that is short enough anywhere [m].
     energies : ndarray, shape (blocks,)
         Written, of the blocks of these particles: sum of volume times speed squared [m5 s-2].
+    short_times : ndarray, shape (count,)
+        Written, of these particles: time in which each may go `way` [s].
 
     Returns
     -------
@@ -212,7 +215,8 @@ def _reduce(first, last, count, waves, motion, growth, pressure, gravity, way, e
             if light[i]:
                 converging = min(converging, most / smoothing_length[i])
             wave_rate = max(wave_rate, fastest_wave / smoothing_length[i] + converging)
-        across = min(across, time_over(way, speed2, gravity + np.sqrt(push2)))  # also of particles not summed
+        short_times[i] = time_over(way, speed2, gravity + np.sqrt(push2))
+        across = min(across, short_times[i])  # also of particles not summed
         if not light[i]:
             growth_rate = max(growth_rate, erosion_rate[i] / depth[i])
         energies[i // ENERGY_BLOCK] += volume[i] * speed2

@@ -6,7 +6,7 @@ against the wall. The faces of closed nodes are the walls, so each ghost is in x
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from ..physics.contracts import FlowState, Position, Smoothing
 from ..spatial.raster import BLOCK, CLOSED, Raster, is_walled, nearest_place
 from ..spatial.summation import SMOOTHING_RATIO
@@ -33,11 +33,12 @@ def ghost_particles(state: FlowState, changed, walls: Raster, touched):
         `state` and `changed` with ghosts behind the n particles; the arrays given if there is none.
     """
     position, support = state.position, 2.0 * state.smoothing.length
-    count = _find(position.x, position.y, support, walls, _NONE, _NOWHERE)
+    raster = tuple(walls)
+    count = _find(position.x, position.y, support, raster, _NONE, _NOWHERE)
     if count == 0:
         return state, changed
     source, wall = np.empty(count, np.int64), np.empty((2, count))
-    _find(position.x, position.y, support, walls, source, wall)
+    _find(position.x, position.y, support, raster, source, wall)
     x, y, velocity = position.x[source], position.y[source], state.velocity[:, source]
     gap, moving = wall - np.array([x, y]), velocity.copy()
     for axis, place in enumerate((x, y)):
@@ -74,7 +75,7 @@ def bear(x, y, pull, sample, walls: Raster | None) -> None:
         return
     size = np.sqrt((pull**2).sum(axis=0))
     pull *= TOUCHING * walls.spacing / np.maximum(size, 1e-300)
-    stop_at_walls(x, y, pull, sample, walls, 1.0, np.zeros(size.size, np.int8))
+    stop_at_walls(x, y, pull, sample, tuple(walls), 1.0, np.zeros(size.size, np.int8))
     pull *= size / (TOUCHING * walls.spacing)
 
 
@@ -91,7 +92,7 @@ ALIKE_IN_MIXTURE = ("phase", "share", "cross_term", "mean_pressure")
 _NONE, _NOWHERE = np.empty(0, np.int64), np.empty((2, 0))
 
 
-@kernel
+@allocating_kernel
 def _find(x, y, support, raster, source, wall):
     """Return the number of ghosts of particles at x, y with a support [m], and write them if there is room.
 

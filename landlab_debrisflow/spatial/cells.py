@@ -112,8 +112,8 @@ def sort_into_cells(x, y, support, changed=None) -> Cells:
         computed=np.empty(n, np.bool_),
     )
     plain = tuple(found)  # kernels are called faster with plain tuples (core/structs.py)
-    _sort(x, y, support, changed, plain)
-    _wake(plain)
+    scratch = np.empty(n, np.uint64), np.empty(cells), np.empty(cells, np.bool_)
+    _sort(x, y, support, changed, plain, scratch)
     return found
 
 
@@ -133,62 +133,21 @@ def _extent(x, y, support):
     return west, east - west, south, north - south, x.size / total
 
 
-@kernel
-def _sort(x, y, support, changed, cells):
-    """Write order, start, bins, the largest support *in* each cell as reach, and as awake whether it has changed.
-
-    Parameters
-    ----------
-    x, y, support : ndarray, shape (n,)
-        Map coordinates and radius within which each particle has neighbours [m].
-    changed : ndarray of bool, shape (n,)
-        Whether each particle has changed.
-    cells : Cells
-        Bins, reach and awake are 0 on entry.
-    """
-    columns, rows, size, west, south, _, order, start, bins, places, reach, stirred, _ = cells
-    columns_of_bins, per_metre = BINS_PER_CELL * columns, 1.0 / size
-    bin_of = np.empty(x.size, np.uint64)
-    for i in range(x.size):
-        row = min(np.int64((y[i] - south) * per_metre), rows - 1)
-        column = min(np.int64((x[i] - west) * (BINS_PER_CELL * per_metre)), columns_of_bins - 1)
-        bin_of[i] = _U64(row * columns_of_bins + column)
-    for i in range(x.size):
-        bins[bin_of[i] + _ONE] += 1
-    for b in range(_U64(bins.size - 1)):
-        bins[b + _ONE] += bins[b]
-    for i in range(x.size - 1, -1, -1):  # backwards, so that particles keep their order within a bin
-        b = bin_of[_U64(i)] + _ONE
-        bins[b] -= 1
-        order[_U64(bins[b])] = i
-    # bins[b + 1] now holds the beginning of bin b: shift it back
-    for b in range(_U64(bins.size - 1)):
-        bins[b] = bins[b + _ONE]
-    bins[bins.size - 1] = x.size
-    for c in range(_U64(start.size - 1)):
-        start[c] = bins[c * _U64(BINS_PER_CELL)]
-        largest, any_changed = 0.0, False
-        for k in range(_U64(start[c]), _U64(bins[(c + _ONE) * _U64(BINS_PER_CELL)])):
-            i = _U64(order[k])
-            places[0, k], places[1, k], places[2, k] = x[i], y[i], support[i]
-            largest = max(largest, support[i])
-            any_changed |= changed[i]
-        reach[c], stirred[c] = largest, any_changed
-    start[start.size - 1] = x.size
-    _pad(places)
-
-
-@kernel
-def _wake(cells):
+@inner
+def _wake(cells, inside, stirred):
     """Turn the reach of cells from the largest support inside into the largest in reach, and find the cells awake.
 
     Parameters
     ----------
     cells : Cells
-        Sorted by `_sort`; reach, awake and computed are written.
+        Sorted into bins; reach, awake and computed are written.
+    inside, stirred : ndarray, shape (columns * rows,)
+        Scratch for reach and awake as they come in.
     """
     columns, rows, size, _, _, _, order, start, _, _, reach, awake, computed = cells
-    inside, stirred, sleepers = reach.copy(), awake.copy(), False
+    sleepers = False
+    for c in range(_U64(reach.size)):
+        inside[c], stirred[c] = reach[c], awake[c]
     for row in range(rows):
         for column in range(columns):
             c = _U64(row * columns + column)
@@ -218,6 +177,54 @@ def _wake(cells):
         awake[c] &= start[c] < start[c + _ONE]
         for k in range(_U64(start[c]), _U64(start[c + _ONE])):
             computed[_U64(order[k])] = awake[c]
+
+
+@kernel
+def _sort(x, y, support, changed, cells, scratch):
+    """Write order, start and bins, then the reach of cells, and which of them are awake.
+
+    Parameters
+    ----------
+    x, y, support : ndarray, shape (n,)
+        Map coordinates and radius within which each particle has neighbours [m].
+    changed : ndarray of bool, shape (n,)
+        Whether each particle has changed.
+    cells : Cells
+        Bins, reach and awake are 0 on entry.
+    scratch : tuple of ndarray
+        Of n uint64, and for every cell a float and a bool.
+    """
+    columns, rows, size, west, south, _, order, start, bins, places, reach, stirred, _ = cells
+    bin_of, inside, was_stirred = scratch
+    columns_of_bins, per_metre = BINS_PER_CELL * columns, 1.0 / size
+    for i in range(x.size):
+        row = min(np.int64((y[i] - south) * per_metre), rows - 1)
+        column = min(np.int64((x[i] - west) * (BINS_PER_CELL * per_metre)), columns_of_bins - 1)
+        bin_of[i] = _U64(row * columns_of_bins + column)
+    for i in range(x.size):
+        bins[bin_of[i] + _ONE] += 1
+    for b in range(_U64(bins.size - 1)):
+        bins[b + _ONE] += bins[b]
+    for i in range(x.size - 1, -1, -1):  # backwards, so that particles keep their order within a bin
+        b = bin_of[_U64(i)] + _ONE
+        bins[b] -= 1
+        order[_U64(bins[b])] = i
+    # bins[b + 1] now holds the beginning of bin b: shift it back
+    for b in range(_U64(bins.size - 1)):
+        bins[b] = bins[b + _ONE]
+    bins[bins.size - 1] = x.size
+    for c in range(_U64(start.size - 1)):
+        start[c] = bins[c * _U64(BINS_PER_CELL)]
+        largest, any_changed = 0.0, False
+        for k in range(_U64(start[c]), _U64(bins[(c + _ONE) * _U64(BINS_PER_CELL)])):
+            i = _U64(order[k])
+            places[0, k], places[1, k], places[2, k] = x[i], y[i], support[i]
+            largest = max(largest, support[i])
+            any_changed |= changed[i]
+        reach[c], stirred[c] = largest, any_changed
+    start[start.size - 1] = x.size
+    _pad(places)
+    _wake(cells, inside, was_stirred)
 
 
 def cells_of_phase(cells: Cells, in_phase) -> Cells:

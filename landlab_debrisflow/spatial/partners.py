@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel
 from .cells import Cells
 from .packing import Position
 
@@ -88,7 +88,7 @@ def reverse(partners: Partners, others) -> Partners:
     return found
 
 
-@kernel
+@allocating_kernel
 def _find(targets, sources, position, volume, length, partners):
     """Write the pairs of all particles of the targets.
 
@@ -146,7 +146,7 @@ def _find(targets, sources, position, volume, length, partners):
         first[k + 1] = pair
 
 
-@kernel
+@allocating_kernel
 def _reverse(partners, reversed_partners):
     """Write the pairs of `partners` sorted by the partner, and for one partner in the order of `partners`.
 

@@ -19,7 +19,7 @@ Sums over nodes have one place for each slot of a node (`slots`): they take the 
 
 import numpy as np
 
-from ..core.jit import inner, kernel
+from ..core.jit import allocating_kernel, inner, kernel
 from .footprints import Footprints
 from .raster import CORE, Raster
 from .slots import Slots
@@ -88,7 +88,7 @@ class Cover:
         if self._area.size < slots.count:
             self._area, self._touched = np.zeros(slots.count), np.empty(slots.count, np.int64)
         scratch = slots.of_node, slots.node, slots.used, self._area, self._touched
-        *self._last, slots.used, are_enough = _find_footprints(self._raster, *given, *scratch)
+        *self._last, slots.used, are_enough = _find_footprints(tuple(self._raster), *given, *scratch)
         return are_enough
 
 
@@ -147,7 +147,7 @@ def sharpened_cover(cover, blur):
     return there if cover <= 0.5 else 1.0 - there
 
 
-@kernel
+@allocating_kernel
 def _find_footprints(raster, x, y, volume, depth, fraction, slot_of, nodes, used, cover, touched):
     """Spread the area of particles over nodes by hat functions, and sharpen these at the edge of the covered area.
 

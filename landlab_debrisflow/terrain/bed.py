@@ -13,7 +13,7 @@ from ..spatial.footprints import Footprints
 from ..spatial.raster import CORE, FIXED_VALUE, Raster
 from ..spatial.slots import with_places
 from ..spatial.transfer import Cover, scatter
-from .soil_accounts import Demand, NodeAccounts, take_soil
+from .soil_accounts import Demand, NodeAccounts, take_soil, taken_at
 from .surface import Surface
 
 
@@ -126,7 +126,7 @@ class Bed:
         """Return the nodes on which all particles `p` of a flow lie, or would lie if they were at `x`, `y` [m]."""
         return self._cover.footprints(*((p.x, p.y) if x is None else (x, y)), p.volume, p.depth, p.share)
 
-    def erode(self, footprints: Footprints, demanded):
+    def erode(self, footprints: Footprints, demanded, out=None):
         """Take the demanded soil for particles; particles at one node divide the soil left there.
 
         Parameters
@@ -135,6 +135,8 @@ class Bed:
             Footprints of these particles, and of others that follow them.
         demanded : ndarray, shape (n,)
             Volume asked for [m3].
+        out : tuple of ndarray, shape (n,), optional
+            The two arrays to write; new ones by default.
 
         Returns
         -------
@@ -143,24 +145,27 @@ class Bed:
         ratio : ndarray, shape (n,)
             Pore pressure ratio of the soil given [-]; 0 where nothing was.
         """
+        entrained, ratio = np.zeros((2, demanded.size)) if out is None else out
         if self.soil is None:
-            return np.zeros(demanded.size), np.zeros(demanded.size)
+            return entrained, ratio
         *_, node = footprints
         self._fit(node.size)
         accounts = NodeAccounts(
             soil=self.soil, elevation=self.elevation, eroded_depth=self.eroded_depth, taken=self._taken,
-            before=self._before, pressure_ratio=self.pressure_ratio,
+            surface=self.surface.values, before=self._before, pressure_ratio=self.pressure_ratio,
         )  # fmt: skip
         demand = Demand(volume=self._demand[:, 0], granted=self._granted, touched=self._touched)
-        count, entrained, ratio = take_soil(footprints, demanded, self.raster.area, accounts, demand)
-        at = node[self._touched[:count]]
-        self.surface.move_to(at, self.elevation[at])
+        _, at_edge = take_soil(footprints, demanded, self.raster.area, accounts, demand, entrained, ratio)
+        if at_edge:
+            self.surface.extend()
         return entrained, ratio
 
     def eroded_in_event(self, nodes):
         """Return the depth eroded at some nodes since the event began [m]."""
+        if self.soil is None:
+            return np.zeros(nodes.size) if self._earlier is None else self._earlier[nodes]
         self._fit(self._cover.slots.count)
-        taken = self._taken[self._cover.slots.of_node[nodes]]
+        taken = taken_at(nodes, self._cover.slots.of_node, self._taken)
         return taken if self._earlier is None else self._earlier[nodes] + taken
 
     def depth_of(self, footprints: Footprints, volume):

@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.arrays import value_at
-from ..core.jit import kernel
+from ..core.jit import allocating_kernel, kernel
 from ..core.structs import struct
+from .surface import set_node
 
 
 @struct
@@ -23,6 +24,8 @@ class NodeAccounts(NamedTuple):
         Depth eroded so far [m].
     taken : ndarray, shape (slots,)
         Depth eroded in this call [m].
+    surface : ndarray, shape (rows + 2, columns + 2)
+        Elevation with one more node on every side [m].
     before : ndarray, shape (slots, 3)
         Soil, elevation and eroded depth at the beginning of the call, of nodes that were lowered [m].
     pressure_ratio : ndarray, shape (nodes,) or (1,)
@@ -33,6 +36,7 @@ class NodeAccounts(NamedTuple):
     elevation: np.ndarray
     eroded_depth: np.ndarray
     taken: np.ndarray
+    surface: np.ndarray
     before: np.ndarray
     pressure_ratio: np.ndarray
 
@@ -56,8 +60,17 @@ class Demand(NamedTuple):
     touched: np.ndarray
 
 
+@allocating_kernel
+def taken_at(nodes, slot_of, taken):
+    """Return the depth eroded in this call at some nodes, shape (n,) [m]; slots of nodes as in `slots.Slots`."""
+    found = np.empty(nodes.size)
+    for i in range(nodes.size):
+        found[i] = taken[slot_of[nodes[i]]]
+    return found
+
+
 @kernel
-def take_soil(footprints, demanded, area, accounts, demand):
+def take_soil(footprints, demanded, area, accounts, demand, entrained, ratio):
     """Add up the demand for soil at every node, grant the part that the soil can supply, and lower the node.
 
     Parameters
@@ -72,18 +85,20 @@ def take_soil(footprints, demanded, area, accounts, demand):
         Soil at the nodes, changed in place.
     demand : Demand
         Scratch of an erosion.
+    entrained, ratio : ndarray, shape (n,)
+        Written: volume given to each particle [m3] and its pore pressure ratio [-].
 
     Returns
     -------
     count : int
         Number of slots touched.
-    entrained, ratio : ndarray, shape (n,)
-        Volume given to each particle [m3] and its pore pressure ratio [-].
+    at_edge : bool
+        Whether a node lies so near the edge that the rim of the surface depends on it.
     """
-    soil, elevation, eroded_depth, taken, before, pressure_ratio = accounts
+    soil, elevation, eroded_depth, taken, surface, before, pressure_ratio = accounts
     volume, granted, touched = demand
     begin, end, index, weight, nodes = footprints
-    entrained, ratio, found = np.zeros(demanded.size), np.zeros(demanded.size), 0
+    found, at_edge = 0, False
     for i in range(demanded.size):
         if demanded[i] > 0.0:
             for k in range(begin[i], end[i]):
@@ -103,8 +118,10 @@ def take_soil(footprints, demanded, area, accounts, demand):
         soil[node] = before[slot, 0] - taken[slot]
         elevation[node] = before[slot, 1] - taken[slot]
         eroded_depth[node] = before[slot, 2] + taken[slot]
+        at_edge |= set_node(surface, node, elevation[node])
         volume[slot] = 0.0
     for i in range(demanded.size):
+        entrained[i] = ratio[i] = 0.0
         if demanded[i] > 0.0:
             fraction, pressure = 0.0, 0.0
             for k in range(begin[i], end[i]):
@@ -113,4 +130,4 @@ def take_soil(footprints, demanded, area, accounts, demand):
                 pressure += given * granted[index[k], 1]
             entrained[i] = demanded[i] * fraction
             ratio[i] = pressure / fraction if fraction > 0.0 else 0.0
-    return found, entrained, ratio
+    return found, at_edge

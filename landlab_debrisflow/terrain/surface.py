@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.jit import inner, kernel
+from ..core.lanes import DOUBLES, lane_doubles, lane_surroundings
 
 
 class SurfaceSample(NamedTuple):
@@ -57,15 +58,15 @@ class Surface:
         rows, columns = elevation.shape
         self.values = np.empty((rows + 2, columns + 2))
         self.values[1:-1, 1:-1] = elevation if invalid is None or not invalid.any() else _fill(elevation, invalid)
-        self._extend()
+        self.extend()
 
     def move_to(self, nodes, elevation):
         """Set the elevation [m] of nodes given by their flat index."""
         v = self.values
         if _set(v, nodes, elevation):
-            self._extend()
+            self.extend()
 
-    def _extend(self) -> None:
+    def extend(self) -> None:
         """Set the rim: linear beyond the edge."""
         v = self.values
         v[1:-1, 0], v[1:-1, -1] = 2.0 * v[1:-1, 1] - v[1:-1, 2], 2.0 * v[1:-1, -2] - v[1:-1, -3]
@@ -136,15 +137,24 @@ def _fill(values, invalid):
     return values
 
 
+@inner
+def set_node(values, node, elevation):
+    """Set the elevation [m] of a node; return whether it lies so near the edge that the rim depends on it.
+
+    `values`, shape (rows + 2, columns + 2), are elevations with one more node on every side [m].
+    """
+    rows, columns = values.shape[0] - 2, values.shape[1] - 2
+    r, c = node // columns, node % columns
+    values[r + 1, c + 1] = elevation
+    return r < 2 or c < 2 or r > rows - 3 or c > columns - 3
+
+
 @kernel
 def _set(values, nodes, elevation):
     """Set nodes; return whether any lies so near the edge that the rim depends on it."""
-    rows, columns = values.shape[0] - 2, values.shape[1] - 2
     edge = False
     for k in range(nodes.size):
-        r, c = nodes[k] // columns, nodes[k] % columns
-        values[r + 1, c + 1] = elevation[k]
-        edge |= r < 2 or c < 2 or r > rows - 3 or c > columns - 3
+        edge |= set_node(values, nodes[k], elevation[k])
     return edge
 
 
@@ -157,38 +167,31 @@ def _tangent(before, after, most):
     to that of a monotone surface (Fritsch & Carlson 1980) until the bend is twice as sharp.
     """
     mean, bend = 0.5 * (before + after), abs(after - before)
-    if bend <= most:
-        return mean
-    limited = 0.0
-    if before * after > 0.0:
-        steepest = 3.0 * min(abs(before), abs(after))
-        limited = min(max(mean, -steepest), steepest)
+    steepest = 3.0 * min(abs(before), abs(after))
+    limited = min(max(mean, -steepest), steepest) if before * after > 0.0 else 0.0
     sharp = min(bend / most - 1.0, 1.0)
-    return mean + sharp * (limited - mean)
-
-
-@inner
-def _between(v0, v1, v2, v3, s, most):
-    """Return the value at `s` between the middle ones of four values in a row [m]; `most` as in `_tangent`."""
-    rise = v2 - v1
-    m1, m2 = _tangent(v1 - v0, rise, most), _tangent(rise, v3 - v2, most)
-    k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-    return v1 + s * (m1 + s * (k2 + s * k3))
+    return mean if bend <= most else mean + sharp * (limited - mean)
 
 
 @kernel
 def _elevation(values, dx, dy, x, y, elevation):
     """Write the elevation of points [m], as `_sample` does; parameters as there."""
-    rows, columns = values.shape[0] - 2, values.shape[1] - 2
-    v = np.empty(4)  # on four rows
-    for i in range(x.size):
-        p, q = x[i] / dx, y[i] / dy
-        c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
-        for b in range(4):
-            v[b] = _between(
-                values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3], p - c, dx
-            )  # fmt: skip
-        elevation[i] = _between(v[0], v[1], v[2], v[3], q - r, dy)
+    s, t, around, z = lane_doubles(), lane_doubles(), lane_surroundings(), lane_doubles()
+    for first in range(0, x.size, DOUBLES):
+        count = min(DOUBLES, x.size - first)
+        for lane in range(DOUBLES):
+            i = first + min(lane, count - 1)
+            s[lane], t[lane] = _look_around(values, dx, dy, x[i], y[i], lane, around)
+        for lane in range(DOUBLES):
+            a0, _, _ = _along(around, lane, 0, s[lane], dx)
+            a1, _, _ = _along(around, lane, 4, s[lane], dx)
+            a2, _, _ = _along(around, lane, 8, s[lane], dx)
+            a3, _, _ = _along(around, lane, 12, s[lane], dx)
+            v = t[lane]
+            m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)
+            z[lane] = a1 + v * (m1 + v * (k2 + v * k3))
+        for lane in range(count):
+            elevation[first + lane] = z[lane]
 
 
 @kernel
@@ -199,29 +202,83 @@ def _sample(values, dx, dy, x, y, sample):
     spacings [m]; `sample` is written.
     """
     elevation, slope_x, slope_y, curvature_xx, curvature_xy, curvature_yy = sample
+    s, t, around = lane_doubles(), lane_doubles(), lane_surroundings()
+    z, zx, zy, zxx, zxy, zyy = (
+        lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(),
+    )  # fmt: skip
+    for first in range(0, x.size, DOUBLES):
+        count = min(DOUBLES, x.size - first)
+        for lane in range(DOUBLES):
+            i = first + min(lane, count - 1)  # lanes to spare repeat the last point
+            s[lane], t[lane] = _look_around(values, dx, dy, x[i], y[i], lane, around)
+        for lane in range(DOUBLES):
+            a0, b0, c0 = _along(around, lane, 0, s[lane], dx)
+            a1, b1, c1 = _along(around, lane, 4, s[lane], dx)
+            a2, b2, c2 = _along(around, lane, 8, s[lane], dx)
+            a3, b3, c3 = _along(around, lane, 12, s[lane], dx)
+            v = t[lane]
+            m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)
+            z[lane] = a1 + v * (m1 + v * (k2 + v * k3))
+            zy[lane] = (m1 + v * (2.0 * k2 + v * 3.0 * k3)) / dy
+            zyy[lane] = (2.0 * k2 + v * 6.0 * k3) / (dy * dy)
+            m1, k2, k3 = _smooth_cubic(b0, b1, b2, b3)
+            zx[lane] = (b1 + v * (m1 + v * (k2 + v * k3))) / dx
+            zxy[lane] = (m1 + v * (2.0 * k2 + v * 3.0 * k3)) / (dx * dy)
+            m1, k2, k3 = _smooth_cubic(c0, c1, c2, c3)
+            zxx[lane] = (c1 + v * (m1 + v * (k2 + v * k3))) / (dx * dx)
+        for lane in range(count):
+            i = first + lane
+            elevation[i], slope_x[i], slope_y[i] = z[lane], zx[lane], zy[lane]
+            curvature_xx[i], curvature_xy[i], curvature_yy[i] = zxx[lane], zxy[lane], zyy[lane]
+
+
+@inner
+def _look_around(values, dx, dy, x, y, lane, around):
+    """Write the 4 x 4 nodes around a point into a lane; return its place between the middle ones, from 0 to 1."""
     rows, columns = values.shape[0] - 2, values.shape[1] - 2
-    f = np.empty((3, 4))  # on four rows: value, first and second derivative along x, per node
-    for i in range(x.size):
-        p, q = x[i] / dx, y[i] / dy
-        c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
-        s, t = p - c, q - r
-        for b in range(4):
-            v0, v1, v2, v3 = values[r + b, c], values[r + b, c + 1], values[r + b, c + 2], values[r + b, c + 3]
-            rise = v2 - v1
-            m1, m2 = _tangent(v1 - v0, rise, dx), _tangent(rise, v3 - v2, dx)
-            k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-            f[0, b] = v1 + s * (m1 + s * (k2 + s * k3))
-            f[1, b] = m1 + s * (2.0 * k2 + s * 3.0 * k3)
-            f[2, b] = 2.0 * k2 + s * 6.0 * k3
-        rise = f[0, 2] - f[0, 1]
-        m1, m2 = _tangent(f[0, 1] - f[0, 0], rise, dy), _tangent(rise, f[0, 3] - f[0, 2], dy)
-        k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        elevation[i] = f[0, 1] + t * (m1 + t * (k2 + t * k3))
-        slope_y[i], curvature_yy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy, (2.0 * k2 + t * 6.0 * k3) / (dy * dy)
-        rise, m1, m2 = f[1, 2] - f[1, 1], 0.5 * (f[1, 2] - f[1, 0]), 0.5 * (f[1, 3] - f[1, 1])
-        k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        slope_x[i] = (f[1, 1] + t * (m1 + t * (k2 + t * k3))) / dx
-        curvature_xy[i] = (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / (dx * dy)
-        rise, m1, m2 = f[2, 2] - f[2, 1], 0.5 * (f[2, 2] - f[2, 0]), 0.5 * (f[2, 3] - f[2, 1])
-        k2, k3 = 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
-        curvature_xx[i] = (f[2, 1] + t * (m1 + t * (k2 + t * k3))) / (dx * dx)
+    p, q = x / dx, y / dy
+    c, r = min(max(int(np.floor(p)), 0), columns - 2), min(max(int(np.floor(q)), 0), rows - 2)
+    south, west = np.uint64(r), np.uint64(c)  # of numbers without sign no index counts from the end
+    for b in range(4):
+        row = south + np.uint64(b)
+        for a in range(4):
+            around[(4 * b + a) * DOUBLES + lane] = values[row, west + np.uint64(a)]
+    return p - c, q - r
+
+
+@inner
+def _along(around, lane, first, s, dx):
+    """Return value [m] and first and second derivative per node, at `s`, along a row of four nodes from the `first`."""
+    v0, v1 = around[first * DOUBLES + lane], around[(first + 1) * DOUBLES + lane]
+    v2, v3 = around[(first + 2) * DOUBLES + lane], around[(first + 3) * DOUBLES + lane]
+    m1, k2, k3 = _cubic(v0, v1, v2, v3, dx)
+    return v1 + s * (m1 + s * (k2 + s * k3)), m1 + s * (2.0 * k2 + s * 3.0 * k3), 2.0 * k2 + s * 6.0 * k3
+
+
+@inner
+def _cubic(v0, v1, v2, v3, most):
+    """Return the coefficients of the cubic between the middle ones of four values [m]; `most` as in `_tangent`."""
+    rise = v2 - v1
+    m1, m2 = _tangent(v1 - v0, rise, most), _tangent(rise, v3 - v2, most)
+    return m1, 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+
+
+@inner
+def _smooth_cubic(v0, v1, v2, v3):
+    """Return the coefficients of the cubic between the middle ones of four derivatives: no slope is limited."""
+    rise, m1, m2 = v2 - v1, 0.5 * (v2 - v0), 0.5 * (v3 - v1)
+    return m1, 3.0 * rise - 2.0 * m1 - m2, m1 + m2 - 2.0 * rise
+
+
+@inner
+def slopes_at(values, dx, dy, x, y, around):
+    """Return the slopes dz/dx and dz/dy at a point x, y [m]; parameters as in `_sample`, and scratch for one lane."""
+    s, t = _look_around(values, dx, dy, x, y, 0, around)
+    a0, b0, _ = _along(around, 0, 0, s, dx)
+    a1, b1, _ = _along(around, 0, 4, s, dx)
+    a2, b2, _ = _along(around, 0, 8, s, dx)
+    a3, b3, _ = _along(around, 0, 12, s, dx)
+    m1, k2, k3 = _smooth_cubic(b0, b1, b2, b3)
+    slope_x = (b1 + t * (m1 + t * (k2 + t * k3))) / dx
+    m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)
+    return slope_x, (m1 + t * (2.0 * k2 + t * 3.0 * k3)) / dy

@@ -27,8 +27,9 @@ def way(elevation, x=105.0, speed=SPEED, raster=None, direction=(1.0, 0.0), **nu
         curvature_xy=sample.curvature_xy, curvature_yy=sample.curvature_yy,
     )  # fmt: skip
     rule = step_rule(Numerics(**numerics), SPACING)
-    time = find_time_across(p, surface, raster, rule, G, 1e9)
-    assert find_time_across(p, surface, raster, rule, G, 0.5 * time) == 0.5 * time  # other limits are shorter
+    short = np.array([time_over(rule.way, speed**2, G)])
+    time = find_time_across(p, surface, raster, rule, G, short, 1e9)
+    assert find_time_across(p, surface, raster, rule, G, short, 0.5 * time) == 0.5 * time  # other limits are shorter
     found = (speed * time + 0.5 * G * time**2) / SPACING
     assert time == pytest.approx(time_over(found * SPACING, speed**2, G), rel=1e-12)
     return found

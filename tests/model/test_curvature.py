@@ -8,20 +8,19 @@ from landlab_debrisflow.model.basal import BedLoad, Weighing, press_on_bed
 from landlab_debrisflow.physics.contracts import BasalState, BasalStress
 from landlab_debrisflow.physics.friction import Coulomb, Voellmy
 from landlab_debrisflow.physics.material import Material
-from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G, SPACING = 9.81, 5.0
 
 
 def on_bed(velocity, gradient=(0.0, 0.0), hessian=(0.0, 0.0, 0.0)):
     """Return speed and normal gravity of one particle; its velocity on the map, tangent to the bed, is given."""
-    ground = SurfaceSample(*np.array([[0.0, *gradient, *hessian]]).T)
+    curvature = tuple(np.array([hessian]).T.copy())
     u, v = velocity
     along = np.array([[u, v, u * gradient[0] + v * gradient[1]]]).T
     cosine = 1.0 / np.sqrt(1.0 + np.sum(np.square([gradient]), axis=1))
     one = np.ones(1)
     load, weighing = BedLoad(one, one, 0.0 * one), Weighing(G, 0.0, SPACING)
-    speed, normal, _ = press_on_bed(0, along, ground, cosine, load, weighing)
+    speed, normal, _ = press_on_bed(0, along, curvature, cosine, load, weighing)
     return float(speed[0]), float(normal[0])
 
 

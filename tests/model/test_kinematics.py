@@ -4,22 +4,19 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow.model.kinematics import Resistance, kick
-from landlab_debrisflow.terrain.surface import SurfaceSample
 
 G = 9.81
 
 
 def kicked(velocity, yield_stress, drag, mass, dt=0.1):
     """Kick one particle on a plane that falls by 1 towards x; return its velocity, shape (3,) [m s-1]."""
-    ground = np.zeros((6, 1))
-    ground[1] = -1.0
     state = np.array(velocity, float)[:, None]
     one = np.ones(1)
     kick(
         0,
         state,
         np.zeros((3, 1)),
-        SurfaceSample(*ground),
+        (-np.ones(1), np.zeros(1)),
         one / np.sqrt(2.0),
         Resistance(yield_stress=yield_stress * one, drag=drag * one, mass=mass * one, rest_speed=np.zeros(1)),
         G,

@@ -113,10 +113,11 @@ def test_by_hand():
     one = np.ones(1)
     volume, porosity, density, out = 3.0 * one, 0.4 * one, 1990.0 * one, [np.empty(1) for _ in range(3)]
     out[1][:] = np.nan
-    slowed = mixing.mix(
-        1.0 * one, mixing.Soil(1.0, 0.5, 0.2, 2650.0, 1000.0),
+    slowed = np.full(1, np.nan)
+    mixing.mix(
+        0, 1, 1.0 * one, mixing.Soil(1.0, 0.5, 0.2, 2650.0, 1000.0),
         mixing.Layer(2.0 * one, 1.6 * one, one, 0.8 * one, 4e-4 * one),
-        mixing.Mixture(volume, porosity, density), mixing.Erosion(*out), 7.0, 0.5,
+        mixing.Mixture(volume, porosity, density), mixing.Erosion(*out), 7.0, 0.5, slowed,
     )  # fmt: skip
     rate, first, peclet, dilution = (float(values[0]) for values in (*out, slowed))
     assert (volume[0], porosity[0], density[0]) == pytest.approx((4.0, 0.35, 2072.5), rel=1e-15)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import allocating_kernel, kernel
 from ...physics.contracts import WATER
 from ...spatial.partners import reverse
 
@@ -45,7 +45,7 @@ particles of both phases on lattices that do not match, the fractions sum to 0.5
 around it flows partly on its own."""
 
 
-@kernel
+@allocating_kernel
 def make_whole(partners, porosity, volume):
     """Scale the weights so that the volumes that grains claim of each water particle sum to its own, in place.
 
@@ -72,7 +72,7 @@ def make_whole(partners, porosity, volume):
         weight[s] *= claimed[index[s]]
 
 
-@kernel
+@allocating_kernel
 def distribute_soil_water(partners, grains, entrained, water_ratio, volume, velocity, exponent):
     """Distribute the water of the entrained soil among the partners, in place.
 

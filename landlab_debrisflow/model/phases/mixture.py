@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.jit import inner, kernel
+from ...core.jit import allocating_kernel, inner, kernel
 from ...core.structs import struct
 from ...physics.contracts import WATER
 from .momentum import FORGOTTEN
@@ -52,7 +52,7 @@ def find_mixture(phase, phase_fraction, own_thickness, solid_density, water_dens
         density[i] = water_density if phase[i] == WATER else mixed
 
 
-@kernel
+@allocating_kernel
 def pressure_by_porosity(phase, porosity_before, porosity, stiffness, dt):
     """Return the pore pressure that a change of porosity makes at grains, shape (n,) [Pa s-1].
 
@@ -132,7 +132,7 @@ def follow_source(water, cosine, liquefaction_pressure, source, unit_weight, dt,
             mean[i] = min(max(gained, lowest), highest)
 
 
-@kernel
+@allocating_kernel
 def stiffen(water, solid_density, water_density, stiffness, dt):
     """Return the part of the squared celerity by the stiffness of the skeleton, shape (n,) [m2 s-2].
 

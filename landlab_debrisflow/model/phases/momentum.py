@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.jit import inner, kernel
+from ...core.jit import allocating_kernel, inner, kernel
 from ...core.structs import struct
 from ..kinematics import along_bed
 
@@ -132,7 +132,7 @@ def pull_along_bed(partners, push, motion, gravity):
         water_pull[0, i], water_pull[1, i], water_pull[2, i] = _along(ax, ay, az, nx, ny, nz)
 
 
-@kernel
+@allocating_kernel
 def kick_grains(partners, motion, mixture, resistance, dt):
     """Accelerate grains along the bed for `dt` seconds, in place; return the momentum that their water gets by drag.
 

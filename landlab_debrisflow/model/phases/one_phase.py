@@ -71,8 +71,8 @@ class OnePhaseDynamics:
                 yield_stress=yield_stress[which], drag=drag[which], mass=p.density[which] * p.thickness[which],
                 rest_speed=rest_speed[which] if rest_speed.size > 1 else rest_speed,
             )  # fmt: skip
-            sample, gravity = p.surface_sample, self.material.gravity
-            kick(which.start, velocity, p.thrust, sample, p.cos_slope, resistance, gravity, dt)
+            slope = p.slope_x, p.slope_y
+            kick(which.start, velocity, p.thrust, slope, p.cos_slope, resistance, self.material.gravity, dt)
 
         over_particles(kick_some, p.awake, threads)
 
@@ -87,7 +87,7 @@ class OnePhaseDynamics:
         sample = tuple(values[which] for values in p.surface_sample)
         mass, none, pull = p.density[which] * p.thickness[which], np.zeros(n), np.zeros((3, n))
         free = Resistance(yield_stress=none, drag=none, mass=mass, rest_speed=np.zeros(1))
-        kick(0, pull, thrust, sample, p.cos_slope[which], free, self.material.gravity, 1.0)
+        kick(0, pull, thrust, sample[1:3], p.cos_slope[which], free, self.material.gravity, 1.0)
         bear(p.x[which], p.y[which], pull, sample, walls)
         return np.sqrt((pull**2).sum(axis=0)) <= yield_stress / mass
 

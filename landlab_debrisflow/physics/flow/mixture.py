@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import allocating_kernel, kernel
 from ...core.structs import struct
 from ..contracts import WATER
 
@@ -44,7 +44,7 @@ class Phased(NamedTuple):
     gradient_term: np.ndarray
 
 
-@kernel
+@allocating_kernel
 def press(mixture, solid_density, water_density, gravity):
     """Return the pressures by which particles push their own phase and the mixture, and the celerity by weight.
 

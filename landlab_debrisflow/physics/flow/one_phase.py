@@ -4,7 +4,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.jit import kernel
+from ...core.jit import allocating_kernel
 from ...core.parameters import declared
 from ...spatial.summation import SummationInput, sum_over_neighbours
 from ..contracts import FlowState
@@ -58,19 +58,20 @@ class OnePhase:
         sum_over_neighbours(cells, given, shock_viscosity, sums, threads)
 
 
-@kernel
+@allocating_kernel
 def _pressure_of(cosine, density, gradient_term, thickness, gravity):
-    """Return pressure coefficient [m s-2], celerity [m s-1] and inertia [-] as `SummationInput` has them, each (n,).
+    """Return pressure coefficient [m s-2], celerity [m s-1] and inertia [-] as `SummationInput` has them, shape (3, n).
 
     Cosine of the slope [-], density [kg m-3], grad-h term [-] and slope-normal thickness [m] of the particles have
     shape (n,); `gravity` is in m s-2.
     """
     n, densest = density.size, 0.0
-    coefficient, celerity, inertia = np.empty(n), np.empty(n), np.empty(n)
+    found = np.empty((3, n))
+    coefficient, celerity, inertia = found[0], found[1], found[2]
     for i in range(n):
         densest = max(densest, density[i])
     for i in range(n):
         inertia[i] = density[i] / densest
         coefficient[i] = 0.5 * inertia[i] * (gravity * cosine[i]) / gradient_term[i]
         celerity[i] = np.sqrt(gravity * cosine[i] * thickness[i])
-    return coefficient, celerity, inertia
+    return found

@@ -7,7 +7,7 @@ A step loads the column, lets in the soil that was eroded, and advances effectiv
 import numpy as np
 
 from ....core.constants import THINNEST
-from ....core.jit import inner, kernel
+from ....core.jit import allocating_kernel, inner
 from ..dilatancy import DENSEST, LOOSEST
 from .choices import PROPORTIONAL, UNLOADED
 from .contact import IMPERMEABLE, INFLOW, SEALED, contact_of
@@ -50,7 +50,7 @@ def advance_dilatant(columns, forcing, dt, basal_pressure, scheme, law):
     _advance(columns, forcing, dt, basal_pressure, scheme, law, block, rates)
 
 
-@kernel
+@allocating_kernel
 def _advance(columns, forcing, dt, basal_pressure, scheme, law, block, step):
     """Do the work of `advance_dilatant`; `block` and `step`, the `Rates`, are scratch, the others are its arguments."""
     # taken out of their tuples once: numba counts references at every access

@@ -9,13 +9,13 @@ import math
 
 import numpy as np
 
-from ....core.jit import inner, kernel
+from ....core.jit import allocating_kernel, inner
 from .stepwise import CONTACT, DIFFUSION, GROWTH, begin_step, end_step, is_prescribed
 
 MOST_SUBSTEPS = 100_000
 
 
-@kernel
+@allocating_kernel
 def advance_lax_wendroff(columns, forcing, dt, basal_pressure, scheme):
     """Advance all columns by one step of the flow.
 

@@ -10,12 +10,12 @@ base less the flux through the surface, to rounding.
 
 import numpy as np
 
-from ....core.jit import inner, kernel
+from ....core.jit import allocating_kernel, inner
 from .contact import INFLOW
 from .stepwise import CONTACT, DIFFUSION, GROWTH, begin_step, end_step, is_prescribed
 
 
-@kernel
+@allocating_kernel
 def advance_upwind(columns, forcing, dt, basal_pressure, scheme):
     """Advance all columns by one step of the flow.
 

@@ -10,8 +10,8 @@ called all stages would be compiled with a copy of each stage, of most stages wi
 
 import numpy as np
 
-from ..contact import IMPERMEABLE, INFLOW, SEALED
-from .bookkeeping import AT_LEVELS, CHANGED, EXCESS, IN_MODES, accumulate, set_contact
+from ..contact import IMPERMEABLE
+from .bookkeeping import AT_LEVELS, CHANGED, EXCESS, IN_MODES, accumulate, list_by_base, set_contact
 from .flux_base import grow_by_flux, impermeable_inflow
 from .impermeable_base import advance_modes, clip_modes, to_levels, to_modes
 from .modes import modes_of
@@ -41,17 +41,22 @@ def advance_columns(columns, forcing, dt, basal_pressure, scheme):
         Choices of the law.
     """
     state, every = records(columns.memory), np.arange(basal_pressure.size)
-    due = np.empty((3, every.size), np.int64)
-    counts = accumulate(state, every, forcing, dt, basal_pressure, scheme, due, EXCESS)
+    due, given = np.empty((3, every.size), np.int64), _account(forcing, dt, basal_pressure, scheme)
+    counts = accumulate(state, every, *given, due, EXCESS)
     if counts == NONE_DUE:
         return
     columns = LazyColumns(profile=columns.profile, state=state, clipped=columns.clipped)
     if count := counts[CHANGED]:
         changed, due_then = due[CHANGED, :count], np.empty((3, count), np.int64)
         _switch(columns, changed, forcing, basal_pressure, scheme)
-        counts_then = accumulate(state, changed, forcing, dt, basal_pressure, scheme, due_then, EXCESS)
+        counts_then = accumulate(state, changed, *given, due_then, EXCESS)
         _update(columns, due_then, counts_then, forcing, basal_pressure, scheme)
     _update(columns, due, counts, forcing, basal_pressure, scheme)
+
+
+def _account(forcing, dt, basal_pressure, scheme):
+    """Return the arguments of `accumulate` that belong to a step: with plain tuples, see `core.structs`."""
+    return forcing[:-1], dt, basal_pressure, tuple(scheme)
 
 
 def synchronise_columns(columns, forcing, scheme):
@@ -72,14 +77,16 @@ def _update(columns, due, counts, forcing, basal_pressure, scheme):
         _advance_levels(columns, due[AT_LEVELS, :count], forcing, basal_pressure, False, scheme)
     if count := counts[IN_MODES]:
         selected, modes = due[IN_MODES, :count].copy(), modes_of(scheme.levels)
-        advance_modes(columns, selected, modes)
+        work = np.empty((2, scheme.levels))
+        advance_modes(columns, selected, modes, work)
         # write the present basal pressure, and list the columns that are out of bounds
         _, state, _ = columns
-        counts = accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, ROUNDING)
+        given = _account(forcing, 0.0, basal_pressure, scheme)
+        counts = accumulate(state, selected, *given, due, ROUNDING)
         if count := counts[IN_MODES]:
             selected = due[IN_MODES, :count].copy()
-            clip_modes(columns, selected, forcing, modes)
-            accumulate(state, selected, forcing, 0.0, basal_pressure, scheme, due, EXCESS)
+            clip_modes(columns, selected, forcing, modes, work)
+            accumulate(state, selected, *given, due, EXCESS)
 
 
 def _switch(columns, selected, forcing, basal_pressure, scheme):
@@ -94,9 +101,10 @@ def _switch(columns, selected, forcing, basal_pressure, scheme):
     )  # fmt: skip
     _synchronise(columns, selected, before, basal_pressure, scheme)
     closing, modes = np.empty(selected.size, np.int64), modes_of(scheme.levels)
+    work = np.empty((2, scheme.levels))
     if count := set_contact(columns, selected, forcing, scheme, closing):
-        to_modes(columns, closing[:count], modes)
-        advance_modes(columns, closing[:count], modes)
+        to_modes(columns, closing[:count], modes, work)
+        advance_modes(columns, closing[:count], modes, work)
 
 
 def _synchronise(columns, selected, forcing, basal_pressure, scheme):
@@ -108,10 +116,10 @@ def _synchronise(columns, selected, forcing, basal_pressure, scheme):
     _, state, _ = columns
     contact = state["contact"][selected]
     if (in_modes := selected[contact == IMPERMEABLE]).size:
-        modes = modes_of(scheme.levels)
-        advance_modes(columns, in_modes, modes)
-        to_levels(columns, in_modes, modes)
-        commit(columns, in_modes, forcing, basal_pressure)
+        modes, work = modes_of(scheme.levels), np.empty((2, scheme.levels))
+        advance_modes(columns, in_modes, modes, work)
+        to_levels(columns, in_modes, modes, work)
+        commit(columns, in_modes, forcing[:-1], basal_pressure)
     if (others := selected[contact > IMPERMEABLE]).size:
         _advance_levels(columns, others, forcing, basal_pressure, True, scheme)
 
@@ -127,15 +135,17 @@ def _advance_levels(columns, selected, forcing, basal_pressure, ending, scheme):
     base, and the content of the layer over jump and thickness.
     """
     _, state, _ = columns
-    contact, modes = state["contact"][selected], modes_of(scheme.levels)
+    work = np.empty((2, scheme.levels))
+    modes, lists = modes_of(scheme.levels), np.empty((4, selected.size), np.int64)
     present = Present(volume=forcing.volume, load=forcing.liquefaction_pressure)
-    if (some := selected[contact == SEALED]).size:
-        impermeable_inflow(columns, some, present, scheme)
-    growing = scheme.moves_with_grains & (forcing.volume[selected] > state["volume_at_update"][selected])
-    if (some := selected[growing & (contact < INFLOW)]).size:
-        grow(columns, some, present, ending, scheme, modes)
-    if (some := selected[growing & (contact >= INFLOW)]).size:
-        grow_by_flux(columns, some, present, scheme, modes)
-    if (some := selected[~growing]).size:
-        diffuse(columns, some, present, ending, scheme, modes)
-    commit(columns, selected, forcing, basal_pressure)
+    counts = list_by_base(state, selected, forcing.volume, scheme.moves_with_grains, lists)
+    sealed, grows, takes_in, stays = (some[:count] for some, count in zip(lists, counts, strict=True))
+    if sealed.size:
+        impermeable_inflow(columns, sealed, present, scheme)
+    if grows.size:
+        grow(columns, grows, present, ending, scheme, modes, work)
+    if takes_in.size:
+        grow_by_flux(columns, takes_in, present, scheme, modes, work)
+    if stays.size:
+        diffuse(columns, stays, present, ending, scheme, modes, work)
+    commit(columns, selected, forcing[:-1], basal_pressure)

@@ -7,7 +7,7 @@ import math
 
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL, UNLOADED
-from ..contact import IMPERMEABLE, INFLOW, contact_of
+from ..contact import IMPERMEABLE, INFLOW, SEALED, contact_of
 from .boundary_layer import is_resolved
 from .impermeable_base import bounds_with_gains
 
@@ -96,8 +96,12 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         Written in place.
     selected : ndarray of int, shape (m,)
         Indices of the columns.
-    forcing, dt, basal_pressure, scheme
+    forcing : tuple
+        Members of the `ColumnForcing` of the step, without shearing.
+    dt, basal_pressure
         As in `advance.advance_columns`.
+    scheme : tuple
+        Members of the `Scheme` of the law.
     due : ndarray of int, shape (3, m) or wider
         Written: indices of columns, one row for each of `CHANGED`, `IN_MODES` and `AT_LEVELS`. A column with a new
         contact is only listed.
@@ -109,17 +113,15 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
     changed, in_modes, at_levels : int
         Lengths of the rows.
     """
-    # taken out of their tuples once: numba counts references at every access
-    volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
-    entrained, beds, sources, bases = forcing.entrained, forcing.bed_pressure, forcing.porosity_source, forcing.base
-    coefficients, lower, bounded = forcing.coefficient_of_consolidation, forcing.water_to_buoyant, forcing.bounded
-    loading, tolerance, stride = scheme.loading, scheme.tolerance, STRIDE * math.sqrt(scheme.tolerance)
+    volumes, thicknesses, loads, entrained, beds, bases, sources, coefficients, lower, bounded = forcing
+    levels, moves_with_grains, loading, _, flux, tolerance = scheme
+    stride = STRIDE * math.sqrt(tolerance)
     changed, in_modes, at_levels = 0, 0, 0
     for i in selected:
         column = state[i]
         volume, load, old_load = volumes[i], loads[i], column.load
         before, contact = volume - entrained[i], column.contact
-        if contact != contact_of(bases[min(i, bases.size - 1)], entrained[i], scheme.flux):
+        if contact != contact_of(bases[min(i, bases.size - 1)], entrained[i], flux):
             if old_load == 0.0:  # a new column
                 column.load = load * before / volume if volume > 0.0 else load
             due[CHANGED, changed] = i
@@ -151,8 +153,8 @@ def accumulate(state, selected, forcing, dt, basal_pressure, scheme, due, excess
         column.source_gain += source
         is_due = _is_due_at_levels(column, volume, load, pressure, stride)
         if is_due and column.contact_is_new != 0.0:  # not before levels resolve the layer that forms over the base
-            growth = 1.0 - column.volume_at_update / volume if scheme.moves_with_grains else 0.0
-            is_due = is_resolved(scheme.levels - 1, growth, column.diffusion)
+            growth = 1.0 - column.volume_at_update / volume if moves_with_grains else 0.0
+            is_due = is_resolved(levels - 1, growth, column.diffusion)
         if is_due or contact >= INFLOW:
             due[AT_LEVELS, at_levels] = i
             at_levels += 1
@@ -180,6 +182,47 @@ def _is_due_at_levels(column, volume, load, pressure, stride):
     is_due |= abs(column.source_gain) > change_allowed
     is_due |= stride == 0.0
     return is_due
+
+
+@kernel
+def list_by_base(state, selected, volumes, moves_with_grains, lists):
+    """List columns at levels by what their base does.
+
+    Parameters
+    ----------
+    state : ndarray of `state.LAYOUT`, shape (n,)
+        Memory of the columns.
+    selected : ndarray of int, shape (m,)
+        Indices of the columns.
+    volumes : ndarray, shape (n,)
+        Volumes of the particles now [m3].
+    moves_with_grains : bool
+        Whether a column grows as its particle does.
+    lists : ndarray of int, shape (4, m)
+        Written: indices of columns, one row for each of the numbers returned.
+
+    Returns
+    -------
+    sealed, grows, takes_in, stays : int
+        Number of columns whose base is sealed; and of those that have grown over a base that the bed prescribes, that
+        have grown by soil with a pressure of its own, and that have not grown since their last update.
+    """
+    sealed, grows, takes_in, stays = 0, 0, 0, 0
+    for i in selected:
+        column = state[i]
+        if column.contact == SEALED:
+            lists[0, sealed] = i
+            sealed += 1
+        if not (moves_with_grains and volumes[i] > column.volume_at_update):
+            lists[3, stays] = i
+            stays += 1
+        elif column.contact < INFLOW:
+            lists[1, grows] = i
+            grows += 1
+        else:
+            lists[2, takes_in] = i
+            takes_in += 1
+    return sealed, grows, takes_in, stays
 
 
 @kernel

@@ -3,8 +3,6 @@
 Nothing diffuses in from the bed, so that the content of the column is conserved to the last digit.
 """
 
-import numpy as np
-
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL
 from .modes import NEUMANN, diffuse_profile
@@ -32,7 +30,7 @@ def impermeable_inflow(columns, selected, present, scheme):
 
 
 @kernel
-def grow_by_flux(columns, selected, present, scheme, modes):
+def grow_by_flux(columns, selected, present, scheme, modes, work):
     """Diffuse columns that grow by soil that brings its own pressure alone; see `prescribed_base.grow`.
 
     Parameters
@@ -46,11 +44,11 @@ def grow_by_flux(columns, selected, present, scheme, modes):
         Choices of the law.
     modes : Modes
         Modes of columns with this number of levels.
+    work : ndarray, shape (2, levels)
+        Scratch.
     """
     profile, state, _ = columns
     volumes, loads = present
-    cells = profile.shape[1] - 1
-    work = np.empty((2, cells + 1))
     for i in selected:
         column = state[i]
         volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update

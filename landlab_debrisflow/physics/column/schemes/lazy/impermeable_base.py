@@ -7,8 +7,6 @@ that diffuses away from the base grows with the square root of time.
 
 import math
 
-import numpy as np
-
 from .....core.jit import inner, kernel
 from ..contact import BY_EROSION, IMPERMEABLE
 from .boundary_layer import boundary_layer, layer_content, mode_of_layer
@@ -28,7 +26,7 @@ def base_slope(profile, i, cells):
 
 
 @kernel
-def to_modes(columns, selected, modes):
+def to_modes(columns, selected, modes, work):
     """Turn columns at levels into modes over an impermeable base; `advance_modes` comes next.
 
     Over the base there may be a boundary layer too thin for the levels, with a known jump and content
@@ -44,10 +42,12 @@ def to_modes(columns, selected, modes):
         Indices of the columns.
     modes : Modes
         Modes of columns with this number of levels.
+    work : ndarray, shape (2, levels)
+        Scratch.
     """
     profile, state, _ = columns
     cells = profile.shape[1] - 1
-    levels, of_layer = np.empty(cells), np.empty(cells)
+    levels, of_layer = work[0, :cells], work[1, :cells]
     for i in selected:
         column = state[i]
         jump, content = column.layer_jump, column.layer_content
@@ -104,11 +104,11 @@ def _forget_loads(column):
 
 
 @kernel
-def to_levels(columns, selected, modes):
+def to_levels(columns, selected, modes, work):
     """Turn columns in modes, just updated, into pressures at levels; arguments as in `to_modes`."""
     profile, state, _ = columns
     cells = profile.shape[1] - 1
-    levels = np.empty(cells)
+    levels = work[0, :cells]
     for i in selected:
         column = state[i]
         _synthesise(profile, column, i, modes, levels)
@@ -125,12 +125,12 @@ def to_levels(columns, selected, modes):
 
 
 @kernel
-def advance_modes(columns, selected, modes):
+def advance_modes(columns, selected, modes, work):
     """Update columns in modes: let them decay under the loads since the last update; arguments as in `to_modes`."""
     profile, state, _ = columns
     ramp, uniform = modes.ramp[NEUMANN], modes.uniform[NEUMANN]
     cells = profile.shape[1] - 1
-    factors = np.empty(cells)
+    factors = work[0]
     for i in selected:
         column = state[i]
         diffusion, load_gain, source_gain = column.diffusion, column.load_gain, column.source_gain
@@ -206,18 +206,18 @@ def _expand_base(profile, column, i, modes):
 
 
 @kernel
-def clip_modes(columns, selected, forcing, modes):
+def clip_modes(columns, selected, forcing, modes, work):
     """Clip columns in modes, just updated, to liquefaction at their levels; count the pressure removed.
 
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int; `forcing` holds load [Pa]
-    and thickness [m].
+    and thickness [m]; `work`, shape (2, levels), is scratch.
 
     Modes too short for the levels are not changed.
     """
     profile, state, clipped = columns
     loads, thicknesses = forcing.liquefaction_pressure, forcing.thickness
     cells = profile.shape[1] - 1
-    levels = np.empty(cells)
+    levels = work[0, :cells]
     for i in selected:
         column = state[i]
         _synthesise(profile, column, i, modes, levels)

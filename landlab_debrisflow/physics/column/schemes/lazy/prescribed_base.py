@@ -10,8 +10,6 @@ a profile does not jump when the contact changes, and a contact that changes bac
 
 import math
 
-import numpy as np
-
 from .....core.jit import inner, kernel
 from ..choices import OVERBURDEN, PROPORTIONAL, UNLOADED
 from ..contact import INFLOW
@@ -33,7 +31,7 @@ def load_strain(load, old_load, volume, start):
 
 
 @kernel
-def diffuse(columns, selected, present, ending, scheme, modes):
+def diffuse(columns, selected, present, ending, scheme, modes, work):
     """Diffuse and load columns whose grains keep their place; arguments as in `grow`.
 
     `columns` are the `LazyColumns`, changed in place; `selected` are indices of some, int.
@@ -41,7 +39,6 @@ def diffuse(columns, selected, present, ending, scheme, modes):
     profile, state, _ = columns
     volumes, loads = present
     cells = profile.shape[1] - 1
-    work = np.empty(cells)
     for i in selected:
         column = state[i]
         volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update
@@ -60,7 +57,9 @@ def diffuse(columns, selected, present, ending, scheme, modes):
         is_new, flux = column.contact_is_new > 0.0, column.contact >= INFLOW
         condition, first, last = (NEUMANN, 0.0, 0.0) if flux else (DIRICHLET, base * scale, new_base / scale)
         kink = (base_level - base) * scale if is_new and not flux else 0.0
-        diffuse_profile(profile, i, condition, diffusion, first, last, kink, load_gain, column.source_gain, modes, work)
+        diffuse_profile(
+            profile, i, condition, diffusion, first, last, kink, load_gain, column.source_gain, modes, work[0]
+        )
         for k in range(cells):
             profile[i, k] *= scale
         column.source_gain = column.deferred_diffusion = column.layer_jump = 0.0
@@ -78,7 +77,7 @@ def diffuse(columns, selected, present, ending, scheme, modes):
 
 
 @kernel
-def grow(columns, selected, present, ending, scheme, modes):
+def grow(columns, selected, present, ending, scheme, modes, work):
     """Diffuse columns that grow by soil that comes in at a prescribed base.
 
     The grains carry ``weight * load * eta - p``, which is the effective stress or minus the pressure; ``entry`` is its
@@ -97,11 +96,12 @@ def grow(columns, selected, present, ending, scheme, modes):
         Choices of the law.
     modes : Modes
         Modes of columns with this number of levels.
+    work : ndarray, shape (2, levels)
+        Scratch.
     """
     profile, state, _ = columns
     volumes, loads = present
     cells = profile.shape[1] - 1
-    work = np.empty((2, cells + 1))
     for i in selected:
         column = state[i]
         volume, load, start, old_load = volumes[i], loads[i], column.volume_at_update, column.load_at_update
@@ -164,18 +164,19 @@ def split_diffusion(column, stretch, condition):
 def commit(columns, selected, forcing, basal_pressure):
     """Record the present as the last update of columns at levels, and clip them to liquefaction.
 
-    `columns` are the `LazyColumns`, `selected` indices of some, int; `basal_pressure` has shape (n,).
+    `columns` are the `LazyColumns`, `selected` indices of some, int; `forcing` are the members of the `ColumnForcing`,
+    without shearing; `basal_pressure` has shape (n,).
 
     Pressure removed by the clip is counted. Where the bed does not prescribe the basal pressure [Pa], it is written.
     """
     profile, state, clipped = columns
-    volumes, loads, thicknesses = forcing.volume, forcing.liquefaction_pressure, forcing.thickness
+    volumes, thicknesses, loads, _, _, _, _, _, lower, bounded = forcing
     cells = profile.shape[1] - 1
     for i in selected:
         column, load = state[i], loads[i]
         column.contact_is_new, column.volume_at_update, column.load_at_update = 0.0, volumes[i], load
         column.base_pressure, column.diffusion = column.bed_pressure, 0.0
-        if forcing.bounded:
+        if bounded:
             removed = 0.0
             for k in range(cells):
                 pressure, most = profile[i, k], load * (cells - k) / cells
@@ -183,7 +184,7 @@ def commit(columns, selected, forcing, basal_pressure):
                 removed += (pressure - profile[i, k]) * (0.5 if k == 0 else 1.0)
             clipped[i] += removed * thicknesses[i] / cells
         if column.contact >= INFLOW:
-            suction = -forcing.water_to_buoyant * load if forcing.bounded else profile[i, 0]
+            suction = -lower * load if bounded else profile[i, 0]
             basal_pressure[i] = max(profile[i, 0], suction)
 
 

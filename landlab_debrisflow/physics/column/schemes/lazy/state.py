@@ -94,4 +94,4 @@ class Present(NamedTuple):
 
 def records(memory) -> np.ndarray:
     """Return a view of `ColumnState.memory`, shape (n, `SIZE`), as records of `LAYOUT`, shape (n,)."""
-    return memory.view(LAYOUT)[:, 0]
+    return np.ndarray(memory.shape[0], LAYOUT, memory)  # a sixth of the time of memory.view
