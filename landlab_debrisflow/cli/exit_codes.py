@@ -1,6 +1,6 @@
 """Exit codes of the commands."""
 
-DONE, INTERNAL_ERROR, USER_ERROR, STILL_MOVING, CANNOT_WRITE, DIVERGED = 0, 1, 2, 3, 4, 5
+DONE, INTERNAL_ERROR, USER_ERROR, STILL_MOVING, CANNOT_WRITE, DIVERGED, SOME_FAILED = range(7)
 SIGNALLED = 128
 """Added to the number of the signal that ended a run: 130 after Ctrl-C, 143 after SIGTERM."""
 
@@ -11,6 +11,7 @@ MEANING = {
     STILL_MOVING: "results are written, but the flow still moved after max_duration",
     CANNOT_WRITE: "a file cannot be written, the disk is full perhaps; computed results are kept",
     DIVERGED: "the computation failed; the last checkpoint is kept",
+    SOME_FAILED: "results are written, but members of the ensemble failed",
     SIGNALLED + 2: "interrupted by Ctrl-C; the run can be resumed",
     SIGNALLED + 15: "ended by SIGTERM; the run can be resumed",
 }

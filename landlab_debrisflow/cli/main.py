@@ -9,7 +9,7 @@ from pathlib import Path
 from .. import __version__
 from ..core.errors import InputError, OutputError, ParameterError, SimulationError
 from ..core.words import printable
-from . import info, plot, report, scene_commands
+from . import ensemble, info, plot, report, scene_commands
 from .exit_codes import CANNOT_WRITE, DIVERGED, DONE, INTERNAL_ERROR, SIGNALLED, USER_ERROR, epilog
 from .signals import ending_signals
 
@@ -88,6 +88,7 @@ def _parser():
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     commands = parser.add_subparsers(required=True, metavar="command")
     scene_commands.add_commands(commands)
+    ensemble.add_command(commands)
     plot.add_command(commands)
     report.add_command(commands)
     info.add_command(commands)

@@ -16,7 +16,7 @@ FORMATS = ("netcdf", "zarr", "geotiff")
 
 def add_commands(commands) -> None:
     """Add the commands about scenes to the commands of a parser."""
-    new = _command(commands, "new", _new, "write a commented scene file, of an example or of files of your own")
+    new = command(commands, "new", _new, "write a commented scene file, of an example or of files of your own")
     new.add_argument("scene", type=Path, help="scene file to be written")
     new.add_argument(
         "--from", nargs=2, dest="files", metavar=("DEM", "RELEASE"),
@@ -25,32 +25,31 @@ def add_commands(commands) -> None:
     new.add_argument("--crs", help="coordinate reference system of a DEM that names none, such as EPSG:32633")
     new.add_argument("--full", action="store_true", help="with every key of every law, not only the usual ones")
 
-    check = _command(commands, "check", _check, "check a scene file and forecast its run; nothing is written")
+    check = command(commands, "check", _check, "check a scene file and forecast its run; nothing is written")
     check.add_argument("scene", type=Path, help="scene file")
-    _add_message_options(check)
+    add_message_options(check)
 
-    run = _command(commands, "run", _run, "run a scene file and write its results", epilog())
+    run = command(commands, "run", _run, "run a scene file and write its results", epilog())
     run.add_argument("scene", type=Path, help="scene file")
     run.add_argument("--overwrite", action="store_true", help="replace results of an earlier run in its directory")
-    _add_message_options(run)
+    add_message_options(run)
 
-    resume = _command(commands, "resume", _resume, "go on with a run that was interrupted", epilog())
+    resume = command(commands, "resume", _resume, "go on with a run that was interrupted", epilog())
     resume.add_argument("scene", type=Path, help="directory of its results, or scene file")
-    _add_message_options(resume)
+    add_message_options(resume)
 
-    export = _command(
-        commands, "export", _export, "make one file, or GeoTIFFs, of the maps that a run wrote as it went"
-    )
+    export = command(commands, "export", _export, "make one file, or GeoTIFFs, of the maps that a run wrote as it went")
     export.add_argument("directory", type=Path, help="directory of the results of a scene")
     export.add_argument("--to", choices=FORMATS, default=FORMATS[0], help="format (default: %(default)s)")
 
-    schema = _command(
+    schema = command(
         commands, "schema", _schema, "print the JSON schema of scene files, by which editors complete them"
     )
     schema.add_argument("file", nargs="?", type=Path, help="file to be written; standard output by default")
 
 
-def _command(commands, name: str, function, words: str, end: str | None = None):
+def command(commands, name: str, function, words: str, end: str | None = None):
+    """Add a command to a parser of commands; return the parser of the command."""
     parser = commands.add_parser(
         name, help=words, description=f"{words[0].upper()}{words[1:]}.", epilog=end,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -59,7 +58,8 @@ def _command(commands, name: str, function, words: str, end: str | None = None):
     return parser
 
 
-def _add_message_options(parser) -> None:
+def add_message_options(parser) -> None:
+    """Add the options for messages to the parser of a command."""
     parser.add_argument("--quiet", "-q", action="store_true", help="write errors only")
     parser.add_argument(
         "--verbose", "-v", action="store_true", help="write further messages of the package, besides warnings"
@@ -99,15 +99,20 @@ def _schema(arguments) -> int:
 
 def _check(arguments) -> int:
     from ..core.compilations import compilations
+    from ..ensemble import Ensemble
     from ..run.check import check
     from ..run.scene import Scene
 
     with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
+        scene = Scene.from_file(arguments.scene)
+        ensemble = None if scene.content.ensemble is None else Ensemble.of_scene(scene)
         with compilations(lambda: monitor.say(COMPILING)):
-            found = check(Scene.from_file(arguments.scene), monitor.say)
+            found = check(scene, monitor.say)
         monitor.close()
         if not arguments.quiet:
             say(str(found))
+            if ensemble is not None:
+                say(f"ensemble: {ensemble.members} members, {ensemble.sampling}, of {', '.join(ensemble.keys)}")
     return DONE
 
 

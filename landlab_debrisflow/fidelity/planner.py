@@ -3,7 +3,7 @@
 import dataclasses
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import numpy as np
 
@@ -95,20 +95,45 @@ def setup_digest(setup: Setup) -> str:
 def _measure_pilots(event, wishes, steps, notify) -> tuple[Choice, dict[int, MeasuredPilot]]:
     """Return the choice of the column, and pilot runs by number of particles."""
     first, *others = PILOTS
-    guess = choose_column(event, _guessed_ratio(event), wishes.hold)
-    setup = dataclasses.replace(event.setup, numerics=steps.value, column=guess.value)
 
     def run(count, setup):
         notify(f"plan: pilot run with {count} particles")
         return measure_pilot(event, setup, count)
 
-    pilot = run(first, setup)
-    column = choose_column(event, _measured_ratio(pilot), wishes.hold)
-    # the pilot had another column, or its time includes the compilation of kernels
-    if column.value != guess.value or math.isnan(pilot.cost.seconds):
-        setup = dataclasses.replace(setup, column=column.value)
+    setup = dataclasses.replace(event.setup, numerics=steps.value)
+    column, pilot = pilot_column(event, setup, wishes.hold, lambda setup: run(first, setup))
+    setup = dataclasses.replace(setup, column=column.value)
+    if pilot is None or math.isnan(pilot.cost.seconds):  # its time would include the compilation of kernels
         pilot = run(first, setup)
     return column, {first: pilot} | {count: run(count, setup) for count in others}
+
+
+def pilot_column(
+    event: Event, setup: Setup, hold: Collection[str], run: Callable[[Setup], MeasuredPilot]
+) -> tuple[Choice, MeasuredPilot | None]:
+    """Choose the column of an event by a pilot run.
+
+    Parameters
+    ----------
+    event : Event
+    setup : Setup
+        Setup of the pilot run, without its column.
+    hold : collection of str
+        Quantities to be held.
+    run : callable
+        Makes the pilot run with a setup.
+
+    Returns
+    -------
+    column : Choice
+        Of a column law.
+    pilot : MeasuredPilot or None
+        The pilot run; None if it had another column.
+    """
+    guess = choose_column(event, _guessed_ratio(event), hold)
+    pilot = run(dataclasses.replace(setup, column=guess.value))
+    column = choose_column(event, _measured_ratio(pilot), hold)
+    return column, pilot if column.value == guess.value else None
 
 
 def _guessed_ratio(event: Event) -> float:

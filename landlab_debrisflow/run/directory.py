@@ -16,6 +16,12 @@ from ..record.files import check_directory
 from .files import CHECKPOINT, LOCK, PAGE, PICTURES, RECORD, SERIES, SERIES_SUFFIX, UNFINISHED
 from .record import FINISHED, FREE, RunRecord
 
+WRITTEN = (
+    ", a run or its pictures; wait for it, or choose another directory (output: directory in the scene, --output of "
+    "plot)"
+)
+"""Words for a directory of results that another process has claimed."""
+
 TEMPORARY = re.compile(r"\.(run|checkpoint|checkpoint\.previous|maps_\d+)\.\d+\.(json|nc)")
 """Names of files that are being written (record/files.py)."""
 
@@ -56,7 +62,7 @@ class OutputDirectory:
             raise OutputError(f"cannot make the directory {path}: {error.strerror}; set output: directory") from error
         check_directory(path)
         try:
-            with _lock(path):
+            with locked(path, WRITTEN):
                 _remove_temporaries(path)
                 yield cls(path)
         finally:
@@ -242,8 +248,20 @@ def _remove_temporaries(directory: Path) -> None:
 
 
 @contextlib.contextmanager
-def _lock(directory: Path) -> Iterator[None]:
-    """Hold a lock on a directory until the block or the process ends, even if the process is killed."""
+def locked(directory: Path, remedy: str) -> Iterator[None]:
+    """Hold a lock on a directory until the block or the process ends, even if the process is killed.
+
+    Parameters
+    ----------
+    directory : Path
+    remedy : str
+        Words for the process that finds the directory locked.
+
+    Raises
+    ------
+    OutputError
+        If another process holds the lock.
+    """
     try:
         import fcntl
     except ImportError:  # on Windows two runs in one directory are not noticed
@@ -254,10 +272,7 @@ def _lock(directory: Path) -> Iterator[None]:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
-            raise OutputError(
-                f"cannot write results to {directory}: another process writes there, a run or its pictures; "
-                "wait for it, or choose another directory (output: directory in the scene, --output of plot)"
-            ) from error
+            raise OutputError(f"cannot write results to {directory}: another process writes there{remedy}") from error
         try:
             yield
         finally:

@@ -13,7 +13,7 @@ from ..component import DebrisFlow
 from ..fidelity.plan import Plan
 from ..geo.lattice import Lattice
 from ..geo.rasters import checksum_of
-from ..scene.content import given_keys, named_files, read_content, to_mapping
+from ..scene.content import SceneContent, given_keys, named_files, read_content, to_mapping
 from ..scene.digest import digest
 from ..scene.location import located
 from ..scene.outputs import OutputPlaces, output_places
@@ -111,19 +111,19 @@ class Scene:
     # ---- keys ----
 
     @property
-    def terrain_keys(self) -> Any:
-        """Keys of the terrain, checked: a `TerrainKeys`."""
-        return self._content.terrain
-
-    @property
-    def release_keys(self) -> tuple[Any, ...]:
-        """Keys of the releases, checked: each a `ReleaseKeys`."""
-        return self._content.release
+    def content(self) -> SceneContent:
+        """Keys of the scene as checked values, the setup as it is written."""
+        return self._content
 
     @property
     def output_keys(self) -> Any:
         """Keys of the output, checked: an `OutputKeys`."""
         return self._content.output
+
+    @property
+    def file(self) -> YamlFile | None:
+        """Scene file as it was read; None if the scene is from a mapping."""
+        return self._file
 
     @property
     def text(self) -> str | None:
@@ -152,13 +152,13 @@ class Scene:
     def digest(self) -> str:
         """Return 32 hexadecimal digits that differ where results may: keys of terrain, release and setup, files named.
 
-        Output keys do not count.
+        Keys of output and ensemble do not count.
 
         Returns
         -------
         str
         """
-        content = {key: value for key, value in self.to_mapping().items() if key != "output"}
+        content = {key: value for key, value in self.to_mapping().items() if key not in ("output", "ensemble")}
         files = {name: checksum_of(path) for name, path in named_files(content, self.folder).items()}
         return digest([content, files])
 
@@ -168,18 +168,14 @@ class Scene:
     def terrain(self) -> xr.Dataset:
         """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
         with located(self._file, "terrain"):
+            keys, written = self._content, self._content.setup
             return build_terrain(
-                self.terrain_keys,
-                self.folder,
-                self.release_keys,
-                self._content.setup.inflow,
-                self._varying,
-                self._content.setup.material,
+                keys.terrain, self.folder, keys.release, written.inflow, self._varying, written.material
             )
 
     @property
     def _varying(self) -> tuple[VaryingParameter, ...]:
-        return varying_parameters(self._content.setup, self.terrain_keys.zones)
+        return varying_parameters(self._content.setup, self._content.terrain.zones)
 
     @property
     def lattice(self) -> Lattice:
@@ -189,7 +185,7 @@ class Scene:
     @cached_property
     def releases(self) -> list[ScheduledRelease]:
         """Releases in the order of their times, without the inflow at points."""
-        return schedule_releases(self.release_keys, self.terrain, self.folder, self._file)
+        return schedule_releases(self._content.release, self.terrain, self.folder, self._file)
 
     @cached_property
     def setup(self) -> Setup:
@@ -197,9 +193,9 @@ class Scene:
         if self.adopted_plan is not None:
             return self.adopted_plan.setup
         setup = with_fields(self._content.setup, self._varying)
-        if not any(keys.kind == "points" for keys in self.release_keys):
+        if not any(keys.kind == "points" for keys in self._content.release):
             return setup
-        points = point_hydrographs(self.release_keys, self.terrain, self.folder, self._file)
+        points = point_hydrographs(self._content.release, self.terrain, self.folder, self._file)
         return dataclasses.replace(setup, inflow=(*setup.inflow, *points))
 
     @cached_property

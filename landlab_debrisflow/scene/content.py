@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 from ..core.errors import ParameterError
 from ..core.hints import did_you_mean
 from ..core.values import from_mapping, keys_of
-from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 from .location import located
 from .read_yaml import YamlFile
 from .setup import Setup
 from .zones import varying_parameters
 
 SETUP_KEYS = tuple(keys_of(Setup))
-SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS)
+SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS, "ensemble")
 
 BESIDE = (".shx", ".dbf", ".prj", ".cpg", ".aux.xml")
 """Endings of files that belong to a Shapefile or an ESRI ASCII grid of the same name."""
@@ -34,12 +34,15 @@ class SceneContent(NamedTuple):
         Duration, files and places of output.
     setup : Setup
         Laws, material, numerics and inflow as they are written, without the inflow at points.
+    ensemble : EnsembleKeys or None
+        What varies in many runs of the scene; None: nothing is said about it.
     """
 
     terrain: TerrainKeys
     release: tuple[ReleaseKeys, ...]
     output: OutputKeys
     setup: Setup
+    ensemble: EnsembleKeys | None = None
 
 
 def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> SceneContent:
@@ -81,7 +84,9 @@ def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> Sc
     setup = Setup(**given)
     with located(file, "terrain"):
         varying_parameters(setup, terrain.zones)
-    return SceneContent(terrain, release, output, setup)
+    given_ensemble = mapping.get("ensemble")
+    ensemble = None if given_ensemble is None else _declared(EnsembleKeys, given_ensemble, file, "ensemble")
+    return SceneContent(terrain, release, output, setup, ensemble)
 
 
 def to_mapping(content: SceneContent) -> dict[str, Any]:
@@ -96,9 +101,10 @@ def to_mapping(content: SceneContent) -> dict[str, Any]:
     dict
     """
     release = [_plain_keys(one) for one in content.release]
+    ensemble = {} if content.ensemble is None else {"ensemble": _plain_keys(content.ensemble)}
     return {
         "terrain": _plain_keys(content.terrain), "release": release, "output": _plain_keys(content.output),
-        **content.setup.to_mapping(),
+        **content.setup.to_mapping(), **ensemble,
     }  # fmt: skip
 
 
@@ -210,7 +216,7 @@ def _declared(cls: type, value: Any, file: YamlFile | None, *path: str | int) ->
 
 def _owner(key: Any) -> str:
     """Return a hint that a key belongs below another one, or an empty text."""
-    owners = [cls.keyword for cls in (TerrainKeys, ReleaseKeys, OutputKeys) if key in keys_of(cls)]
+    owners = [cls.keyword for cls in (TerrainKeys, ReleaseKeys, OutputKeys, EnsembleKeys) if key in keys_of(cls)]
     return f" (it is one of {' and '.join(owners)}: indent it below)" if owners else ""
 
 

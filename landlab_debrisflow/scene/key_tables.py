@@ -5,12 +5,12 @@ from typing import Any
 
 from ..core.docstrings import allowed, default
 from ..core.values import keys_of
-from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 from .terrain_keys import Edit, Zone
 
 TABLES = {
     "terrain": TerrainKeys, "terrain: zones": Zone, "terrain: edits": Edit, "release": ReleaseKeys,
-    "output": OutputKeys,
+    "output": OutputKeys, "ensemble": EnsembleKeys,
 }  # fmt: skip
 BEGIN, END = "<!-- keys, written from the declarations: begin -->", "<!-- keys: end -->"
 FORMS = {"points": "points", "lines": "lines", "polygons": "polygons", "table": "pairs"}

@@ -16,7 +16,7 @@ from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.material import Material
 from ..physics.registry import LAWS
-from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 from .zones import KINDS as ZONED
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -49,6 +49,7 @@ def scene_schema() -> dict[str, Any]:
     """
     definitions = {
         "terrain": _declared(TerrainKeys), "release": _declared(ReleaseKeys), "output": _declared(OutputKeys),
+        "ensemble": _declared(EnsembleKeys),
         "material": _declared(Material), "numerics": _declared(Numerics), "inflow": _declared(Hydrograph),
     }  # fmt: skip
     definitions["release"]["oneOf"] = [_is_set(kind) for kind in ("polygons", "raster", "points")]
@@ -60,7 +61,7 @@ def scene_schema() -> dict[str, Any]:
     ]
     properties: dict[str, Any] = {"terrain": _reference("terrain")}
     properties["release"] = _one_or_several(_reference("release")) | {"description": MEANINGS["release"]}
-    properties["output"] = _or_null(_reference("output"))
+    properties |= {key: _or_null(_reference(key)) for key in ("output", "ensemble")}
     for kind, laws in LAWS.items():
         definitions |= {f"{kind}_{name}": _law(name, law) for name, law in laws.items()}
         properties[kind] = _choice_of_law(kind, laws)

@@ -12,7 +12,7 @@ from ..model.inflow.hydrograph import Hydrograph
 from ..model.numerics import Numerics
 from ..physics.material import Material
 from ..physics.registry import LAWS
-from .keys import OutputKeys, ReleaseKeys, TerrainKeys
+from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 
 COMMENT_AT, WIDTH = 44, 118
 """Column at which comments begin, and length of a line at most."""
@@ -49,6 +49,8 @@ INFLOW = {
     "velocity": 3.0,
 }  # fmt: skip
 """Values of keys that an inflow needs, to be replaced."""
+VARIED = {"friction.basal_friction_angle": {"normal": {"mean": 28.0, "sd": 2.0}}}
+"""Values that vary in an ensemble, to be replaced."""
 
 
 def scene_text(
@@ -88,6 +90,8 @@ def scene_text(
     for key, cls in (("material", Material), ("numerics", Numerics), ("output", OutputKeys)):
         lines += _mapping(key, _keys(cls, settings.get(key, {}), {}, full))
     if full:
+        lines += ["", "# Many runs of the scene, in which values vary (landlab-debrisflow ensemble):", "# ensemble:"]
+        lines += _commented(_keys(EnsembleKeys, {"vary": VARIED}, {}))
         lines += ["", "# Flow across a line, instead of a release or besides:", "# inflow:"]
         lines += _commented(_keys(Hydrograph, INFLOW, {}))
     return "\n".join(line.rstrip() for line in lines) + "\n"

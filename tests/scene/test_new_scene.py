@@ -12,7 +12,7 @@ from landlab_debrisflow.core.errors import InputError
 from landlab_debrisflow.core.values import keys_of
 from landlab_debrisflow.physics.registry import LAWS
 from landlab_debrisflow.scene.gully import gully
-from landlab_debrisflow.scene.keys import OutputKeys, ReleaseKeys, TerrainKeys
+from landlab_debrisflow.scene.keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 from landlab_debrisflow.scene.new_scene import new_scene
 from landlab_debrisflow.scene.read_yaml import read_yaml
 from landlab_debrisflow.scene.template import USUAL, yaml_text
@@ -42,7 +42,7 @@ def test_the_example_runs_and_shows_defaults(tmp_path):
 
 def test_every_key_is_there_with_unit_and_meaning(tmp_path):
     text = new_scene(tmp_path / "scene.yaml", full=True).read_text()
-    classes = [TerrainKeys, ReleaseKeys, OutputKeys, Material, Numerics, Hydrograph]
+    classes = [TerrainKeys, ReleaseKeys, OutputKeys, EnsembleKeys, Material, Numerics, Hydrograph]
     for cls in [*classes, *(law for laws in LAWS.values() for law in laws.values())]:
         for key, field in keys_of(cls).items():
             assert re.search(rf"(?m)^\W*{key}: ", text), key

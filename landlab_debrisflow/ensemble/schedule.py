@@ -1,0 +1,148 @@
+"""Schedule of an ensemble: batches as tasks on workers, or one after the other in this process."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+from uuid import uuid4
+
+from ..core.errors import InputError
+from .basis import Basis
+from .batch import BatchResult, OtherVersionError, run_batch
+from .result import MemberResult
+
+AHEAD = 2
+"""Batches given to the scheduler for every thread of the workers: while one runs, the next one waits beside it, and
+the memory of scheduler and workers does not grow with the number of members."""
+
+ATTEMPTS = 3
+"""Times that a batch is given away again after workers with the basis were lost."""
+
+ENDED = "KilledWorker: {} workers ended while they ran this member; there may be too little memory for it"
+"""Error of a member that ends the processes of workers."""
+
+
+class Task(NamedTuple):
+    """Batch of members to be run.
+
+    Attributes
+    ----------
+    batch : int
+        Number of the batch.
+    members : sequence of tuple of int and mapping
+        Number and values of each member.
+    """
+
+    batch: int
+    members: Sequence[tuple[int, Mapping[str, Any]]]
+
+
+def run_here(basis: Basis, tasks: Iterable[Task], write: Callable[[BatchResult], None]) -> None:
+    """Run batches one after the other in this process.
+
+    Parameters
+    ----------
+    basis : Basis
+    tasks : iterable of Task
+    write : callable
+        Called with each result.
+    """
+    for task in tasks:
+        write(run_batch(basis, *task))
+
+
+def run_on(client: Any, basis: Basis, tasks: Iterable[Task], write: Callable[[BatchResult], None]) -> None:
+    """Run batches as tasks on the workers of a client.
+
+    The basis goes to every worker once. A batch whose worker is lost runs again on another one. A batch that has ended
+    several workers is run member by member, so that the member that ends a worker is found and further members count.
+
+    Parameters
+    ----------
+    client : distributed.Client
+    basis : Basis
+    tasks : iterable of Task
+    write : callable
+        Called with each result in this process, in the order in which batches are done.
+
+    Raises
+    ------
+    InputError
+        If a worker has another version of the package, or the connection is lost for good.
+    """
+    _Schedule(client, basis, write).run(iter(tasks))
+
+
+class _Schedule:
+    def __init__(self, client: Any, basis: Basis, write: Callable[[BatchResult], None]):
+        from distributed import as_completed
+
+        self._client, self._basis, self._write = client, basis, write
+        self._done = as_completed(loop=client.loop)
+        self._running: dict[Any, tuple[Task, int]] = {}
+        self._scatter()
+
+    def _scatter(self) -> None:
+        self._client.wait_for_workers(1)
+        self._shared = self._client.scatter(self._basis, broadcast=True, hash=False)
+
+    def run(self, tasks) -> None:
+        try:
+            for task in tasks:
+                self._submit(task, 1)
+                while len(self._running) >= AHEAD * max(1, sum(self._client.nthreads().values())):
+                    self._finish(next(self._done))
+            while self._running:
+                self._finish(next(self._done))
+        finally:
+            self._client.cancel(list(self._running))
+            self._client.cancel([self._shared])
+
+    def _submit(self, task: Task, attempt: int) -> None:
+        future = self._client.submit(run_batch, self._shared, *task, key=self._key(task), pure=False)
+        self._running[future] = task, attempt
+        self._done.add(future)
+
+    @staticmethod
+    def _key(task: Task) -> str:
+        return f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps a failed task under its key
+
+    def _finish(self, future: Any) -> None:
+        from distributed import KilledWorker
+        from distributed.client import CancelledError
+
+        task, attempt = self._running.pop(future)
+        try:
+            self._write(future.result())
+        except OtherVersionError as error:
+            raise InputError(f"ensemble: {error}; install the version of this process there") from error
+        except KilledWorker:
+            self._write(self._one_by_one(task))
+        except CancelledError as error:
+            if attempt >= ATTEMPTS:
+                raise InputError(
+                    f"ensemble: batch {task.batch} was lost {attempt} times with its workers ({error}); batches "
+                    "that are in the store stay there: run again when workers are back"
+                ) from error
+            self._scatter()
+            self._submit(task, attempt + 1)
+
+    def _one_by_one(self, task: Task) -> BatchResult:
+        """Return the result of a batch that ended its workers, the members that do it as failures."""
+        from distributed import KilledWorker
+
+        results: list[MemberResult] = []
+        attributes: dict[str, dict[str, str]] = {}
+        seconds: list[float] = []
+        for member, values in task.members:
+            one = Task(task.batch, [(member, values)])
+            try:
+                found = self._client.submit(run_batch, self._shared, *one, key=self._key(one), pure=False).result()
+                results += found.results
+                attributes, seconds = attributes or found.attributes, seconds + found.seconds
+            except KilledWorker as error:
+                results.append(_failed(member, values, ENDED.format(error.allowed_failures + 1)))
+                seconds.append(float("nan"))
+        return BatchResult(task.batch, results, attributes, seconds)
+
+
+def _failed(member: int, values: Mapping[str, Any], error: str) -> MemberResult:
+    return MemberResult(member, dict(values), {}, slice(0, 0), slice(0, 0), {}, error)
