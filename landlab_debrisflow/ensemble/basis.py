@@ -17,7 +17,6 @@ from ..scene.setup import Setup
 from ..scene.shapes import shapes_of
 from ..scene.terrain import BED_FIELDS, build_terrain, lattice_of
 from ..scene.zones import KINDS as ZONED
-from ..scene.zones import varying_parameters
 from .design import Varied
 from .distributions import Choices
 from .edits import AMOUNTS
@@ -106,7 +105,7 @@ def shared_terrain(content: SceneContent, folder: Path, varied: Sequence[Varied]
         keys, choices = content.release[int(one.name.path[1])], one.distribution
         assert isinstance(choices, Choices)
         releases += [dataclasses.replace(keys, **{str(one.name.path[-1]): value}) for value in choices.values]
-    return _terrain(content, folder, releases)
+    return build_terrain(content._replace(release=tuple(releases)), folder)
 
 
 def rebuilt_terrain(content: SceneContent, folder: Path, lattice: Lattice) -> xr.Dataset:
@@ -129,7 +128,7 @@ def rebuilt_terrain(content: SceneContent, folder: Path, lattice: Lattice) -> xr
         If the DEM of the member has other nodes.
     """
     keys = dataclasses.replace(content.terrain, window=lattice.bounds)
-    terrain = _terrain(content._replace(terrain=keys), folder, content.release)
+    terrain = build_terrain(content._replace(terrain=keys), folder)
     found, shift = lattice_of(terrain), []
     for axis in (0, 1):
         step = (lattice.lower_left[axis] - found.lower_left[axis]) / lattice.spacing[axis]
@@ -187,20 +186,13 @@ def check_amounts(content: SceneContent, folder: Path, varied: Sequence[Varied],
                 )
 
 
-def _terrain(content: SceneContent, folder: Path, releases: Sequence[ReleaseKeys]) -> xr.Dataset:
-    written = content.setup
-    varying = varying_parameters(written, content.terrain.zones)
-    return build_terrain(content.terrain, folder, releases, written.inflow, varying, written.material)
-
-
 def _changes_fields(one: Varied, content: SceneContent) -> bool:
     """Return whether a varied value changes fields of the terrain, noise aside."""
     kind, last = str(one.name.path[0]), str(one.name.path[-1])
     if kind == "terrain":
         return last != NOISE
     if kind in ZONED:
-        varying = varying_parameters(content.setup, content.terrain.zones)
-        fields = [found.name for found in varying if found.kind == kind]
+        fields = [found.name for found in content.varying if found.kind == kind]
         return last in fields or (len(one.name.path) == 1 and bool(fields))
     if kind == "material" and last in BED_FIELDS:
         return any(getattr(zone, last) is not None for zone in content.terrain.zones)

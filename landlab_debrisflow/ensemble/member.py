@@ -23,7 +23,6 @@ from ..scene.content import SceneContent
 from ..scene.point_inflow import point_hydrographs
 from ..scene.releases import ScheduledRelease, advance
 from ..scene.setup import Setup
-from ..scene.zones import varying_parameters, with_fields
 from .basis import Basis, rebuilt_terrain, scheduled
 from .distributions import NoiseRealisations
 from .edits import with_values
@@ -199,9 +198,8 @@ def _setup(
     content: SceneContent, terrain: xr.Dataset, folder: Path, paths: Mapping[tuple[str | int, ...], Any]
 ) -> Setup:
     """Return the setup of a member: one thread, the inflow with that at points and with the factors."""
-    written = content.setup
-    setup = with_fields(written, varying_parameters(written, content.terrain.zones))
-    inflow = [_times(line, _factor("inflow", k, paths)) for k, line in enumerate(written.inflow)]
+    setup = content.setup_on_grid
+    inflow = [_times(line, _factor("inflow", k, paths)) for k, line in enumerate(setup.inflow)]
     for k, keys in enumerate(content.release):
         if keys.kind == "points":
             factor = _factor("release", k, paths)

@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray as xr
 
-from ..core.errors import InputError
+from ..core.errors import InputError, OutputError
 from ..run.directory import locked
 from .basis import Basis
 from .batch import BatchResult
@@ -42,13 +42,17 @@ def opened(path: Path | None, header: Header, design: xr.Dataset) -> Iterator[St
     if path is None:
         yield Store.create(None, header, design)
         return
-    found = Store.open(path, write=True) if path.exists() else Store.create(path, header, design)
-    if found.header.digest != header.digest:
-        raise InputError(
-            f"{path} holds another ensemble, of digest {found.header.digest}; this one has {header.digest}: scene, "
-            "values of members, maps or batches differ; choose another store, or remove it"
-        )
-    with locked(path, "; wait for it, or choose another store"):
+    try:
+        path.parent.mkdir(exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot write the store {path}: {error.strerror}; choose another") from error
+    with locked(path.parent, "; wait for it, or choose another store", f".{path.name}.lock"):
+        found = Store.open(path, write=True) if path.exists() else Store.create(path, header, design)
+        if found.header.digest != header.digest:
+            raise InputError(
+                f"{path} holds another ensemble, of digest {found.header.digest}; this one has {header.digest}: scene, "
+                "values of members, maps or batches differ; choose another store, or remove it"
+            )
         yield found
 
 
@@ -83,13 +87,13 @@ def run_missing(
         raise InputError("ensemble: workers are those of the client; leave one of them out")
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
         raise InputError(f"ensemble: workers must be an integer of 1 or more, got {workers!r}")
-    done = set(store.complete_batches())
-    missing = [batch for batch in range(store.batch_count) if batch not in done]
+    done = store.complete_batches()
+    missing = sorted(set(range(store.batch_count)) - set(done))
     tasks = (
         Task(batch, [(member, member_values(store.design, member)) for member in store.members_of(batch)])
         for batch in missing
     )
-    write, count = _Writer(store, notify), min(len(missing), workers or processors())
+    write, count = _Writer(store, done, notify), min(len(missing), workers or processors())
     if not missing:
         return
     if client is None and count == 1:
@@ -102,9 +106,9 @@ def run_missing(
 class _Writer:
     """Writes batches into a store and tells how many members are done."""
 
-    def __init__(self, store: Store, notify: Callable[[str], None]):
+    def __init__(self, store: Store, done: list[int], notify: Callable[[str], None]):
         self._store, self._notify = store, notify
-        self._done = sum(len(store.members_of(batch)) for batch in store.complete_batches())
+        self._done = sum(len(store.members_of(batch)) for batch in done)
         self._failed = 0
 
     def __call__(self, found: BatchResult) -> None:

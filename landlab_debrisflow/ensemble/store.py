@@ -1,6 +1,5 @@
 """Store of an ensemble: header, design and a group for each batch, written by one process alone."""
 
-import json
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -104,7 +103,6 @@ class Store:
         # a process that is killed meanwhile leaves no half of a store
         unfinished = path.with_name(f".{path.name}.unfinished")
         try:
-            path.parent.mkdir(exist_ok=True)
             _new_group(unfinished, header, design)
             os.replace(unfinished, path)
         except OSError as error:
@@ -257,7 +255,7 @@ def _header(attributes: Mapping[str, Any], place: str) -> Header:
             f"{place} is of landlab_debrisflow {attributes.get('version')} and format {attributes.get('format')}, this "
             f"is {__version__} and format {FORMAT}; read it with that version, or run the ensemble in another store"
         )
-    plain = json.loads(json.dumps(attributes["header"]))
+    plain = dict(attributes["header"])
     lattice = plain.pop("lattice")
     place_of = Lattice(tuple(lattice["shape"]), tuple(lattice["spacing"]), tuple(lattice["lower_left"]), lattice["crs"])
     return Header(**plain | {"maps": tuple(plain["maps"]), "lattice": place_of})

@@ -248,7 +248,7 @@ def _remove_temporaries(directory: Path) -> None:
 
 
 @contextlib.contextmanager
-def locked(directory: Path, remedy: str) -> Iterator[None]:
+def locked(directory: Path, remedy: str, name: str = LOCK) -> Iterator[None]:
     """Hold a lock on a directory until the block or the process ends, even if the process is killed.
 
     Parameters
@@ -256,6 +256,8 @@ def locked(directory: Path, remedy: str) -> Iterator[None]:
     directory : Path
     remedy : str
         Words for the process that finds the directory locked.
+    name : str
+        File that is the lock, below the directory.
 
     Raises
     ------
@@ -267,7 +269,7 @@ def locked(directory: Path, remedy: str) -> Iterator[None]:
     except ImportError:  # on Windows two runs in one directory are not noticed
         yield
         return
-    path = directory / LOCK
+    path = directory / name
     with path.open("w") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

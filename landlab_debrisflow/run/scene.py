@@ -22,7 +22,6 @@ from ..scene.read_yaml import YamlFile, read_yaml
 from ..scene.releases import ScheduledRelease, schedule_releases
 from ..scene.setup import Setup
 from ..scene.terrain import build_terrain, lattice_of
-from ..scene.zones import VaryingParameter, varying_parameters, with_fields
 from .advance import start
 from .grids import build_grid
 from .results import Results
@@ -168,14 +167,7 @@ class Scene:
     def terrain(self) -> xr.Dataset:
         """Ground as arrays over ``y`` and ``x``, named as fields of the grid [m]."""
         with located(self._file, "terrain"):
-            keys, written = self._content, self._content.setup
-            return build_terrain(
-                keys.terrain, self.folder, keys.release, written.inflow, self._varying, written.material
-            )
-
-    @property
-    def _varying(self) -> tuple[VaryingParameter, ...]:
-        return varying_parameters(self._content.setup, self._content.terrain.zones)
+            return build_terrain(self._content, self.folder)
 
     @property
     def lattice(self) -> Lattice:
@@ -192,7 +184,7 @@ class Scene:
         """Laws, material, numerics and inflow, also the inflow at points."""
         if self.adopted_plan is not None:
             return self.adopted_plan.setup
-        setup = with_fields(self._content.setup, self._varying)
+        setup = self._content.setup_on_grid
         if not any(keys.kind == "points" for keys in self._content.release):
             return setup
         points = point_hydrographs(self._content.release, self.terrain, self.folder, self._file)

@@ -12,7 +12,7 @@ from .keys import EnsembleKeys, OutputKeys, ReleaseKeys, TerrainKeys
 from .location import located
 from .read_yaml import YamlFile
 from .setup import Setup
-from .zones import varying_parameters
+from .zones import VaryingParameter, varying_parameters, with_fields
 
 SETUP_KEYS = tuple(keys_of(Setup))
 SCENE_KEYS = ("terrain", "release", "output", *SETUP_KEYS, "ensemble")
@@ -43,6 +43,16 @@ class SceneContent(NamedTuple):
     output: OutputKeys
     setup: Setup
     ensemble: EnsembleKeys | None = None
+
+    @property
+    def varying(self) -> tuple[VaryingParameter, ...]:
+        """Parameters of laws that vary by zones or rasters."""
+        return varying_parameters(self.setup, self.terrain.zones)
+
+    @property
+    def setup_on_grid(self) -> Setup:
+        """The setup, its varying parameters read from fields of the grid."""
+        return with_fields(self.setup, self.varying)
 
 
 def read_content(mapping: Mapping[str, Any], file: YamlFile | None = None) -> SceneContent:

@@ -1,7 +1,6 @@
 """Ground of a scene, from its keys and files to arrays over nodes."""
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,14 +18,12 @@ from ..geo.references import check_reference
 from ..geo.resampling import COARSER, read_onto, resample
 from ..geo.source import RasterSource
 from ..grid.elevation_checks import HOLE, SUSPECT
-from ..model.inflow.hydrograph import Hydrograph
-from ..physics.material import Material
+from .content import SceneContent
 from .edits import Ground, edit_ground
 from .gully import gully
 from .reach import reachable_window, starting_shapes
-from .release_keys import ReleaseKeys
 from .terrain_keys import TerrainKeys
-from .zones import VECTORS, VaryingParameter, has_suffix, parameter_fields, polygons_of, zone_nodes
+from .zones import VECTORS, has_suffix, parameter_fields, polygons_of, zone_nodes
 
 ELEVATION, SOIL = "topographic__elevation", "soil__depth"
 BED_FIELDS = {
@@ -40,32 +37,23 @@ SMALLEST = 5
 """Least number of rows and of columns of a terrain."""
 
 
-def build_terrain(
-    keys: TerrainKeys, folder: Path, releases: Sequence[ReleaseKeys] = (), inflow: Sequence[Hydrograph] = (),
-    parameters: Sequence[VaryingParameter] = (), material: Material | None = None,
-) -> xr.Dataset:  # fmt: skip
+def build_terrain(content: SceneContent, folder: Path) -> xr.Dataset:
     """Return elevation, soil and varying parameters over ``y`` and ``x``, named as fields of the grid.
 
     Parameters
     ----------
-    keys : TerrainKeys
+    content : SceneContent
+        Keys of the scene. From its releases and inflow ``window: reach`` starts; the pore water of the bed of its
+        material holds outside the zones with another one, unless the terrain gives one.
     folder : Path
         Directory to which names of files are relative.
-    releases : sequence of ReleaseKeys
-        Releases, from which ``window: reach`` starts.
-    inflow : sequence of Hydrograph
-        Inflow, from which ``window: reach`` starts, too.
-    parameters : sequence of VaryingParameter
-        As `varying_parameters` returns them.
-    material : Material, optional
-        Its pore water of the bed holds outside the zones with another one, unless the terrain gives one.
 
     Returns
     -------
     xarray.Dataset
         With ``topographic__elevation`` [m], NaN where there are no data; ``soil__depth`` [m] if there is erodible soil;
-        ``bed__excess_pore_pressure_ratio`` and ``bed__degree_of_saturation`` [-] if given; a field for each of the
-        `parameters`; and ``closed``, bool, if buildings close nodes. Attributes: ``crs_wkt``, the coordinate reference
+        ``bed__excess_pore_pressure_ratio`` and ``bed__degree_of_saturation`` [-] if given; a field for each parameter
+        that varies; and ``closed``, bool, if buildings close nodes. Attributes: ``crs_wkt``, the coordinate reference
         system, "" if it is not known; ``dem`` and ``dem_sha256``, name and checksum of the file; ``notes``, remarks and
         doubts for the user.
 
@@ -75,8 +63,9 @@ def build_terrain(
         If a file cannot be used, or files do not fit each other.
     """
     notes: list[str] = []
+    keys, setup = content.terrain, content.setup
     source, checksum = _example(keys) if keys.example is not None else _dem(keys, folder, notes)
-    window = _window(keys, source, folder, releases, inflow, notes)
+    window = _window(keys, source, folder, content.release, setup.inflow, notes)
     lattice, elevation = _elevation(keys, source, window, notes)
     _note_missing(elevation, notes)
     zones = zone_nodes(keys.zones, lattice, source.lattice, folder, notes)
@@ -85,8 +74,8 @@ def build_terrain(
     edit_ground(keys.edits, ground, source.lattice, folder, notes)
     fields: dict[str, Any] = {ELEVATION: elevation, SOIL: soil}
     for key, field in BED_FIELDS.items():
-        fields[field] = _bed_water(key, keys, lattice, folder, zones, getattr(material or Material(), key), notes)
-    fields |= parameter_fields(parameters, zones, lattice, folder, notes)
+        fields[field] = _bed_water(key, keys, lattice, folder, zones, getattr(setup.material, key), notes)
+    fields |= parameter_fields(content.varying, zones, lattice, folder, notes)
     if ground.closed.any():
         fields["closed"] = ground.closed
     return xr.Dataset(

@@ -178,15 +178,9 @@ def _elevation(values, dx, dy, x, y, elevation):
     """Write the elevation of points [m], as `_sample` does; parameters as there."""
     s, t, around, z = lane_doubles(), lane_doubles(), lane_surroundings(), lane_doubles()
     for first in range(0, x.size, DOUBLES):
-        count = min(DOUBLES, x.size - first)
+        count = _look_around_all(values, dx, dy, x, y, first, s, t, around)
         for lane in range(DOUBLES):
-            i = first + min(lane, count - 1)
-            s[lane], t[lane] = _look_around(values, dx, dy, x[i], y[i], lane, around)
-        for lane in range(DOUBLES):
-            a0, _, _ = _along(around, lane, 0, s[lane], dx)
-            a1, _, _ = _along(around, lane, 4, s[lane], dx)
-            a2, _, _ = _along(around, lane, 8, s[lane], dx)
-            a3, _, _ = _along(around, lane, 12, s[lane], dx)
+            (a0, _, _), (a1, _, _), (a2, _, _), (a3, _, _) = _along_rows(around, lane, s[lane], dx)
             v = t[lane]
             m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)
             z[lane] = a1 + v * (m1 + v * (k2 + v * k3))
@@ -207,15 +201,9 @@ def _sample(values, dx, dy, x, y, sample):
         lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(), lane_doubles(),
     )  # fmt: skip
     for first in range(0, x.size, DOUBLES):
-        count = min(DOUBLES, x.size - first)
+        count = _look_around_all(values, dx, dy, x, y, first, s, t, around)
         for lane in range(DOUBLES):
-            i = first + min(lane, count - 1)  # lanes to spare repeat the last point
-            s[lane], t[lane] = _look_around(values, dx, dy, x[i], y[i], lane, around)
-        for lane in range(DOUBLES):
-            a0, b0, c0 = _along(around, lane, 0, s[lane], dx)
-            a1, b1, c1 = _along(around, lane, 4, s[lane], dx)
-            a2, b2, c2 = _along(around, lane, 8, s[lane], dx)
-            a3, b3, c3 = _along(around, lane, 12, s[lane], dx)
+            (a0, b0, c0), (a1, b1, c1), (a2, b2, c2), (a3, b3, c3) = _along_rows(around, lane, s[lane], dx)
             v = t[lane]
             m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)
             z[lane] = a1 + v * (m1 + v * (k2 + v * k3))
@@ -247,6 +235,25 @@ def _look_around(values, dx, dy, x, y, lane, around):
 
 
 @inner
+def _look_around_all(values, dx, dy, x, y, first, s, t, around):
+    """Write nodes and places of the points from the `first` on, one in a lane; return how many lanes hold a point."""
+    count = min(DOUBLES, x.size - first)
+    for lane in range(DOUBLES):
+        i = first + min(lane, count - 1)  # lanes to spare repeat the last point
+        s[lane], t[lane] = _look_around(values, dx, dy, x[i], y[i], lane, around)
+    return count
+
+
+@inner
+def _along_rows(around, lane, s, dx):
+    """Return what `_along` does for the four rows of a lane, from south to north."""
+    return (
+        _along(around, lane, 0, s, dx), _along(around, lane, 4, s, dx), _along(around, lane, 8, s, dx),
+        _along(around, lane, 12, s, dx),
+    )  # fmt: skip
+
+
+@inner
 def _along(around, lane, first, s, dx):
     """Return value [m] and first and second derivative per node, at `s`, along a row of four nodes from the `first`."""
     v0, v1 = around[first * DOUBLES + lane], around[(first + 1) * DOUBLES + lane]
@@ -274,10 +281,7 @@ def _smooth_cubic(v0, v1, v2, v3):
 def slopes_at(values, dx, dy, x, y, around):
     """Return the slopes dz/dx and dz/dy at a point x, y [m]; parameters as in `_sample`, and scratch for one lane."""
     s, t = _look_around(values, dx, dy, x, y, 0, around)
-    a0, b0, _ = _along(around, 0, 0, s, dx)
-    a1, b1, _ = _along(around, 0, 4, s, dx)
-    a2, b2, _ = _along(around, 0, 8, s, dx)
-    a3, b3, _ = _along(around, 0, 12, s, dx)
+    (a0, b0, _), (a1, b1, _), (a2, b2, _), (a3, b3, _) = _along_rows(around, 0, s, dx)
     m1, k2, k3 = _smooth_cubic(b0, b1, b2, b3)
     slope_x = (b1 + t * (m1 + t * (k2 + t * k3))) / dx
     m1, k2, k3 = _cubic(a0, a1, a2, a3, dy)

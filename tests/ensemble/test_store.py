@@ -97,8 +97,14 @@ def test_a_store_whose_making_was_killed_is_made_anew(ensemble, tmp_path):
 
 
 def test_one_process_at_a_time_writes(ensemble, finished):
-    with locked(finished, "; wait"), pytest.raises(OutputError, match="another process writes there; wait for it, or"):
+    lock = locked(finished.parent, "; wait", f".{finished.name}.lock")
+    with lock, pytest.raises(OutputError, match="another process writes there; wait for it, or"):
         ensemble.run(store=finished, workers=1)
+
+
+def test_stores_in_one_folder_have_locks_of_their_own(ensemble, finished):
+    with locked(finished.parent, "; wait", ".other.zarr.lock"):
+        assert ensemble.run(store=finished, workers=1).done.all()
 
 
 def test_a_store_that_cannot_be_written_is_named(ensemble, tmp_path):
