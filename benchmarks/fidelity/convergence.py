@@ -1,4 +1,4 @@
-"""Errors against the number of particles, before and after a change of the engine."""
+"""Errors against the number of particles, now and before a change of the engine."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,7 +15,7 @@ COUNTS = (500, 1000, 2000)
 """Particles of the runs that are compared, with default steps."""
 
 CHANGE = "footprints of particles were sharpened and suction was kept"
-"""The change of the engine between the runs that are called before and after."""
+"""Change of the engine to which `before` refers; steps have become longer since then, too."""
 
 
 def errors_by_count(scenes, names, name: str, counts=COUNTS, truth: int = FULL) -> np.ndarray:
@@ -35,29 +35,29 @@ def common(*versions) -> list[str]:
     return [name for name in SETS["fit"] if all(key in scenes.get(name, {}) for scenes in versions for key in needed)]
 
 
-def print_convergence(after, before) -> None:
-    """Print median, 90 % quantile and largest error against particles, before and after a change [%]."""
-    names = common(after, before)
+def print_convergence(now, before) -> None:
+    """Print median, 90 % quantile and largest error against particles, now and before a change [%]."""
+    names = common(now, before)
     table = Table(title=f"error against {FULL} of the same version, {len(names)} scenes: median / 90 % / largest [%]")
-    for head in ("", *(f"{count}, {words}" for count in COUNTS for words in ("before", "after"))):
+    for head in ("", *(f"{count}, {words}" for count in COUNTS for words in ("before", "now"))):
         table.add_column(head, justify="right" if head else "left")
     for name in QUANTITIES:
         cells = [
             " / ".join(f"{value:.1f}" for value in (np.median(found), np.quantile(found, 0.9), found.max()))
-            for pair in zip(*(100.0 * errors_by_count(one, names, name) for one in (before, after)), strict=True)
+            for pair in zip(*(100.0 * errors_by_count(one, names, name) for one in (before, now)), strict=True)
             for found in pair
         ]
         table.add_row(WORDS[name], *cells)
     Console(width=160).print(table)
 
 
-def draw_convergence(after, before) -> Figure:
-    """Return median and 90 % of the errors against particles, before and after a change, against 8000 particles."""
+def draw_convergence(now, before) -> Figure:
+    """Return median and 90 % of the errors against particles, now and before a change, against 8000 particles."""
     figure = Figure(figsize=(14.0, 6.0), layout="constrained")
     panels = figure.subplots(2, 4, sharex=True).ravel()
-    names = common(after, before)
+    names = common(now, before)
     for axes, name in zip(panels, QUANTITIES, strict=False):
-        for scenes, words, colour in ((before, "before", "0.55"), (after, "after", style.BLUE)):
+        for scenes, words, colour in ((before, "before", "0.55"), (now, "now", style.BLUE)):
             errors = 100.0 * errors_by_count(scenes, names, name)
             if errors.size:
                 axes.plot(COUNTS, np.median(errors, axis=1), "o-", color=colour, label=f"{words}: median")
@@ -76,5 +76,5 @@ def draw_convergence(after, before) -> Figure:
     panels[-1].legend(*handles, loc="center", frameon=False)
     figure.supxlabel("number of particles")
     figure.supylabel(f"error against {FULL} particles of the same version [%]", fontsize="medium")
-    figure.suptitle(f"Before and after {CHANGE}: {len(names)} random scenes, default steps")
+    figure.suptitle(f"{len(names)} random scenes, default steps: now, and before {CHANGE}")
     return figure
