@@ -69,7 +69,7 @@ def test_nojit(session):
 @nox.session(python="3.11")
 def oldest(session):
     """Run the fast subset with the lowest versions that pyproject.toml allows."""
-    wanted = PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["docs"] + EXTRAS["test"]
+    wanted = PROJECT["dependencies"] + EXTRAS["geo"] + EXTRAS["ensemble"] + EXTRAS["docs"] + EXTRAS["test"]
     needed = [each for each in wanted if "landlab_debrisflow[" not in each]
     lowest = [re.sub(r">=([\d.]+)(,[^;]*)?", r"==\1", each) for each in needed]
     session.install(*lowest)

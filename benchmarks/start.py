@@ -1,4 +1,4 @@
-"""How long a start takes: python -m benchmarks.start [--kernels]
+"""How long a start takes: python -m benchmarks.start [--kernels | --calls]
 
 CPU seconds (user + system) of fresh Python processes: the import of what is needed of landlab, that of the
 package, both and the first step of a small event (200 particles, ALE column, erosion), and 20 s of that event, where
@@ -6,7 +6,7 @@ more kernels are needed. Cold is with an empty folder NUMBA_CACHE_DIR, once or t
 with a full one, median of five. The last column is what comes on top of landlab's own import.
 
 With --kernels, CPU time of compilation by kernel instead: by itself, and with all that it calls and that had not
-been compiled yet.
+been compiled yet. With --calls, CPU time of a call of a kernel with 15 arrays, with and without references counted.
 """
 
 import argparse
@@ -23,6 +23,7 @@ from rich.table import Column, Table
 
 WARM = 5
 WIDTH = 130  # of the tables [characters]
+ARRAYS = 15
 LANDLAB = "from landlab import Component, RasterModelGrid"
 PACKAGE = f"{LANDLAB}\nimport landlab_debrisflow"
 EVENT = f"""{PACKAGE}
@@ -111,13 +112,46 @@ def kernels() -> Table:
     return table
 
 
+def calls(repeats: int = 5, times: int = 100_000) -> Table:
+    """Return the CPU time of a call of kernels that count references to arrays and of kernels that do not."""
+    import numpy as np
+
+    from landlab_debrisflow.core.jit import allocating_kernel, kernel
+
+    def first(arrays):
+        arrays[0][0] = 1.0
+
+    def second(arrays):
+        arrays[0][0] = 1.0
+
+    arrays = tuple(np.ones(3) for _ in range(ARRAYS))
+    compiled = {"allocating_kernel": allocating_kernel(first), "kernel": kernel(second)}
+    spent = {name: [] for name in compiled}
+    for function in compiled.values():
+        function(arrays)
+    for _ in range(repeats):
+        for name, function in compiled.items():
+            begin = time.process_time()
+            for _ in range(times):
+                function(arrays)
+            spent[name].append((time.process_time() - begin) / times)
+    table = Table("decorator", title=f"CPU time of a call with {ARRAYS} arrays in us, median of {repeats} in turns")
+    table.add_column("call", justify="right")
+    for name, found in spent.items():
+        table.add_row(name, f"{1e6 * statistics.median(found):.2f}")
+    return table
+
+
 def main() -> None:
     """Measure as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kernels", action="store_true", help="time of compilation by kernel")
+    parser.add_argument("--calls", action="store_true", help="time of a call of a kernel")
     parser.add_argument("--cold", type=int, default=1, metavar="N", help="number of cold starts")
     options = parser.parse_args()
-    if not options.kernels:
+    if options.calls:
+        Console(width=WIDTH).print(calls())
+    elif not options.kernels:
         Console(width=WIDTH).print(measure(options.cold))
     elif "NUMBA_CACHE_DIR" not in os.environ:  # numba reads it when it is imported
         with tempfile.TemporaryDirectory() as cache:

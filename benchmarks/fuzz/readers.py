@@ -63,6 +63,19 @@ class _Warnings(logging.Handler):
         self.messages.append(record.getMessage())
 
 
+@contextlib.contextmanager
+def _kept_warnings():
+    """Keep the warnings of the package in a block instead of showing them; yield the list of messages."""
+    handler, logger = _Warnings(), logging.getLogger(PACKAGE)
+    propagates, logger.propagate = logger.propagate, False
+    logger.addHandler(handler)
+    try:
+        yield handler.messages
+    finally:
+        logger.removeHandler(handler)
+        logger.propagate = propagates
+
+
 def read(case: Case, folder: Path) -> Outcome:
     """Write and read the files of a case in an empty directory.
 
@@ -70,17 +83,16 @@ def read(case: Case, folder: Path) -> Outcome:
     "error" (another exception), "not finite" and "written" (a reader wrote a file).
     """
     done = case.write(folder)
-    before, handler, logger = sorted(folder.rglob("*")), _Warnings(), logging.getLogger(PACKAGE)
-    logger.addHandler(handler)
-    logger.propagate = False
+    before = sorted(folder.rglob("*"))
     try:
         try:
-            if case.kind == "checkpoint":
-                notes = _read_checkpoint(folder)
-            elif case.kind == "record":
-                notes = records.read(folder)
-            else:
-                notes = read_scene(folder, case.sampled)
+            with _kept_warnings() as messages:
+                if case.kind == "checkpoint":
+                    notes = _read_checkpoint(folder)
+                elif case.kind == "record":
+                    notes = records.read(folder)
+                else:
+                    notes = read_scene(folder, case.sampled)
         finally:
             written = [path.name for path in sorted(folder.rglob("*")) if path not in before]
     except REFUSALS as error:
@@ -93,7 +105,7 @@ def read(case: Case, folder: Path) -> Outcome:
         return Outcome("error", f"{type(error).__name__}: {error} at {place}\n{traceback.format_exc()}", done)
     if written and case.kind != "record":  # there a run begins
         return Outcome("written", ", ".join(written), done)
-    notes = [*notes, *handler.messages]
+    notes = [*notes, *messages]
     if "not finite" in notes:
         return Outcome("not finite", "", done)
     return Outcome("warned" if notes else "accepted", "; ".join(notes), done)

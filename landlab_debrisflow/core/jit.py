@@ -38,8 +38,8 @@ allocating_kernel: Any = numba.njit(cache=True, fastmath=_REORDER, **_CHOICES)
 
 kernel: Any = numba.njit(cache=True, fastmath=_REORDER, _nrt=False, **_CHOICES)
 """Decorator of functions that Python calls, and that make no array: `np.empty`, `copy` and sums of whole arrays do not
-compile. numba then counts no references to arrays: a call takes less than half the time (15 arrays: 0.35 instead of
-0.79 us)."""
+compile. numba then counts no references to arrays: a call with 15 of them takes 0.5 instead of 0.9 us (`python -m
+benchmarks.start --calls`). The option has no public name; should a numba refuse it, kernels need only lose it."""
 
 approximate_kernel: Any = numba.njit(cache=True, fastmath=_REORDER | {"afn"}, **_CHOICES)
 """`kernel` for sums of floats whose reciprocal roots may be the processor's estimate, refined once (3e-7)."""

@@ -132,8 +132,13 @@ def read_shapes(
 def _features(path: Path, choice: str | None, notes: list[str] | None):
     """Return geometries, attributes and coordinate reference system of a file."""
     frame = read_features(path, choice, notes)
-    table = frame.drop(columns=frame.geometry.name).to_dict("records")
-    records = [{str(key): python_value(value) for key, value in row.items() if _is_set(value)} for row in table]
+    table = frame.drop(columns=frame.geometry.name)
+    columns = {str(key): values.to_list() for key, values in table.items()}
+    # not to_dict("records"), which before pandas 3.1 has no record of a row without attributes
+    records = [
+        {key: python_value(values[row]) for key, values in columns.items() if _is_set(values[row])}
+        for row in range(len(table))
+    ]
     own = frame.crs.to_wkt() if frame.crs is not None else None
     return frame.geometry.to_list(), records, own
 

@@ -46,12 +46,12 @@ class SceneContent(NamedTuple):
 
     @property
     def varying(self) -> tuple[VaryingParameter, ...]:
-        """Parameters of laws that vary by zones or rasters."""
+        """Parameters of laws that vary in space, by zones or rasters."""
         return varying_parameters(self.setup, self.terrain.zones)
 
     @property
     def setup_on_grid(self) -> Setup:
-        """The setup, its varying parameters read from fields of the grid."""
+        """Setup whose laws read varying parameters from fields of the grid."""
         return with_fields(self.setup, self.varying)
 
 

@@ -246,7 +246,7 @@ def _look_around_all(values, dx, dy, x, y, first, s, t, around):
 
 @inner
 def _along_rows(around, lane, s, dx):
-    """Return what `_along` does for the four rows of a lane, from south to north."""
+    """Return value and derivatives along the four rows of a lane, from south to north, as `_along` for each."""
     return (
         _along(around, lane, 0, s, dx), _along(around, lane, 4, s, dx), _along(around, lane, 8, s, dx),
         _along(around, lane, 12, s, dx),

@@ -184,4 +184,5 @@ class Integral:
         k = max(int(np.searchsorted(self._before, amount)) - 1, 0)
         rest, value = amount - self._before[k], self._values[k]
         root = np.sqrt(max(0.0, value * value + 2.0 * self._slopes[k] * rest))
-        return float(self._times[k] + 2.0 * rest / (value + root))
+        # at most the end of the segment, which rounding passes where the discharge ends small
+        return float(min(self._times[k] + 2.0 * rest / (value + root), self._times[k + 1]))

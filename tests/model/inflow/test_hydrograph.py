@@ -14,13 +14,14 @@ discharges = st.lists(st.floats(0.0, 100.0), min_size=2, max_size=6).filter(lamb
 
 
 @settings(deadline=None, max_examples=50)
+@example([0.0, 2.5000000000000004, 0.0078125], 1.0)  # a discharge that ends small
 @given(discharges, st.floats(1e-3, 1.0))
 def test_the_time_of_an_amount_is_the_inverse_of_the_integral(values, share):
     times = np.cumsum(1.0 + np.arange(len(values)))
     integral = Integral(times, np.array(values))
     assert integral.total == pytest.approx(np.sum(0.5 * (np.add(values[1:], values[:-1])) * np.diff(times)), rel=1e-14)
     time = integral.when(share * integral.total)
-    assert times[0] <= time <= times[-1] * (1.0 + 1e-14)
+    assert times[0] <= time <= times[-1]
     # a discharge that starts from 0 makes the time of a small amount as uncertain as its square root
     assert integral(time) == pytest.approx(share * integral.total, rel=1e-9)
 

@@ -186,7 +186,7 @@ def _is_due_at_levels(column, volume, load, pressure, stride):
 
 @kernel
 def list_by_base(state, selected, volumes, moves_with_grains, lists):
-    """List columns at levels by what their base does.
+    """List columns at levels by the action of the base.
 
     Parameters
     ----------
