@@ -1,12 +1,15 @@
 """Schedule of an ensemble: batches as tasks on workers, or one after the other in this process."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple
 from uuid import uuid4
 
 from ..core.errors import InputError
 from .basis import Basis
 from .batch import BatchResult, OtherVersionError, run_batch
+from .interrupts import Interrupts
 from .result import MemberResult
 
 AHEAD = 2
@@ -15,6 +18,9 @@ the memory of scheduler and workers does not grow with the number of members."""
 
 ATTEMPTS = 3
 """Times that a batch is given away again after workers with the basis were lost."""
+
+ASK = 0.1
+"""Longest time between two looks for Ctrl-C while workers run [s]."""
 
 ENDED = "KilledWorker: {} workers ended while they ran this member; there may be too little memory for it"
 """Error of a member that ends the processes of workers."""
@@ -73,11 +79,10 @@ def run_on(client: Any, basis: Basis, tasks: Iterable[Task], write: Callable[[Ba
 
 class _Schedule:
     def __init__(self, client: Any, basis: Basis, write: Callable[[BatchResult], None]):
-        from distributed import as_completed
-
         self._client, self._basis, self._write = client, basis, write
-        self._done = as_completed(loop=client.loop)
+        self._done: SimpleQueue[Any] = SimpleQueue()
         self._running: dict[Any, tuple[Task, int]] = {}
+        self._interrupts = Interrupts()
         self._scatter()
 
     def _scatter(self) -> None:
@@ -86,12 +91,13 @@ class _Schedule:
 
     def run(self, tasks) -> None:
         try:
-            for task in tasks:
-                self._submit(task, 1)
-                while len(self._running) >= AHEAD * max(1, sum(self._client.nthreads().values())):
-                    self._finish(next(self._done))
-            while self._running:
-                self._finish(next(self._done))
+            with self._interrupts:
+                for task in tasks:
+                    self._submit(task, 1)
+                    while len(self._running) >= AHEAD * max(1, sum(self._client.nthreads().values())):
+                        self._finish_next()
+                while self._running:
+                    self._finish_next()
         finally:
             self._client.cancel(list(self._running))
             self._client.cancel([self._shared])
@@ -99,11 +105,19 @@ class _Schedule:
     def _submit(self, task: Task, attempt: int) -> None:
         future = self._client.submit(run_batch, self._shared, *task, key=self._key(task), pure=False)
         self._running[future] = task, attempt
-        self._done.add(future)
+        future.add_done_callback(self._done.put)
 
     @staticmethod
     def _key(task: Task) -> str:
         return f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps a failed task under its key
+
+    def _finish_next(self) -> None:
+        future = None
+        while future is None:
+            self._interrupts.check()
+            with suppress(Empty):
+                future = self._done.get(timeout=ASK)
+        self._finish(future)
 
     def _finish(self, future: Any) -> None:
         from distributed import KilledWorker
