@@ -2,6 +2,7 @@
 
 import os
 import signal
+from weakref import WeakKeyDictionary
 
 from .numba_cache import NUMBA_CACHE
 
@@ -50,7 +51,7 @@ def valley():
 @pytest.fixture(autouse=True)
 def every_call_balances(monkeypatch):
     """In every test and example: volume, and the elevation the call left, against the budget, to round-off."""
-    run, known = GridCall.run, {}
+    run, known = GridCall.run, WeakKeyDictionary()
 
     def checked(calls, duration, stop_at_rest):
         flow = calls.flow

@@ -13,12 +13,13 @@ from .fields import output_fields
 from .interruption import Interruption
 from .listener import CallListener
 from .outputs import Outputs
+from .owned import OwnedByFlow
 from .read import GridReader
 from .rollback import Rollback
 from .write import FieldWriter
 
 
-class GridCall:
+class GridCall(OwnedByFlow):
     """Calls between the fields of a grid and a simulation.
 
     A call leaves this file five times, for `Rollback.around_call`, `GridReader.read`, `GridBed.lay`, `Simulation.run`
@@ -40,8 +41,8 @@ class GridCall:
     """
 
     def __init__(self, flow, continues: "GridCall | None" = None):
-        grid = flow.grid
-        self.flow, self._simulation = flow, flow._simulation
+        super().__init__(flow)
+        grid, self._simulation = flow.grid, flow._simulation
         self.interruption = Interruption()
         self._reader = GridReader(grid, self._simulation.setup)
         self._writer = FieldWriter(grid, self._simulation, self.interruption)

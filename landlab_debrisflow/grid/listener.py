@@ -5,11 +5,12 @@ from threading import get_ident
 
 from ..model.schedule import due_after_step, due_at_start
 from .interruption import Interruption
+from .owned import OwnedByFlow
 from .reports import Reports
 from .write import FieldWriter
 
 
-class CallListener:
+class CallListener(OwnedByFlow):
     """Listener to a run: `Simulation.run` tells it of every step and asks it whether to end.
 
     Observers see the grid as the end of a call would leave it, which is then taken back. Further methods of observers
@@ -37,7 +38,8 @@ class CallListener:
     """
 
     def __init__(self, flow, writer: FieldWriter, interruption: Interruption):
-        self._flow, self._writer, self._interruption = flow, writer, interruption
+        super().__init__(flow)
+        self._writer, self._interruption = writer, interruption
         self.reports, self.requests, self.paused = Reports(flow), [], None
         for observer in flow._observers:
             if callable(getattr(observer, "prepare", None)):
@@ -53,14 +55,14 @@ class CallListener:
         time = self._writer.simulation.time
         self._follow(time, time)
         if not idle:
-            self._show(due_at_start(self._flow._observers))
+            self._show(due_at_start(self.flow._observers))
         self._pause()
 
     def stepped(self, began: float, time: float, idle: bool) -> None:
         """Record peaks and show the flow after a step from `began` to `time` [s]; `idle`: nothing moves any more."""
         self._writer.follow_step()
         self._follow(began, time)
-        observers = self._flow._observers
+        observers = self.flow._observers
         self._show(observers if idle else due_after_step(observers, began, time))
         self._pause()
 
@@ -85,7 +87,7 @@ class CallListener:
     def _follow(self, began: float, time: float) -> None:
         """Tell observers of a step from `began` to `time` [s], even if one of them fails."""
         particles = self._writer.simulation.particles
-        for observer in self._flow._observers:
+        for observer in self.flow._observers:
             if callable(getattr(observer, "follow", None)):
                 self._call(observer.follow, particles, began, time)
         particles.departed = None  # observers that have failed are not called again
@@ -96,11 +98,11 @@ class CallListener:
             return
         with self._writer.present():
             for observer in observers:
-                self._call(observer.observe, self._flow)
+                self._call(observer.observe, self.flow)
 
     def _pause(self, broken_off: bool = False) -> None:
         """Carry out requests of the step, then let observers keep the state; `broken_off`: the run ends here."""
-        keepers = [observer for observer in self._flow._observers if callable(getattr(observer, "keep", None))]
+        keepers = [observer for observer in self.flow._observers if callable(getattr(observer, "keep", None))]
         if not (keepers or self.requests):
             return
         self.paused = get_ident()
@@ -108,7 +110,7 @@ class CallListener:
         for request in requests:
             self._call(request)
         for observer in keepers:
-            self._call(observer.keep, self._flow, broken_off)
+            self._call(observer.keep, self.flow, broken_off)
         self.paused = None
 
     def _call(self, observe, *arguments) -> None:

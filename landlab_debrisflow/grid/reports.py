@@ -4,13 +4,15 @@ import logging
 
 import numpy as np
 
+from .owned import OwnedByFlow
+
 log = logging.getLogger("landlab_debrisflow")
 
 NOTABLE = 0.01
 """Least outflow to be reported, over the volume that an event released, took in and eroded [-]."""
 
 
-class Reports:
+class Reports(OwnedByFlow):
     """Messages about an event, each given once.
 
     Parameters
@@ -20,7 +22,8 @@ class Reports:
     """
 
     def __init__(self, flow):
-        self._flow, self._simulation = flow, flow._simulation
+        super().__init__(flow)
+        self._simulation = flow._simulation
         self._supply, self._outflow_before, self._reported = 0.0, dict.fromkeys(flow.outflow_by_edge, 0.0), 0.0
 
     def continue_from(self, earlier: "Reports") -> None:
@@ -50,7 +53,7 @@ class Reports:
     def _walls(self):
         stopped = self._simulation.state.stopped
         if stopped.volume > 0.0:
-            x, y = np.add(stopped.where, self._flow.grid.xy_of_lower_left)
+            x, y = np.add(stopped.where, self.flow.grid.xy_of_lower_left)
             later = " and later" if stopped.last > stopped.first else ""
             log.warning(
                 "%.4g m3 ran against closed or NODATA nodes at %.4g s%s, first near (%.6g, %.6g) m: obstacles, or the "
@@ -59,7 +62,7 @@ class Reports:
         stopped.forget()
 
     def _outflow(self):
-        budget, by_edge = self._flow.budget, self._flow.outflow_by_edge
+        budget, by_edge = self.flow.budget, self.flow.outflow_by_edge
         supply = budget["released"] + budget["inflow"] + budget["eroded"]
         outflow = {edge: volume - self._outflow_before[edge] for edge, volume in by_edge.items()}
         total, came, at_rest = sum(outflow.values()), supply - self._supply, self._simulation.at_rest
@@ -83,7 +86,7 @@ class Reports:
         words = []
         if np.any(moving := speed > 0.0):
             k = int(speed.argmax())
-            x, y = np.add((p.x[k], p.y[k]), self._flow.grid.xy_of_lower_left)
+            x, y = np.add((p.x[k], p.y[k]), self.flow.grid.xy_of_lower_left)
             words.append(
                 f"{p.volume[moving].sum():.4g} m3 in {np.count_nonzero(moving)} of {p.count} particles still move, the "
                 f"fastest with {speed[k]:.3g} m/s near ({x:.8g}, {y:.8g}) m"
