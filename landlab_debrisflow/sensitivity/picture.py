@@ -17,6 +17,9 @@ KINDS = {
 }
 """Names and words of the two bars of every value."""
 
+RANGES = {"rank_correlation": (-1.05, 1.05), "first_order": (-0.25, 1.25)}
+"""Ends of the axis by the first name."""
+
 COLUMNS = 3
 """Most panels beside each other."""
 
@@ -25,6 +28,9 @@ def draw_sensitivity(
     sensitivities: xr.Dataset, measures: str | Sequence[str] | None = None, *, title: str | None = None
 ) -> Figure:
     """Draw sensitivities of measures to varied values: bars with intervals, the most important value on top.
+
+    Importance is the mean of the partial rank correlation, without its sign, or of the total index, over the measures
+    that are drawn. Intervals end at the edge of a panel if they are longer.
 
     Parameters
     ----------
@@ -61,12 +67,14 @@ def draw_sensitivity(
             axes.tick_params(labelbottom=k + columns >= count)  # also above a place that stays empty
         else:
             axes.set_axis_off()
-    figure.legend(
-        *panels[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=2, frameon=False, fontsize=TICK
-    )
-    figure.supxlabel("share of the variance" if names[0] == "first_order" else "correlation", fontsize=LABEL)
+    panels[0, 0].set_xlim(RANGES[names[0]])
+    legend = figure.legend(
+        *panels[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=2, frameon=False, fontsize=TICK,
+        alignment="left", title_fontsize=TITLE,
+    )  # fmt: skip
     if title is not None:
-        figure.suptitle(plain_text(title), x=0.01, ha="left", fontsize=TITLE)
+        legend.set_title(plain_text(title))
+    figure.supxlabel("share of the variance" if names[0] == "first_order" else "correlation", fontsize=LABEL)
     return figure
 
 

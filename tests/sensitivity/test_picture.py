@@ -35,7 +35,7 @@ def test_bars_are_the_sensitivities(make, sampling):
             assert np.allclose(widths, there[name].values[order], equal_nan=True)
     names = [text.get_text() for text in panels[0].get_yticklabels()]
     assert names == [f"x{k + 1} [–]" for k in order]
-    assert not nothing.axison and not empty.axison and figure.get_suptitle() == r"50 \$ and 1 %"
+    assert not nothing.axison and not empty.axison and figure.legends[0].get_title().get_text() == r"50 \$ and 1 %"
 
 
 def test_intervals_are_drawn_where_there_are_any():
