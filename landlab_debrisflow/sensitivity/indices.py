@@ -87,7 +87,7 @@ def sobol_indices(
         points = points[np.isfinite(points).all(axis=1)]
         counts[k] = len(points)
         if counts[k] >= (1.0 - LOST) * complete.sum() and np.ptp(points) > 0.0:
-            estimates[:, k] = _estimates(points, seed, resamples, confidence)
+            estimates[:, k] = indices(points, seed, resamples, confidence)
     meanings = "share of the variance by the value alone", "share of the variance by the value alone and with others"
     return sensitivity_dataset(
         results, found, variables, dict(zip(NAMES, zip(estimates, meanings, strict=True), strict=True)),
@@ -114,8 +114,21 @@ def _complete_points(results: EnsembleResults, step: int) -> np.ndarray:
     return complete
 
 
-def _estimates(points: np.ndarray, seed: int, resamples: int, confidence: float) -> np.ndarray:
-    """Return both indices with their intervals, shape (2, values, 3), from measures, shape (base points, members)."""
+def indices(points: np.ndarray, seed: int, resamples: int, confidence: float) -> np.ndarray:
+    """Return first-order and total indices with their intervals.
+
+    Parameters
+    ----------
+    points : ndarray, shape (base points, values + 2)
+        Measures of the members of each base point.
+    seed, resamples : int
+    confidence : float
+
+    Returns
+    -------
+    ndarray, shape (2, values, 3)
+        Estimate, lower and upper bound.
+    """
     number = points.shape[1] - 2
     problem = {"num_vars": number, "names": [str(k) for k in range(number)], "bounds": [[0.0, 1.0]] * number}
     # SALib takes the seed 0 for none

@@ -76,8 +76,8 @@ def rank_correlations(
         there = np.isfinite(measure.values[chosen])
         members[k] = there.sum()
         if members[k] > 1:
-            correlations = _correlations(values[there], measure.values[chosen][there])
-            whole[k, :, ESTIMATE], partial[k, :, ESTIMATE] = correlations
+            both = correlations(values[there], measure.values[chosen][there])
+            whole[k, :, ESTIMATE], partial[k, :, ESTIMATE] = both
     if results.sampling != "factorial":
         ends = correlation_interval(whole[..., ESTIMATE], members[:, None], confidence)
         whole[..., LOWER], whole[..., UPPER] = ends
@@ -101,8 +101,25 @@ def _independent_members(results: EnsembleResults) -> np.ndarray:
     return points[:, [0, -1]].ravel()
 
 
-def _correlations(values: np.ndarray, measure: np.ndarray) -> np.ndarray:
-    """Return rank and partial rank correlations of a measure with each value, shape (2, values)."""
+def correlations(values: np.ndarray, measure: np.ndarray) -> np.ndarray:
+    """Return rank and partial rank correlations of a measure with each value.
+
+    Parameters
+    ----------
+    values : ndarray, shape (members, values)
+    measure : ndarray, shape (members,)
+
+    Returns
+    -------
+    ndarray, shape (2, values)
+        NaN where the measure or a value is constant, or further values determine it.
+
+    Examples
+    --------
+    >>> values = np.array([[1.0, 3.0], [2.0, 1.0], [3.0, 4.0], [4.0, 2.0]])
+    >>> correlations(values, np.array([1.0, 2.0, 4.0, 8.0]))[0].round(2).tolist()
+    [1.0, 0.0]
+    """
     ranks, rank = _ranks(values), _ranks(measure[:, None])[:, 0]
     found = np.empty((2, ranks.shape[1]))
     for k in range(ranks.shape[1]):
