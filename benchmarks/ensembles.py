@@ -87,7 +87,7 @@ def workers(members: int) -> None:
 
 
 def client(members: int) -> None:
-    """Print CPU time of the client, in whose process the scheduler of a local cluster runs, by the length of batches."""
+    """Print CPU time of the client, which runs the scheduler of a local cluster, by the length of batches."""
     lengths, times = (1, 8, 64), []
     with connected(None, 2) as own, tempfile.TemporaryDirectory() as folder:
         ensemble(16, 30, 5.0).run(own, notify=quiet)  # every worker has imported and compiled

@@ -12,8 +12,8 @@ from ..ensemble.results import EnsembleResults
 from .selection import ESTIMATE, LOWER, UPPER, check_confidence, chosen_measures, sensitivity_dataset
 
 NAMES = "first_order", "total_order"
-LEAST = 8
-"""Fewest base points of which an interval by resampling means something."""
+LEAST = 32
+"""Fewest base points: of 16, intervals by resampling are too narrow (``python -m benchmarks.sensitivity``)."""
 
 LOST = 0.1
 """Largest share of base points that may be left out: members fail in a corner of the distributions, whose part in the
@@ -31,8 +31,8 @@ def sobol_indices(
     monotone nor of numbers: choices of words, files and noise have indices, too.
 
     The estimators are those of SALib. An interval is the estimate plus and minus the normal quantile times the standard
-    deviation over resamples of the base points; base points of Sobol's sequence scatter less than resamples do, so
-    intervals are rather too wide. Near 0 and 1 estimates and intervals may leave [0, 1].
+    deviation over resamples of the base points; 32 base points of Sobol's sequence or more scatter less than resamples
+    do, so intervals are rather too wide. Near 0 and 1 estimates and intervals may leave [0, 1].
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def sobol_indices(
 
 def _complete_points(results: EnsembleResults, step: int) -> np.ndarray:
     """Return whether all members of a base point are there, shape (base points,)."""
-    complete = results.done.reshape(-1, step).all(axis=1)
+    complete = np.all(results.done.reshape(-1, step), axis=1)
     if complete.sum() < LEAST:
         raise InputError(
             f"sobol_indices: {complete.sum()} of {complete.size} base points are there, {LEAST} are needed; run more "

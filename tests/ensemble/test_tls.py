@@ -64,7 +64,7 @@ def test_an_ensemble_runs_over_tls(certificates, address):
 @pytest.mark.slow
 def test_who_has_no_certificate_is_told_so(address):
     ensemble = Ensemble(SCENE, VARY, 1, "random")
-    with pytest.raises(InputError, match=rf"encryption does not fit the scheduler at {address} .*tls: ?|ca-file"):
+    with pytest.raises(InputError, match=rf"encryption does not fit the scheduler at {address} .*ca-file"):
         ensemble.run(address)
     plain = address.replace("tls", "tcp")
     with dask.config.set({"distributed.comm.timeouts.connect": "0.5s"}):
@@ -72,6 +72,6 @@ def test_who_has_no_certificate_is_told_so(address):
             ensemble.run(plain)
         with (
             dask.config.set({"distributed.comm.require-encryption": True}),
-            pytest.raises(InputError, match="encryption required .* give an address tls://"),
+            pytest.raises(InputError, match=r"encryption required .* give an address tls://"),
         ):
             ensemble.run(plain)

@@ -112,7 +112,7 @@ def test_measures_that_are_constant_or_often_missing_have_none():
 def test_what_has_no_indices_is_refused():
     with pytest.raises(InputError, match=r"Sobol indices need sampling: saltelli; these members are of random: run an"):
         sobol_indices(simple(sampling="random"))
-    with pytest.raises(InputError, match=r"6 of 64 base points are there, 8 are needed; run more members, 4 for each"):
+    with pytest.raises(InputError, match=r"6 of 64 base points are there, 32 are needed; run more members, 4 for each"):
         sobol_indices(simple(batches=[0, 1, 2]))
     with pytest.raises(InputError, match=r"7 of 64 base points hold a member that failed, at most 10 % may be left"):
         sobol_indices(simple(failed=range(0, 28, 4)))
