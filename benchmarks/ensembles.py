@@ -2,6 +2,7 @@
 
 python -m benchmarks.ensembles overhead            CPU time and bytes of a member beside its run; 1 minute
 python -m benchmarks.ensembles workers             members a minute of one worker and of two; 3 minutes
+python -m benchmarks.ensembles client --members N  CPU time of client and scheduler by the length of batches; 1 minute
 python -m benchmarks.ensembles memory --members N  largest memory of all processes; N members with 30 particles
 python -m benchmarks.ensembles plan --members N    cost and probabilities of fidelity auto beside 8000 particles
 """
@@ -85,6 +86,20 @@ def workers(members: int) -> None:
     print(f"ratio {paces[1] / paces[0]:.2f}")
 
 
+def client(members: int) -> None:
+    """Print CPU time of the client, which runs the scheduler of a local cluster, by the length of batches."""
+    lengths, times = (1, 8, 64), []
+    with connected(None, 2) as own, tempfile.TemporaryDirectory() as folder:
+        ensemble(16, 30, 5.0).run(own, notify=quiet)  # every worker has imported and compiled
+        for length in lengths:
+            began = time.process_time()
+            ensemble(members, 30, 5.0, batch=length).run(own, Path(folder) / f"{length}.zarr", notify=quiet)
+            times.append(1e3 * (time.process_time() - began) / members)
+            print(f"batches of {length}: {times[-1]:.1f} ms of the client for a member", flush=True)
+    each, batch = np.polynomial.Polynomial.fit(1.0 / np.array(lengths), times, 1).convert().coef
+    print(f"{batch:.1f} ms for a batch and {each:.1f} ms for each member in it")
+
+
 def memory(members: int) -> None:
     """Print the largest memory of all processes while an ensemble runs on two workers."""
     largest, ended, own = [0], threading.Event(), psutil.Process()
@@ -159,10 +174,10 @@ def _with_setup(scene: Scene, setup) -> Scene:
 def main() -> None:
     """Print one of the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", choices=("overhead", "workers", "memory", "plan"))
+    parser.add_argument("table", choices=("overhead", "workers", "client", "memory", "plan"))
     parser.add_argument("--members", type=int, default=32)
     arguments = parser.parse_args()
-    tables = {"overhead": overhead, "workers": workers, "memory": memory, "plan": plan}
+    tables = {"overhead": overhead, "workers": workers, "client": client, "memory": memory, "plan": plan}
     tables[arguments.table](arguments.members)
 
 

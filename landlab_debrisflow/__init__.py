@@ -2,8 +2,8 @@
 
 Public are the names below and those of `ensemble` (many runs of a scene), `exact` (closed forms), `laws` (classes of
 laws, names for the author of one), `plots` (figures), `record` (observers and files), `report` (the report of a run),
-`scene` (setup, terrains) and `triggers` (landslides of other components as a release). Deeper modules may change at any
-time.
+`scene` (setup, terrains), `sensitivity` (which values of an ensemble matter) and `triggers` (landslides of other
+components as a release). Deeper modules may change at any time.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -100,6 +100,12 @@ def _remote(distributed: Any, address: str) -> Iterator[Any]:
             f"ensemble: no scheduler answers at {address} ({str(error).splitlines()[0]}); start one with: dask "
             "scheduler, or leave the scheduler out to use this machine"
         ) from error
+    except (TypeError, RuntimeError) as error:  # no certificate for tls, or no tls where encryption is required
+        raise InputError(
+            f"ensemble: encryption does not fit the scheduler at {address} ({str(error).splitlines()[0]}); give an "
+            "address tls://... and set distributed.comm.tls in the configuration of dask (ca-file, client.cert, "
+            "client.key)"
+        ) from error
     with client:
         yield client
 

@@ -21,6 +21,8 @@ QUESTIONS = (
     "accuracy",
     "limits",
     "gallery",
+    "cluster",
+    "sensitivity",
 )
 """Pages that answer a question; one more is that of the API, which is as short as it can be."""
 
