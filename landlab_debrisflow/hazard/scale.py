@@ -94,8 +94,8 @@ def class_events(scale: HazardScale, kept: Sequence[str]) -> list[Event]:
         raise ParameterError(f"hazard: scale must be a HazardScale with a class or more, got {scale!r:.60}")
     if missing := [name for name in scale.maps if name not in kept]:
         raise ParameterError(
-            f"hazard: {scale.name} needs the map {missing[0]!r}, which the members have not kept; run the ensemble with "
-            f"it; kept are {', '.join(kept)}"
+            f"hazard: {scale.name} needs the map {missing[0]!r}, which the members have not kept; run the ensemble "
+            f"with it; kept are {', '.join(kept)}"
         )
 
     def event(k: int) -> Event:
