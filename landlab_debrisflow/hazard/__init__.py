@@ -1,7 +1,21 @@
 """Hazard: probabilities and quantiles over the members of an ensemble, with their sampling errors."""
 
 from .errors import members_needed
+from .exposure import exposure_probabilities
 from .maps import hazard_maps
+from .matrix import SWISS_LEVELS, HazardMatrix, hazard_matrix
 from .scale import SWISS, HazardClass, HazardScale
+from .summary import hazard_summary
 
-__all__ = ["SWISS", "HazardClass", "HazardScale", "hazard_maps", "members_needed"]
+__all__ = [
+    "SWISS",
+    "SWISS_LEVELS",
+    "HazardClass",
+    "HazardMatrix",
+    "HazardScale",
+    "exposure_probabilities",
+    "hazard_maps",
+    "hazard_matrix",
+    "hazard_summary",
+    "members_needed",
+]

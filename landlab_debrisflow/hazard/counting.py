@@ -136,5 +136,15 @@ class Histogram:
         """
         given = values[self.name]
         rows, columns = np.nonzero(np.isfinite(given) if self.name == ARRIVAL else given > 0.0)
-        bins = np.searchsorted(self.edges, given[rows, columns].astype(float), side="right")
-        self.counts[rows + member.rows.start, columns + member.columns.start, bins] += 1
+        self.count(rows + member.rows.start, columns + member.columns.start, given[rows, columns])
+
+    def count(self, rows: np.ndarray, columns: np.ndarray, values: np.ndarray) -> None:
+        """Count values of a member at nodes, each once.
+
+        Parameters
+        ----------
+        rows, columns : ndarray of int, shape (n,)
+        values : ndarray, shape (n,)
+        """
+        bins = np.searchsorted(self.edges, values.astype(float), side="right")
+        self.counts[rows, columns, bins] += 1

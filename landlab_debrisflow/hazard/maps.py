@@ -20,7 +20,7 @@ from .counting import REACHED, EventCounts, Histogram, above, without_films
 from .errors import CONFIDENCE, Estimate
 from .quantiles import quantile_maps
 from .questions import QUANTILES, check_questions
-from .scale import HazardScale, class_events
+from .scale import HazardScale, check_scale, class_events
 
 FIELDS = {field.name.removeprefix(OUTPUT_PREFIX): field for field in NODE_FIELDS}
 
@@ -84,10 +84,12 @@ def hazard_maps(
     """
     results = results if isinstance(results, EnsembleResults) else EnsembleResults.open(Path(results))
     asked = check_questions(results.maps, thresholds, quantiles, least_depth)
+    if scale is not None:
+        check_scale(scale, results.maps)
     census, shape = take_census(results, independent), results.lattice.shape
     events = [REACHED, *(above(name, bound) for name, bounds in asked.thresholds.items() for bound in bounds)]
     if scale is not None:
-        events += class_events(scale, results.maps)
+        events += class_events(scale)
     counts = EventCounts(events, shape, census.trials.size, census.members)
     histograms = [Histogram(name, shape, census.members) for name in results.maps if name in RANGES]
     for member in completed_members(results):

@@ -72,8 +72,8 @@ class HazardScale(NamedTuple):
         return found
 
 
-def class_events(scale: HazardScale, kept: Sequence[str]) -> list[Event]:
-    """Return the events that a node has a class or a more severe one, for each class.
+def check_scale(scale: HazardScale, kept: Sequence[str]) -> None:
+    """Refuse a scale without classes, or one that needs a map that is not kept.
 
     Parameters
     ----------
@@ -81,14 +81,9 @@ def class_events(scale: HazardScale, kept: Sequence[str]) -> list[Event]:
     kept : sequence of str
         Names of the maps that the members have kept.
 
-    Returns
-    -------
-    list of Event
-
     Raises
     ------
     ParameterError
-        If the scale has no class, or a map of its rules is not kept.
     """
     if not isinstance(scale, HazardScale) or not scale.classes:
         raise ParameterError(f"hazard: scale must be a HazardScale with a class or more, got {scale!r:.60}")
@@ -97,6 +92,19 @@ def class_events(scale: HazardScale, kept: Sequence[str]) -> list[Event]:
             f"hazard: {scale.name} needs the map {missing[0]!r}, which the members have not kept; run the ensemble "
             f"with it; kept are {', '.join(kept)}"
         )
+
+
+def class_events(scale: HazardScale) -> list[Event]:
+    """Return the events that a node has a class or a more severe one, for each class.
+
+    Parameters
+    ----------
+    scale : HazardScale
+
+    Returns
+    -------
+    list of Event
+    """
 
     def event(k: int) -> Event:
         return Event(scale.classes[k].name, lambda values: scale.class_of(values) > k)
@@ -113,8 +121,9 @@ def _holds(one: HazardClass, values: Values) -> np.ndarray:
 SWISS = HazardScale(
     "Swiss intensities of debris flows",
     (HazardClass("medium", ({DEPTH: 0.0},)), HazardClass("strong", ({DEPTH: 1.0, "max_speed": 1.0},))),
-    "Loat, R. and Petrascheck, A. (1997). Berücksichtigung der Hochwassergefahren bei raumwirksamen Tätigkeiten. BWW, "
-    "BRP, BUWAL, Biel",
+    "PLANAT (2005). Vademecum: hazard maps and related instruments, quoted in the manual of FLO-2D MapCrafter: high "
+    "above 1 m and 1 m/s, moderate below 1 m or 1 m/s; Canton Valais, Hydrologische Gefahrenkarten "
+    "(https://vs.ch/de/web/sdana/hydrologie): intensities of debris flows begin at medium",
 )
-"""Intensities of debris flows in Switzerland: strong above 1 m and 1 m/s; any other debris flow is medium, weak ones
-do not exist."""
+"""Intensities of debris flows in Switzerland: strong above 1 m and 1 m/s; any other debris flow is medium, a weak one
+does not exist. Both sources quote the federal recommendations of BWW, BRP and BUWAL (1997), which were not seen."""

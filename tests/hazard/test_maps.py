@@ -70,7 +70,7 @@ def test_classes_take_depth_and_speed_of_one_member(four):
     """Member 0 is shallow, member 1 slow, member 3 strong at both nodes."""
     assert at(four, "probability_of_class") == [[0.5, 0.75], [0.25, 0.25]]
     assert four.hazard_class.values.tolist() == ["medium", "strong"]
-    assert "Petrascheck" in four.attrs["hazard_scale_source"]
+    assert "PLANAT" in four.attrs["hazard_scale_source"]
 
 
 def test_maps_have_place_and_units(four):
