@@ -6,6 +6,7 @@ from .maps import hazard_maps
 from .matrix import SWISS_LEVELS, HazardMatrix, hazard_matrix
 from .scale import SWISS, HazardClass, HazardScale
 from .summary import hazard_summary
+from .write import write_danger_levels, write_hazard
 
 __all__ = [
     "SWISS",
@@ -18,4 +19,6 @@ __all__ = [
     "hazard_matrix",
     "hazard_summary",
     "members_needed",
+    "write_danger_levels",
+    "write_hazard",
 ]

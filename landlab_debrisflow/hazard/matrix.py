@@ -70,7 +70,7 @@ SWISS_LEVELS = HazardMatrix(
     "(https://github.com/opengisch/pzp). The plugin lets an expert raise two fields: medium intensity to 30 years from "
     "medium (blue) to high (red), and to 300 years from low (yellow) to medium (blue)",
 )  # fmt: skip
-"""Danger levels of debris flows in Switzerland: high (red), medium (blue), low (yellow), residual (yellow and white)."""
+"""Danger levels of debris flows in Switzerland: high (red), medium (blue), low (yellow), residual (yellow-white)."""
 
 
 def hazard_matrix(
@@ -178,19 +178,18 @@ def check_matrix(matrix: HazardMatrix, scale: HazardScale) -> None:
     for one in scale.classes:
         if one.name not in matrix.table:
             raise ParameterError(
-                f"hazard: {matrix.name} has no class {one.name!r} of {scale.name}{did_you_mean(one.name, matrix.table)}; "
-                f"it has {', '.join(matrix.table)}"
+                f"hazard: {matrix.name} has no class {one.name!r} of {scale.name}; it has {', '.join(matrix.table)}"
             )
     for name, row in matrix.table.items():
         if len(row) != len(matrix.periods):
             raise ParameterError(
-                f"hazard: {matrix.name} must have a level for each of {len(matrix.periods)} periods, got {len(row)} for "
-                f"the class {name}"
+                f"hazard: {matrix.name} must have a level for each of {len(matrix.periods)} periods, got {len(row)} "
+                f"for the class {name}"
             )
         if unknown := [level for level in row if level not in matrix.levels]:
             raise ParameterError(
-                f"hazard: {matrix.name} has no level {unknown[0]!r}{did_you_mean(unknown[0], matrix.levels)}; there are "
-                f"{', '.join(matrix.levels)}"
+                f"hazard: {matrix.name} has no level {unknown[0]!r}{did_you_mean(unknown[0], matrix.levels)}; there "
+                f"are {', '.join(matrix.levels)}"
             )
 
 

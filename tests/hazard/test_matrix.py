@@ -68,6 +68,6 @@ def test_scales_and_matrices_of_ones_own():
         hazard_matrix({50: hazard_maps(flow)}, scale, matrix)
     with pytest.raises(ParameterError, match="by return period"):
         hazard_matrix([flow])
+    other = fake_results([{name: np.ones((2, 3)) for name in MAPS}], maps=MAPS)
     with pytest.raises(ParameterError, match="the same nodes"):
-        other = fake_results([{name: np.ones((2, 3)) for name in MAPS}], maps=MAPS)
         hazard_matrix({30: flow, 100: other})
