@@ -127,3 +127,6 @@ SWISS = HazardScale(
 )
 """Intensities of debris flows in Switzerland: strong above 1 m and 1 m/s; any other debris flow is medium, a weak one
 does not exist. Both sources quote the federal recommendations of BWW, BRP and BUWAL (1997), which were not seen."""
+
+SCALES = {"swiss": SWISS}
+"""Scales by their names in scene files."""

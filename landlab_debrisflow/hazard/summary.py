@@ -70,11 +70,12 @@ def hazard_summary(maps: xr.Dataset, standard_error: float = TARGET) -> list[str
     found.append(f"The largest standard error of a probability is {largest:.2g} ({facts['sampling_error']}).")
     needed = members_needed(standard_error, 1.0 if math.isnan(ratio) else ratio)
     enough = "so many are there" if completed >= needed else f"{needed - completed} more are needed"
-    compared = "" if ratio == 1.0 or math.isnan(ratio) else (
-        f", {ratio:.2g} times the variance of a random sample, which would need {members_needed(standard_error)}"
-    )  # fmt: skip
+    where = "where the probability is a half"
+    if ratio == 1.0 or math.isnan(ratio):
+        return [*found, f"A standard error of {standard_error:g} {where} takes {needed} members; {enough}."]
     found.append(
-        f"A standard error of {standard_error:g} where the probability is a half takes {needed} members{compared}; "
-        f"{enough}."
+        f"The scatter between replicates has {ratio:.2g} times the variance of a random sample, on the average over "
+        f"all nodes: a standard error of {standard_error:g} {where} takes {needed} members on the average; {enough}. "
+        f"Of a random sample it takes {members_needed(standard_error)}."
     )
     return found

@@ -19,11 +19,9 @@ from ..plots.style import unit_text
 from ..record.attributes import variable_attributes
 from ..record.files import check_directory, write_dataset
 from ..record.georeference import GRID_MAPPING
+from .files import EXPOSURE, HAZARD, LEVELS
 from .matrix import SWISS_LEVELS, HazardMatrix
 from .summary import probabilities_of
-
-HAZARD, LEVELS, EXPOSURE = "hazard.nc", "danger_level", "exposure"
-"""Names of the files."""
 
 DPI = 150
 """Dots per inch of pictures."""
@@ -192,9 +190,8 @@ def layers_of(maps: xr.Dataset) -> Iterator[Layer]:
             yield Layer(name, name, None, values)
             continue
         for k, bound in enumerate(maps[axis].values.tolist()):
-            yield Layer(
-                _file(name, axis, bound, maps[axis].attrs.get("units", "")), name, bound, values.isel({axis: k})
-            )
+            file = _file(name, axis, bound, str(maps[axis].attrs.get("units", "")))
+            yield Layer(file, name, bound, values.isel({axis: k}))
 
 
 def _file(name: str, axis: str, bound: Any, unit: str) -> str:

@@ -87,8 +87,9 @@ def draw_probability(
     if error and bool(scatter.notnull().any()):
         panels.append((scatter.where(shown > 0.0), ERROR, "Standard error"))
     width, height = panel_size(place, LARGEST_PANEL)
-    figure = new_figure(len(panels) * (max(width, 2.6) + 1.5), height + 1.0)
-    for axes, (values, kind, text) in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+    rows, columns = (len(panels), 1) if width > height else (1, len(panels))
+    figure = new_figure(columns * (max(width, 2.6) + 1.5), rows * (height + 1.0))
+    for axes, (values, kind, text) in zip(figure.subplots(rows, columns, squeeze=False).flat, panels, strict=True):
         norm = BoundaryNorm(BOUNDS[kind], 256, extend="neither" if kind == "" else "max")
         image = draw_values(
             axes, values.where(values > 0.0), relief_of(maps), place, norm, over_relief(SHADES[kind]), contours=contours
@@ -177,7 +178,5 @@ def _chosen(maps: xr.Dataset, name: str, threshold: Any, ending: str) -> tuple[x
     if axis == "hazard_class":
         return chosen, f"Probability of the class {bound} or a more severe one"
     quantity = QUANTITIES[name]
-    return (
-        chosen,
-        f"Probability of {quantity.words.lower()} > {number_text(quantity.factor * bound)} {unit_text(quantity.unit)}",
-    )
+    bound_text = f"{number_text(quantity.factor * bound)} {unit_text(quantity.unit)}"
+    return chosen, f"Probability of {quantity.words.lower()} > {bound_text}"

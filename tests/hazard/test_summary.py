@@ -31,7 +31,7 @@ def test_replicates_that_scatter_less_need_fewer_members():
     maps = hazard_maps(fake_results(depths(*values), "latin_hypercube", replicate), {"max_depth": [0.5]})
     assert variance_ratio(maps) == pytest.approx(256 / 448, rel=1e-5)
     words = " ".join(hazard_summary(maps))
-    assert "takes 58 members, 0.57 times the variance" in words and "so many are there" in words
+    assert "has 0.57 times the variance" in words and "takes 58 members on the average; so many are there" in words
 
 
 def test_errors_that_are_not_known_are_told():
