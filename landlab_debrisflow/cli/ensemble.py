@@ -1,15 +1,13 @@
-"""Command ensemble: many runs of a scene file."""
+"""Command ensemble: many runs of a scene file, and their hazard maps."""
 
 from pathlib import Path
 from typing import Any
 
+from ..hazard.files import STORE
 from .exit_codes import DONE, SOME_FAILED, epilog
 from .messages import messages
 from .output import say
 from .scene_commands import add_message_options, command
-
-STORE = "members.zarr"
-"""Name of the store in the directory of the results."""
 
 
 def add_command(commands) -> None:
@@ -30,14 +28,18 @@ def add_command(commands) -> None:
 def _ensemble(arguments) -> int:
     from ..core.compilations import compilations
     from ..ensemble import Ensemble
+    from ..hazard.of_scene import check_hazard_keys, write_scene_hazard
     from ..record.monitor import COMPILING
 
     with messages(arguments.quiet, arguments.verbose, arguments.log) as monitor:
         others: dict[str, Any] = {} if arguments.members is None else {"members": arguments.members}
         with compilations(lambda: monitor.say(COMPILING)):
             ensemble = Ensemble.from_file(arguments.scene, **others)
+            check_hazard_keys(ensemble.scene)
             store = ensemble.results_directory / STORE
             results = ensemble.run(arguments.scheduler, store, workers=arguments.workers, notify=monitor.say)
+            monitor.say("ensemble: hazard maps are written")
+            written = write_scene_hazard(ensemble, results)
         monitor.close()
         failures = results.failures
         if not arguments.quiet:
@@ -49,5 +51,7 @@ def _ensemble(arguments) -> int:
                 say(f"member {one.member} failed ({values}): {one.error}")
             if len(failures) > 3:
                 say(f"and {len(failures) - 3} further members failed")
+            if written:
+                say(f"hazard maps in {ensemble.results_directory}: {written[0].name} and {len(written) - 1} more files")
             say(f"results in {store}")
     return SOME_FAILED if failures else DONE

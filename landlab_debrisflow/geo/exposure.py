@@ -9,12 +9,11 @@ import numpy as np
 import xarray as xr
 
 from ..core.errors import InputError
-from ..core.hints import did_you_mean
 from ..grid.fields import OUTPUT_PREFIX
 from ..record.files import write_atomically
 from ..record.written_maps import LEAST_DEPTH, mask_peaks
+from .exposed_shapes import cells_under, check_on_grid, identifiers, in_system, open_faces, shape_frame
 from .geotiff import lattice_of
-from .lattice import Lattice
 
 ELEVATION = "topographic__elevation"
 
@@ -27,8 +26,6 @@ FACTORS = {"kPa": 1e-3}
 """Factors from the units of the maps to those of the table."""
 
 ARRIVAL = OUTPUT_PREFIX + "arrival_time"
-
-SHIFTS = (0, 1), (0, -1), (1, 0), (-1, 0)
 
 
 def exposure(
@@ -74,10 +71,10 @@ def exposure(
         If the maps lack a quantity, a shape is empty or broken, the identifier is missing or not unique, the file
         cannot be read, or no shape touches the grid.
     """
-    frame = _frame(shapes)
+    frame = shape_frame(shapes)
     lattice = lattice_of(maps, crs)
-    frame = _in_system(frame, lattice.crs)
-    names = _identifiers(frame, identifier)
+    frame = in_system(frame, lattice.crs)
+    names = identifiers(frame, identifier)
     if missing := [name for name in (*QUANTITIES, "arrival_time") if OUTPUT_PREFIX + name not in maps]:
         raise InputError(f"exposure: the maps lack {OUTPUT_PREFIX}{missing[0]}; give flow.maps whole")
     masked = mask_peaks(maps, least_depth)
@@ -85,13 +82,7 @@ def exposure(
     values = {name: np.nan_to_num(masked[OUTPUT_PREFIX + name].values) for name in QUANTITIES}
     arrival = masked[ARRIVAL].values
     rows = [_row(geometry, lattice, closed, values, arrival) for geometry in frame.geometry]
-    if not any(row["on_grid"] for row in rows):
-        west, south, east, north = lattice.bounds
-        raise InputError(
-            f"exposure: none of the {len(rows)} shapes touches the grid, which goes from ({west:.10g}, "
-            f"{south:.10g}) to ({east:.10g}, {north:.10g}) m; theirs go from {_extent(frame)}: are they in the system "
-            "of the maps?"
-        )
+    check_on_grid(frame, lattice, [row["on_grid"] for row in rows])
     import geopandas
 
     columns = {"id": names} | {name: [row[name] for row in rows] for name in rows[0]}
@@ -138,9 +129,9 @@ def write_exposure(path: str | os.PathLike[str], table: Any) -> Path:
 
 def _row(geometry, lattice, closed, values, arrival) -> dict[str, Any]:
     """Return the row of a shape; `closed`, `values` by name and `arrival` [s] have the shape of the lattice."""
-    rows, columns, measure, on_grid = _cells(geometry, lattice)
+    rows, columns, measure, on_grid = cells_under(geometry, lattice)
     open_cells = ~closed[rows, columns]
-    faces = _faces(rows[~open_cells], columns[~open_cells], closed)
+    faces = open_faces(rows[~open_cells], columns[~open_cells], closed)
     beside = np.concatenate([rows[open_cells], faces[0]]), np.concatenate([columns[open_cells], faces[1]])
     inside = (rows[open_cells], columns[open_cells]), measure[open_cells]
     if not open_cells.any():
@@ -159,103 +150,3 @@ def _row(geometry, lattice, closed, values, arrival) -> dict[str, Any]:
     times = times[np.isfinite(times) & (times >= 0.0)]
     row["first_arrival_s"] = float(times.min()) if times.size else np.nan
     return row | {"cells": int(rows.size), "on_grid": on_grid}
-
-
-def _cells(geometry, lattice: Lattice):
-    """Return rows and columns of the cells under a shape, its measure in each, and the part of it on the grid.
-
-    The measure is area, length or number of points. A shape that only touches sides of cells has these.
-    """
-    import shapely
-
-    (dx, dy), (x0, y0) = lattice.spacing, lattice.lower_left
-    west, south, east, north = geometry.bounds
-    first = max(0, int(np.floor((south - y0) / dy + 0.5)) - 1), max(0, int(np.floor((west - x0) / dx + 0.5)) - 1)
-    last = (
-        min(lattice.shape[0] - 1, int(np.floor((north - y0) / dy + 0.5)) + 1),
-        min(lattice.shape[1] - 1, int(np.floor((east - x0) / dx + 0.5)) + 1),
-    )
-    spans = (np.arange(low, high + 1) for low, high in zip(first, last, strict=True))
-    rows, columns = (each.ravel() for each in np.meshgrid(*spans, indexing="ij"))
-    x, y = x0 + dx * columns, y0 + dy * rows
-    boxes = shapely.box(x - 0.5 * dx, y - 0.5 * dy, x + 0.5 * dx, y + 0.5 * dy)
-    touched = shapely.intersects(boxes, geometry)
-    rows, columns, boxes = rows[touched], columns[touched], boxes[touched]
-    measure_of = {0: shapely.get_num_geometries, 1: shapely.length, 2: shapely.area}[shapely.get_dimensions(geometry)]
-    measure = np.asarray(measure_of(shapely.intersection(boxes, geometry)), float)
-    if np.any(measure > 0.0):
-        rows, columns, measure = rows[measure > 0.0], columns[measure > 0.0], measure[measure > 0.0]
-    grid = shapely.box(*lattice.bounds)
-    on_grid = float(measure_of(shapely.intersection(geometry, grid)) / measure_of(geometry))
-    return rows, columns, measure, min(1.0, on_grid)
-
-
-def _faces(rows, columns, closed):
-    """Return rows and columns of the open cells beside the sides of closed ones, each once."""
-    found = set()
-    for dr, dc in SHIFTS:
-        found.update(zip((rows + dr).tolist(), (columns + dc).tolist(), strict=True))
-    inside = [(r, c) for r, c in sorted(found) if 0 <= r < closed.shape[0] and 0 <= c < closed.shape[1]]
-    free = np.array([(r, c) for r, c in inside if not closed[r, c]], int).reshape(-1, 2)
-    return free[:, 0], free[:, 1]
-
-
-def _frame(shapes):
-    """Return shapes as a GeoDataFrame without empty or broken ones."""
-    try:
-        import geopandas
-        import pandas as pd
-        import shapely
-    except ImportError as error:
-        raise InputError('exposure needs geopandas; pip install "landlab_debrisflow[geo]"') from error
-    if isinstance(shapes, str | os.PathLike):
-        if not Path(shapes).exists():
-            raise InputError(f"exposure: cannot read {os.fspath(shapes)}: there is no such file")
-        try:
-            shapes = geopandas.read_file(shapes)
-        except Exception as error:  # drivers raise errors of many classes
-            raise InputError(
-                f"exposure: cannot read {os.fspath(shapes)}: {error}; give a GeoPackage, GeoJSON or Shapefile"
-            ) from error
-    if not isinstance(shapes, geopandas.GeoDataFrame):
-        kind = "a table without geometry" if isinstance(shapes, pd.DataFrame) else type(shapes).__name__
-        raise InputError(f"exposure: shapes must be a GeoDataFrame or a file of shapes, got {kind}")
-    if not len(shapes):
-        raise InputError("exposure: there are no shapes")
-    geometries = shapes.geometry.values
-    bad = np.asarray(shapely.is_missing(geometries) | shapely.is_empty(geometries) | ~shapely.is_valid(geometries))
-    if bad.any():
-        k = int(np.argmax(bad))
-        reason = "empty" if geometries[k] is None or geometries[k].is_empty else shapely.is_valid_reason(geometries[k])
-        raise InputError(
-            f"exposure: shape {k + 1} of {len(shapes)} cannot be used: {reason}; mend it, with make_valid() or in QGIS"
-        )
-    return shapes
-
-
-def _in_system(frame, crs):
-    """Return shapes in the coordinate reference system of the maps, if both are known."""
-    if crs is None or frame.crs is None:
-        return frame
-    return frame.to_crs(crs)
-
-
-def _identifiers(frame, identifier):
-    if identifier is None:
-        return list(range(1, len(frame) + 1))
-    if identifier not in frame:
-        known = [str(name) for name in frame.columns if name != frame.geometry.name]
-        raise InputError(
-            f"exposure: the shapes have no attribute {identifier!r}{did_you_mean(identifier, known)}; there are "
-            f"{', '.join(known)}"
-        )
-    names = frame[identifier].tolist()
-    if len(set(names)) < len(names):
-        twice = next(name for name in names if names.count(name) > 1)
-        raise InputError(f"exposure: {identifier} {twice!r} is there twice; give each shape one of its own")
-    return names
-
-
-def _extent(frame) -> str:
-    west, south, east, north = frame.total_bounds
-    return f"({west:.10g}, {south:.10g}) to ({east:.10g}, {north:.10g})"

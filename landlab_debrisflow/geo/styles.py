@@ -27,12 +27,18 @@ class Style(NamedTuple):
         Divisor of the values in labels.
     unit : str
         Unit of the labels.
+    labels : tuple of str
+        Text of every class; by default made of the bounds.
+    shades : tuple of str
+        Colour of every class as ``#rrggbb``, instead of the colour map.
     """
 
     bounds: tuple[float, ...]
     colours: str
     factor: float = 1.0
     unit: str = ""
+    labels: tuple[str, ...] = ()
+    shades: tuple[str, ...] = ()
 
 
 DEPTHS = 0.05, 0.5, 1.0, 2.0, 5.0, 10.0
@@ -40,6 +46,12 @@ DEPTHS = 0.05, 0.5, 1.0, 2.0, 5.0, 10.0
 
 SPEEDS = 1.0, 3.0, 5.0, 10.0, 20.0, 30.0
 """Speeds between two classes [m s-1]: walking, running, and faster than anybody flees."""
+
+PROBABILITIES = Style((0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 0.95), "YlOrRd", 0.01, "%")
+"""Style of probabilities; the palest classes are those of rare events."""
+
+STANDARD_ERRORS = Style((0.01, 0.02, 0.05, 0.1, 0.2), "Purples", 0.01, "%")
+"""Style of standard errors of probabilities."""
 
 STYLES = {
     "depth": Style(DEPTHS, "YlGnBu", unit="m"),
@@ -76,8 +88,13 @@ def style_for(name: str, values: np.ndarray) -> Style:
     --------
     >>> style_for("max_depth", np.array([0.3, 1.7, np.nan])).bounds
     (0.05, 0.5, 1.0, 2.0, 5.0, 10.0)
+    >>> class_labels(style_for("probability_of_reached", np.array([0.5])))[:2]
+    ['< 1 %', '1 – 5 %']
     """
-    if (style := STYLES.get(name.removeprefix(OUTPUT_PREFIX))) is not None:
+    short = name.removeprefix(OUTPUT_PREFIX)
+    if short.startswith("probability_of_"):
+        return STANDARD_ERRORS if short.endswith("_standard_error") else PROBABILITIES
+    if (style := STYLES.get(short.removeprefix("quantile_of_"))) is not None:
         return style
     shown = values[np.isfinite(values)]
     low, high = (float(shown.min()), float(shown.max())) if shown.size else (0.0, 0.0)
@@ -98,6 +115,8 @@ def class_colours(style: Style) -> list[tuple[int, int, int]]:
     """
     from matplotlib import colormaps
 
+    if style.shades:
+        return [(int(one[1:3], 16), int(one[3:5], 16), int(one[5:7], 16)) for one in style.shades]
     # the palest tones of the colour map cannot be seen on a white page
     places = np.linspace(0.12, 1.0, len(style.bounds) + 1)
     shades = colormaps[style.colours](places)[:, :3]
@@ -121,6 +140,8 @@ def class_labels(style: Style) -> list[str]:
     >>> class_labels(Style((1e3, 3e4), "YlOrRd", 1e3, "kPa"))
     ['< 1 kPa', '1 – 30 kPa', '> 30 kPa']
     """
+    if style.labels:
+        return list(style.labels)
     shown, unit = [f"{bound / style.factor:g}" for bound in style.bounds], f" {style.unit}".rstrip()
     between = [f"{low} – {high}{unit}" for low, high in pairwise(shown)]
     return [f"< {shown[0]}{unit}", *between, f"> {shown[-1]}{unit}"]

@@ -7,6 +7,7 @@ from .files import save_figure
 from .hydrographs import draw_gauges, draw_hydrographs
 from .maps import draw_map
 from .overview import draw_overview
+from .probability import draw_danger_levels, draw_probability
 from .section import draw_section
 from .thalweg import trace_thalweg
 from .time_distance import draw_time_distance
@@ -17,11 +18,13 @@ __all__ = [
     "Layer",
     "animate",
     "draw_column",
+    "draw_danger_levels",
     "draw_gauges",
     "draw_hydrographs",
     "draw_map",
     "draw_maps",
     "draw_overview",
+    "draw_probability",
     "draw_section",
     "draw_time_distance",
     "draw_tracks",

@@ -34,7 +34,7 @@ def write_results(folder: Path, maps: xr.Dataset, scene: Any) -> None:
     names = tuple(dict.fromkeys((*ALWAYS, *keys.maps)))
     write_geotiffs(folder, maps, names, crs=crs, least_depth=keys.least_depth, tags=origin)
     if scene.places.exposure:
-        table = exposure(maps, _frame(scene), identifier="id", crs=crs, least_depth=keys.least_depth)
+        table = exposure(maps, exposed_frame(scene), identifier="id", crs=crs, least_depth=keys.least_depth)
         for suffix in (".gpkg", ".csv"):
             write_exposure(folder / f"{EXPOSURE}{suffix}", table)
 
@@ -50,8 +50,8 @@ def _before(scene: Any) -> dict[str, Any]:
     return {name: (("y", "x"), data, variable_attributes("m", words)) for name, (data, words) in values.items()}
 
 
-def _frame(scene: Any):
-    """Return the polygons of a scene that may be exposed as a GeoDataFrame."""
+def exposed_frame(scene: Any) -> Any:
+    """Return the polygons of a scene that may be exposed as a GeoDataFrame, named by its column ``id``."""
     import geopandas
 
     shapes = scene.places.exposure

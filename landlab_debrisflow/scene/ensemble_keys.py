@@ -10,6 +10,8 @@ SAMPLINGS = ("latin_hypercube", "random", "sobol", "saltelli", "factorial")
 """Methods by which the members of an ensemble are drawn."""
 KEPT_MAPS = ("max_depth", "max_speed", "max_impact_pressure", "arrival_time", "deposit_depth", "eroded_depth")
 """Maps of a member that are kept by default."""
+SCALES = ("none", "swiss")
+"""Scales of hazard classes by name."""
 FIDELITIES = ("scene", "auto")
 """Where number of particles, column and steps of the members come from."""
 
@@ -43,6 +45,12 @@ class EnsembleKeys:
         choices=FIDELITIES,
     )  # fmt: skip
     maps: Any = parameter("-", "maps of the members that are kept", KEPT_MAPS, kind=tuple, choices=MAPS)
+    thresholds: Any = parameter(
+        "-", "thresholds of the hazard maps by map, in its unit: {max_depth: [0.5, 1, 2]}; by default three of each "
+        "kept map", None, kind=dict,
+    )  # fmt: skip
+    quantiles: Any = parameter("-", "quantiles of the hazard maps; by default 0.05, 0.5 and 0.95", None, kind=tuple)
+    hazard_scale: str = parameter("-", "hazard classes whose probabilities are wanted", SCALES[0], choices=SCALES)
     batch: int = parameter("-", "members that are computed and written together", 8, (1, 10_000), kind=int)
     directory: str | None = parameter(
         "-", "directory of the results, by default the name of the scene with _ensemble", None, kind=str, file=True

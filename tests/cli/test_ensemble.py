@@ -20,6 +20,7 @@ ensemble:
     release.factor: {choices: [0.5, 1.0, 1.5], probabilities: [0.25, 0.5, 0.25]}
   members: 3
   batch: 2
+  thresholds: {max_depth: [0.5]}
 """
 
 
@@ -34,7 +35,10 @@ def scene(tmp_path, monkeypatch):
 def test_members_of_a_scene_are_run(scene, capsys):
     assert main.main(["ensemble", scene, "--workers", "1"]) == exit_codes.DONE
     out, err = capsys.readouterr()
-    assert out.splitlines() == ["3 of 3 members came to their end", "results in slope_ensemble/members.zarr"]
+    first, second, third = out.splitlines()
+    assert first == "3 of 3 members came to their end" and third == "results in slope_ensemble/members.zarr"
+    assert second.startswith("hazard maps in slope_ensemble: hazard.nc and ")
+    assert Path("slope_ensemble/probability_of_max_depth_above_0.5_m.tif").exists()
     assert "ensemble: 2 of 3 members done" in err and "ensemble: 3 of 3 members done" in err
     results = EnsembleResults.open("slope_ensemble/members.zarr")
     assert results.done.all() and results.sampling == "latin_hypercube"
@@ -53,7 +57,7 @@ def test_members_that_fail_are_told(scene, tmp_path, capsys):
         "{truncated_normal: {mean: 28, sd: 2, low: 20, high: 36}}", "[27.5]"
     ))  # fmt: skip
     assert main.main(["ensemble", scene, "--workers", "1"]) == exit_codes.SOME_FAILED
-    first, second, _ = capsys.readouterr().out.splitlines()
+    first, second, *_ = capsys.readouterr().out.splitlines()
     assert first == "2 of 3 members came to their end"
     assert second.startswith("member 2 failed (friction.basal_friction_angle 27.5, release.depth 900")
     assert "InputError: " in second
@@ -98,3 +102,9 @@ def test_check_tells_of_the_ensemble(scene, capsys):
     assert capsys.readouterr().out.splitlines()[-1] == (
         "ensemble: 3 members, latin_hypercube, of friction.basal_friction_angle, release.factor"
     )
+
+
+def test_thresholds_that_have_no_map_are_refused_before_the_run(scene, tmp_path, capsys):
+    (tmp_path / scene).write_text(SCENE + ENSEMBLE.replace("{max_depth:", "{max_depht:"), encoding="utf-8")
+    line = refused(["ensemble", scene], exit_codes.USER_ERROR, capsys)
+    assert "slope.yaml" in line and "did you mean 'max_depth'" in line and not Path("slope_ensemble").exists()

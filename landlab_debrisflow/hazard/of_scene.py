@@ -1,0 +1,77 @@
+"""Hazard maps of the ensemble that a scene describes, as its keys want them."""
+
+from pathlib import Path
+from typing import Any
+
+from ..ensemble import Ensemble, EnsembleResults
+from ..geo.exposure import ELEVATION
+from ..run.scene import Scene
+from ..scene.keys import EnsembleKeys
+from ..scene.location import located
+from .exposure import exposure_probabilities
+from .maps import hazard_maps
+from .questions import DEPTH, QUANTILES, check_questions
+from .scale import SCALES, HazardScale, check_scale
+from .write import write_hazard
+
+
+def check_hazard_keys(scene: Scene) -> None:
+    """Refuse thresholds, quantiles and hazard classes of a scene that its members could not answer.
+
+    Parameters
+    ----------
+    scene : Scene
+        With the key ``ensemble``.
+
+    Raises
+    ------
+    ParameterError
+        As `hazard_maps` raises it, with file and line.
+    """
+    keys = scene.content.ensemble
+    if keys is None or not has_hazard(keys):
+        return
+    with located(scene.file, "ensemble"):
+        check_questions(keys.maps, keys.thresholds, keys.quantiles or QUANTILES)
+        if (scale := scale_of(keys)) is not None:
+            check_scale(scale, keys.maps)
+
+
+def write_scene_hazard(ensemble: Ensemble, results: EnsembleResults) -> list[Path]:
+    """Write hazard maps of an ensemble into the directory of its results, and the table of its exposed polygons.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        Ensemble of a scene with the key ``ensemble``.
+    results : EnsembleResults
+
+    Returns
+    -------
+    list of pathlib.Path
+        Files, as `write_hazard` returns them; none if no member has come to its end or the peak depth is not kept.
+
+    Raises
+    ------
+    InputError, OutputError
+        If a file cannot be written.
+    """
+    scene, keys = ensemble.scene, ensemble.scene.content.ensemble
+    if keys is None or not has_hazard(keys) or results.done.sum() <= len(results.failures):
+        return []
+    scale, least_depth = scale_of(keys), scene.output_keys.least_depth
+    asked: dict[str, Any] = {"thresholds": keys.thresholds, "least_depth": least_depth, "scale": scale}
+    maps = hazard_maps(results, quantiles=keys.quantiles or QUANTILES, **asked)
+    exposure = exposure_probabilities(results, scene=scene, **asked) if scene.places.exposure else None
+    elevation = scene.terrain[ELEVATION].values
+    return write_hazard(ensemble.results_directory, maps, elevation=elevation, exposure=exposure)
+
+
+def has_hazard(keys: EnsembleKeys) -> bool:
+    """Return whether hazard maps are made: the members keep the peak depth, or thresholds or classes are asked for."""
+    return DEPTH in keys.maps or keys.thresholds is not None or scale_of(keys) is not None
+
+
+def scale_of(keys: EnsembleKeys) -> HazardScale | None:
+    """Return the scale of hazard classes that the keys of an ensemble name."""
+    return SCALES.get(keys.hazard_scale)
