@@ -136,7 +136,7 @@ def _ranks(values: np.ndarray) -> np.ndarray:
 
 def _remainder(ranks: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Return ranks less their linear function of other ranks, shape (members,); 0 if only rounding is left."""
-    left = ranks - others @ np.linalg.lstsq(others, ranks)[0]
+    left = ranks - others @ np.linalg.lstsq(others, ranks, rcond=None)[0]
     return left if left @ left > UNDETERMINED * (ranks @ ranks) else np.zeros_like(left)
 
 
