@@ -24,7 +24,7 @@ def sobol_indices(
     results: EnsembleResults, measures: str | Sequence[str] | None = None, *, seed: int = 0, resamples: int = 1000,
     confidence: float = 0.95,
 ) -> xr.Dataset:  # fmt: skip
-    """Estimate which share of the variance of measures each varied value makes, alone and with others.
+    """Estimate shares of the variance of measures by varied value, alone and with further values.
 
     The first-order index is the share of the variance that would go if the value were known; the total one the share
     that would stay if all further values were known. Their difference is due to interactions. Effects need be neither

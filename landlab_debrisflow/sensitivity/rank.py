@@ -19,7 +19,7 @@ UNDETERMINED = 1e-10
 def rank_correlations(
     results: EnsembleResults, measures: str | Sequence[str] | None = None, confidence: float = 0.95
 ) -> xr.Dataset:
-    """Correlate the ranks of measures with those of the varied values.
+    """Correlate the ranks of measures with the ranks of varied values.
 
     Spearman's correlation tells how steadily a measure grows (1) or falls (-1) with a value, linearly or not. The
     partial rank correlation is that of the parts of both which ranks of further values do not explain linearly: it
@@ -135,8 +135,8 @@ def _ranks(values: np.ndarray) -> np.ndarray:
 
 
 def _remainder(ranks: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Return the part of ranks that is no linear function of others, shape (members,); 0 if that is all rounding."""
-    left = ranks - others @ np.linalg.lstsq(others, ranks)[0]
+    """Return ranks less their linear function of other ranks, shape (members,); 0 if only rounding is left."""
+    left = ranks - others @ np.linalg.lstsq(others, ranks, rcond=None)[0]
     return left if left @ left > UNDETERMINED * (ranks @ ranks) else np.zeros_like(left)
 
 

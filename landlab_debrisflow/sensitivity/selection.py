@@ -1,4 +1,4 @@
-"""Measures and varied values that sensitivities are computed for, and the Dataset of what is found."""
+"""Choice of measures and varied values for sensitivities, and the Dataset of results."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -177,3 +177,16 @@ def test_columns_as_printed(output):
     default, lax_wendroff = (numbers(line)[-1] for line in output("columns", '"lax_wendroff"').splitlines())
     assert default == 1.0 and lax_wendroff > 1.2
     assert "ParameterError: solve_column: basal_pressure_ratio needs loading > 0" in output("columns", "times=[10.0])")
+
+
+# ---- ensembles ----
+
+
+@pytest.mark.slow
+def test_ensembles_as_printed(output, cells):
+    assert output("cluster", "members=8") == "<EnsembleResults with 8 of 8 members>\n"
+    assert "no scheduler answers at tcp://127.0.0.1:9" in output("cluster", "timeouts.connect")
+    assert output("sensitivity", "members=2").startswith("InputError: Sobol indices need sampling: saltelli; these")
+    assert re.search(r"^friction.turbulent_coefficient +0\.\d+ +\d\.\d+ +0\.\d+$", output("sensitivity", "ends."), re.M)
+    drawn = [any("image/png" in one.get("data", {}) for one in outputs) for *_, outputs in cells("sensitivity")]
+    assert drawn == [True, True, False, False]
