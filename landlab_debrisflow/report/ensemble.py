@@ -15,13 +15,13 @@ from ..core.errors import InputError
 from ..core.version import __version__
 from ..ensemble import EnsembleResults
 from ..hazard import hazard_maps, hazard_summary
-from ..hazard.files import EXPOSURE, HAZARD, STORE
+from ..hazard.files import EXPOSURE, HAZARD
 from ..hazard.summary import probabilities_of
 from ..hazard.write import layers_of
 from ..plots import draw_probability
 from ..plots.style import unit_text
 from ..record.files import check_writable, write_atomically
-from ..run.files import PAGE
+from ..run.files import PAGE, STORE
 from .blocks import Block, Section, Sentences, Table, Verbatim
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex

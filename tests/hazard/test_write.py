@@ -19,9 +19,9 @@ from landlab_debrisflow.hazard import (
     write_danger_levels,
     write_hazard,
 )
-from landlab_debrisflow.hazard.files import STORE
 from landlab_debrisflow.plots import draw_probability
 from landlab_debrisflow.report import write_ensemble_report
+from landlab_debrisflow.run.files import STORE
 from landlab_debrisflow.scene.gully import LATTICE
 
 from ..ensemble.scenes import SCENE
