@@ -38,5 +38,6 @@ def is_result(name: Any) -> bool:
         return "*" not in last and last.endswith(PICTURE_SUFFIXES)
     return name == REPORT or ((in_series or (not folder and "*" not in last)) and last.endswith(SUFFIXES))
 
+
 STORE = "members.zarr"
 """Store of the members of an ensemble, in the directory of its results."""

@@ -49,19 +49,19 @@ def folder(tmp_path_factory):
     """A directory as the command leaves it."""
     folder = tmp_path_factory.mktemp("valley_ensemble")
     results = fake_results(members(24), maps=MAPS, lattice=LATTICE, scene=SCENE, path=folder / STORE)
-    maps = hazard_maps(results, {"max_depth": [0.5]}, [0.5], scale=SWISS)
+    maps, classes = hazard_maps(results, {"max_depth": [0.5]}, [0.5]), hazard_maps(results, scale=SWISS)
     x, y = LATTICE.x, LATTICE.y
     boxes = [shapely.box(x[50], y[30], x[55], y[33]), shapely.box(x[130], y[5], x[133], y[8])]
     houses = geopandas.GeoDataFrame({"name": ["<i>A</i>", "B"]}, geometry=boxes, crs=LATTICE.crs)
     table = exposure_probabilities(results, houses, {"max_depth": [0.5]}, identifier="name")
     elevation = np.add.outer(0.1 * LATTICE.y, -0.3 * (LATTICE.x - LATTICE.x[-1]))
     paths = write_hazard(folder, maps, elevation=elevation, exposure=table)
-    paths += write_danger_levels(folder, hazard_matrix({300: maps}), elevation=elevation)
-    return folder, maps, paths
+    paths += write_danger_levels(folder, hazard_matrix({300: classes}), elevation=elevation)
+    return folder, maps, paths, classes
 
 
 def test_files_are_read_back(folder):
-    folder, maps, paths = folder
+    folder, maps, paths, _ = folder
     assert all(path.exists() for path in paths)
     with xr.open_dataset(folder / "hazard.nc", decode_coords="all") as file:
         assert file.attrs["ensemble_digest"] == "d" * 32 and file.attrs["members_failed"] == 1
@@ -96,7 +96,7 @@ def test_pictures_show_the_error_beside_the_probability(folder):
     drawn = shown.images[0].get_array()
     assert drawn.count() == int((maps.probability_of_max_depth[0] > 0.0).sum())
     assert len(draw_probability(maps, error=False).axes) == 1
-    title = draw_probability(maps, "class", "strong").axes[0].get_title(loc="left")
+    title = draw_probability(folder[3], "class", "strong").axes[0].get_title(loc="left")
     assert title == "Probability of the class strong or a more severe one"
     with pytest.raises(InputError, match="did you mean 'max_depth'"):
         draw_probability(maps, "max_depht")
@@ -105,10 +105,10 @@ def test_pictures_show_the_error_beside_the_probability(folder):
 
 
 def test_a_report_has_members_probabilities_and_polygons(folder):
-    folder, _, _ = folder
+    folder = folder[0]
     text = write_ensemble_report(folder).read_text(encoding="utf-8")
     assert "shares of 23 of 24 members (random)" in text and "takes 100 members; 77 more are needed" in text
-    assert text.count('<img src="data:image/png') == 4  # reached, one threshold, two classes
+    assert text.count('<img src="data:image/png') == 2  # reached, and one threshold
     assert "Member 23 failed" in text and "&lt;b&gt;burst" in text and "<b>burst" not in text
     assert "<i>A" not in text and "100 (86–100)" in text and "Some members reach 1 of the 2 polygons" in text
     assert "Complete" in text and "friction.basal_friction_angle" in text
