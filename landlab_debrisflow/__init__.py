@@ -1,8 +1,9 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component.
 
-Public are the names below and those of `ensemble` (many runs of a scene), `exact` (closed forms), `laws` (classes of
-laws, names for the author of one), `plots` (figures), `record` (observers and files), `report` (the report of a run),
-`scene` (setup, terrains), `sensitivity` (which values of an ensemble matter) and `triggers` (landslides of other
+Public are the names below and those of `calibration` (values of a scene from an observed event), `ensemble` (many runs
+of a scene), `exact` (closed forms), `hazard` (probabilities over many runs), `laws` (classes of laws, names for the
+author of one), `plots` (figures), `record` (observers and files), `report` (the report of a run), `scene` (setup,
+terrains), `sensitivity` (which values of an ensemble matter) and `triggers` (landslides of other
 components as a release). Deeper modules may change at any time.
 """
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from ..hazard.files import STORE
+from ..run.files import STORE
 from .exit_codes import DONE, SOME_FAILED, epilog
 from .messages import messages
 from .output import say

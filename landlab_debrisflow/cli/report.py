@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ..hazard.files import STORE
+from ..run.files import STORE
 from .exit_codes import DONE
 from .messages import messages
 from .output import say

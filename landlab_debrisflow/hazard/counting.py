@@ -64,6 +64,11 @@ def without_films(member: MemberResult, least_depth: float) -> dict[str, np.ndar
     return values
 
 
+def count_type(members: int) -> np.dtype:
+    """Return the type of counts of members: 16 bits, so that few members need no less memory than thousands."""
+    return np.promote_types(np.uint16, np.min_scalar_type(members))
+
+
 class EventCounts:
     """Members of each replicate in which events came, at every node.
 
@@ -75,7 +80,7 @@ class EventCounts:
     groups : int
         Number of replicates.
     members : int
-        Number of members: counts have the smallest type that can hold it.
+        Number of members.
 
     Attributes
     ----------
@@ -85,7 +90,7 @@ class EventCounts:
 
     def __init__(self, events: Sequence[Event], shape: tuple[int, int], groups: int, members: int):
         self.events = tuple(events)
-        self.counts = np.zeros((groups, len(self.events), *shape), np.min_scalar_type(members))
+        self.counts = np.zeros((groups, len(self.events), *shape), count_type(members))
 
     def add(self, group: int, member: MemberResult, values: Values) -> None:
         """Count a member.
@@ -123,7 +128,7 @@ class Histogram:
     def __init__(self, name: str, shape: tuple[int, int], members: int):
         self.name, self.edges = name, bin_edges(name)
         # bins last: the system gives memory only to the pages that are written, those of nodes that a flow touched
-        self.counts = np.zeros((*shape, self.edges.size + 1), np.min_scalar_type(members))
+        self.counts = np.zeros((*shape, self.edges.size + 1), count_type(members))
 
     def add(self, member: MemberResult, values: Values) -> None:
         """Count a member.

@@ -35,7 +35,7 @@ def exposure_probabilities(
     independent: bool | None = None,
     scene: Scene | None = None,
 ) -> Any:
-    """Return the probability that each shape is reached, and that the largest value at it exceeds thresholds.
+    """Return the probability that each shape is reached, and that its largest values exceed thresholds.
 
     A shape has the cells that it covers in part or whole. Where it is a closed cell, a building that was made a wall,
     impact pressure counts at its own faces, depth and speed in the open cells beside them.
@@ -95,7 +95,7 @@ def exposure_probabilities(
 
 
 def _with_faces(rows: np.ndarray, columns: np.ndarray, closed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the open cells of a shape, and those beside its closed ones."""
+    """Return the open cells of a shape and the open cells beside its closed cells."""
     is_open = ~closed[rows, columns]
     faces = open_faces(rows[~is_open], columns[~is_open], closed)
     return np.concatenate([rows[is_open], faces[0]]), np.concatenate([columns[is_open], faces[1]])

@@ -1,7 +1,4 @@
 """Names of the files in the directory of an ensemble."""
 
-STORE = "members.zarr"
-"""Store of the members."""
-
 HAZARD, LEVELS, EXPOSURE = "hazard.nc", "danger_level", "exposure"
 """Hazard maps, danger levels, and probabilities at exposed polygons, the latter two without suffix."""

@@ -40,6 +40,8 @@ def check_hazard_keys(scene: Scene) -> None:
 def write_scene_hazard(ensemble: Ensemble, results: EnsembleResults) -> list[Path]:
     """Write hazard maps of an ensemble into the directory of its results, and the table of its exposed polygons.
 
+    Maps of other thresholds, from an earlier call, are removed.
+
     Parameters
     ----------
     ensemble : Ensemble
@@ -64,7 +66,17 @@ def write_scene_hazard(ensemble: Ensemble, results: EnsembleResults) -> list[Pat
     maps = hazard_maps(results, quantiles=keys.quantiles or QUANTILES, **asked)
     exposure = exposure_probabilities(results, scene=scene, **asked) if scene.places.exposure else None
     elevation = scene.terrain[ELEVATION].values
-    return write_hazard(ensemble.results_directory, maps, elevation=elevation, exposure=exposure)
+    written = write_hazard(ensemble.results_directory, maps, elevation=elevation, exposure=exposure)
+    _remove_others(ensemble.results_directory, written)
+    return written
+
+
+def _remove_others(folder: Path, written: list[Path]) -> None:
+    """Remove maps of thresholds and quantiles that an earlier command wrote."""
+    kept = {path.with_suffix("") for path in written}
+    for path in (path for kind in ("probability_of_*", "quantile_of_*") for path in folder.glob(kind)):
+        if path.suffix in (".tif", ".qml", ".png") and path.with_suffix("") not in kept:
+            path.unlink()
 
 
 def has_hazard(keys: EnsembleKeys) -> bool:

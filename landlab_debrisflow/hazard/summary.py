@@ -37,13 +37,13 @@ def variance_ratio(maps: xr.Dataset) -> float:
 
 
 def probabilities_of(maps: xr.Dataset) -> list[str]:
-    """Return the names of the probabilities in hazard maps, without those of their errors."""
+    """Return the names of the probabilities in hazard maps, errors left out."""
     names = [str(name) for name in maps if str(name).startswith("probability_of_")]
     return [name.removesuffix("_low") for name in names if name.endswith("_low")]
 
 
 def hazard_summary(maps: xr.Dataset, standard_error: float = TARGET) -> list[str]:
-    """Return what hazard maps rest on, as sentences: members, failures, errors and the members that are needed.
+    """Return a summary of hazard maps as sentences: members, failures, sampling errors, number of members needed.
 
     Parameters
     ----------

@@ -15,12 +15,13 @@ from ..core.errors import InputError
 from ..core.version import __version__
 from ..ensemble import EnsembleResults
 from ..hazard import hazard_maps, hazard_summary
-from ..hazard.files import EXPOSURE, HAZARD, STORE
+from ..hazard.files import EXPOSURE, HAZARD
 from ..hazard.summary import probabilities_of
 from ..hazard.write import layers_of
 from ..plots import draw_probability
+from ..plots.style import unit_text
 from ..record.files import check_writable, write_atomically
-from ..run.files import PAGE
+from ..run.files import PAGE, STORE
 from .blocks import Block, Section, Sentences, Table, Verbatim
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
@@ -30,8 +31,8 @@ from .page import render_page
 from .pictures import picture
 
 GIVEN = (
-    "These are the probabilities of the members that were drawn: they hold for the distributions that the scene states, "
-    "and for the model. Errors of the model itself, and of distributions that were guessed, come on top. They are no "
+    "These are the probabilities of the members that were drawn: they hold for the distributions that the scene "
+    "states, and for the model. Errors of the model itself, and of guessed distributions, come on top. They are no "
     "probabilities of an event in a year."
 )
 
@@ -83,7 +84,7 @@ def write_ensemble_report(
 
 
 def _maps(folder: Path, results: EnsembleResults) -> xr.Dataset:
-    """Return the hazard maps of a directory; those of the store if the file is not there or of other members."""
+    """Return the hazard maps of a directory, from its file, or from its store if the file has other members."""
     path = folder / HAZARD
     if path.is_file():
         try:
@@ -94,16 +95,17 @@ def _maps(folder: Path, results: EnsembleResults) -> xr.Dataset:
         counted = int(results.done.sum()) - len(results.failures)
         if maps.attrs.get("ensemble_digest") == results.digest and maps.attrs.get("members_completed") == counted:
             return maps
-    return hazard_maps(results)
+    keys = results.scene.get("ensemble") or {}
+    return hazard_maps(results, keys.get("thresholds"))
 
 
 def _sections(folder: Path, results: EnsembleResults, maps: xr.Dataset) -> Iterator[Section]:
-    yield Section("errors", "How sure this is", [Sentences([*hazard_summary(maps), GIVEN])])
+    yield Section("errors", "How sure this is", [Sentences([GIVEN, _error_words(maps)])])
     yield Section("cautions", "Processes left out, and numbers to distrust", [
         Sentences([NOT_MODELLED]), Sentences(DISTRUST, listed=True),
     ])  # fmt: skip
     yield Section("members", "Members", list(_members(results)))
-    yield Section("probabilities", "Probabilities", list(_probabilities(maps)))
+    yield Section("probabilities", "Probabilities", list(_probabilities(maps, _shapes(folder))))
     if (table := exposure_blocks(folder)) is not None:
         yield Section("exposure", "Exposed polygons", [table])
     scene = yaml.safe_dump(_plain(results.scene), sort_keys=False, allow_unicode=True, default_flow_style=None)
@@ -111,16 +113,25 @@ def _sections(folder: Path, results: EnsembleResults, maps: xr.Dataset) -> Itera
     yield Section("citation", "Citation", [Sentences([SENTENCE]), Verbatim(bibtex())])
 
 
+def _error_words(maps: xr.Dataset) -> str:
+    """Return the sentence on how the sampling error is told."""
+    told = maps.attrs["sampling_error"]
+    if told == "none":
+        return f"A sampling error is not told: {maps.attrs['no_sampling_error']}."
+    interval = f"intervals hold the true value in {100.0 * float(maps.attrs['confidence']):.0f} % of samples"
+    return f"The sampling error, because members are no more than they are, is told by {told}; {interval}."
+
+
 def _members(results: EnsembleResults) -> Iterator[Block]:
     design = results.design
     rows = []
-    for name, values in design.data_vars.items():
+    for values in design.data_vars.values():
         if "key" not in values.attrs:
             continue
         numbers = values.values.astype(float)
         middle = [rounded(float(one)) for one in (numbers.min(), np.median(numbers), numbers.max())]
         choices = str(values.attrs.get("choices", ""))
-        rows.append((str(values.attrs["key"]), str(values.attrs.get("units", "")), *middle, choices))
+        rows.append((str(values.attrs["key"]), unit_text(str(values.attrs.get("units", ""))), *middle, choices))
     head = ("value", "unit", "least", "median", "largest", "choices, by number")
     yield Table(caption="Values that vary between members", head=head, rows=rows, numbers=(2, 3, 4))
     seconds = results.seconds
@@ -130,18 +141,28 @@ def _members(results: EnsembleResults) -> Iterator[Block]:
         ("digest", results.digest),
     ])  # fmt: skip
     for one in results.failures[:MOST_FAILURES]:
-        values = ", ".join(f"{key} {value}" for key, value in one.values.items())
-        yield Sentences([f"Member {one.member} failed ({values}): {one.error}"])
+        told = ", ".join(f"{key} {value}" for key, value in one.values.items())
+        yield Sentences([f"Member {one.member} failed ({told}): {one.error}"])
 
 
-def _probabilities(maps: xr.Dataset) -> Iterator[Block]:
+def _probabilities(maps: xr.Dataset, shapes: Any) -> Iterator[Block]:
     known = probabilities_of(maps)
     for layer in (one for one in layers_of(maps) if one.variable in known):
-        figure = draw_probability(maps, layer.variable.removeprefix("probability_of_"), layer.threshold)
+        figure = draw_probability(maps, layer.variable.removeprefix("probability_of_"), layer.threshold, shapes=shapes)
         title = figure.axes[0].get_title(loc="left")
         area = float((layer.values >= 0.5).sum()) * _cell_area(maps)
         words = f"{title}, in percent of the members, and its standard error."
         yield picture(figure, f"Map: {title}. On {rounded(area, 'm²')} it is a half or more.", words)
+
+
+def _shapes(folder: Path) -> Any:
+    """Return the exposed polygons of an ensemble, None if there are none."""
+    path = folder / f"{EXPOSURE}.gpkg"
+    if not path.is_file():
+        return None
+    import geopandas
+
+    return geopandas.read_file(path)
 
 
 def _cell_area(maps: xr.Dataset) -> float:
@@ -190,8 +211,8 @@ def _hit(folder: Path) -> list[str]:
     worst = max(rows, key=lambda row: float(row["p_reached"]))
     hit = sum(float(row["p_reached"]) > 0.0 for row in rows)
     return [
-        f"Of {len(rows)} polygons given as exposed {hit} are reached by some member; the most probable one is "
-        f"{worst['id']} ({_percent(worst, 'p_reached')} %)."
+        f"Some members reach {hit} of the {len(rows)} polygons given as exposed; the most probable one is "
+        f"{worst['id']}, with {_percent(worst, 'p_reached')} %."
     ]
 
 
@@ -207,7 +228,7 @@ def _seconds(row: Mapping[str, str], kind: str) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Return plain values without those that are not set."""
+    """Return plain values without empty ones."""
     if isinstance(value, Mapping):
         return {str(key): _plain(one) for key, one in value.items() if one not in (None, [], {})}
     return [_plain(one) for one in value] if isinstance(value, list | tuple) else value

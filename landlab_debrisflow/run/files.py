@@ -37,3 +37,7 @@ def is_result(name: Any) -> bool:
     if folder == PICTURES:
         return "*" not in last and last.endswith(PICTURE_SUFFIXES)
     return name == REPORT or ((in_series or (not folder and "*" not in last)) and last.endswith(SUFFIXES))
+
+
+STORE = "members.zarr"
+"""Store of the members of an ensemble, in the directory of its results."""

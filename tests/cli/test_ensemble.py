@@ -42,7 +42,11 @@ def test_members_of_a_scene_are_run(scene, capsys):
     assert "ensemble: 2 of 3 members done" in err and "ensemble: 3 of 3 members done" in err
     results = EnsembleResults.open("slope_ensemble/members.zarr")
     assert results.done.all() and results.sampling == "latin_hypercube"
+    Path(scene).write_text(Path(scene).read_text().replace("max_depth: [0.5]", "max_depth: [1.0]"))
     assert main.main(["ensemble", scene, "--workers", "1", "--quiet"]) == exit_codes.DONE
+    assert [path.stem for path in Path("slope_ensemble").glob("probability_of_max_depth_above*.tif")] == [
+        "probability_of_max_depth_above_1_m"
+    ]
     assert capsys.readouterr() == ("", "")
     line = refused(["ensemble", scene, "--members", "4"], exit_codes.USER_ERROR, capsys)
     assert "slope_ensemble/members.zarr holds another ensemble" in line

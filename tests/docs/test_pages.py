@@ -13,6 +13,7 @@ QUESTIONS = (
     "geotiff_to_report",
     "release",
     "parameters",
+    "hazard_maps",
     "other_codes",
     "landlab_loops",
     "observers_restart_files",

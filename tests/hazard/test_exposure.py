@@ -108,4 +108,4 @@ def test_shapes_that_cannot_be_used_are_refused(results, houses):
     with pytest.raises(InputError, match="no exposed polygons"):
         exposure_probabilities(results)
     with pytest.raises(InputError, match="did you mean 'name'"):
-        exposure_probabilities(results, houses, identifier="nam")
+        exposure_probabilities(results, houses, identifier="names")
