@@ -12,7 +12,7 @@ from ..core.hints import did_you_mean
 from ..ensemble.result import ARRIVAL, MemberResult
 from ..geo.cover import covered_fraction
 from .model_error import ModelError, Stated
-from .place import Place, check_map
+from .place import Place, check_map, unit_of
 from .shapes import polygon_of
 
 
@@ -228,7 +228,7 @@ class AtPoint:
             value = float(one.maps[self.map_name][row - one.rows.start, column - one.columns.start])
             return nothing if np.isnan(value) else value
 
-        return _scalar(self, label, "-", simulated, (self.map_name, row, column))
+        return _scalar(self, label, unit_of(self.map_name), simulated, (self.map_name, row, column))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,6 +9,7 @@ from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..ensemble.basis import Basis
 from ..geo.lattice import Lattice, extent
+from ..grid.fields import NODE_FIELDS, OUTPUT_PREFIX
 from ..scene.output_keys import MAPS
 
 
@@ -102,3 +103,14 @@ def check_map(label: str, name: str) -> None:
         raise InputError(
             f"calibration: {label}: no map {name!r}{did_you_mean(name, MAPS)}; there are {', '.join(MAPS)}"
         )
+
+
+def unit_of(name: str) -> str:
+    """Return the unit of a map of the members.
+
+    Examples
+    --------
+    >>> unit_of("max_depth")
+    'm'
+    """
+    return next(field.unit for field in NODE_FIELDS if field.name == OUTPUT_PREFIX + name)

@@ -111,7 +111,7 @@ class Proposal(NamedTuple):
         whitened = [np.linalg.solve(self.root, each.T).T for each in (scores, self.centres)]
         squares = spatial.distance.cdist(*whitened, "sqeuclidean")
         norm = 0.5 * scores.shape[1] * np.log(2.0 * np.pi) + np.log(np.diag(self.root)).sum()
-        kernels = special.logsumexp(-0.5 * squares, axis=1, b=self.weights) - norm
+        kernels = special.logsumexp(np.log(self.weights) - 0.5 * squares, axis=1) - norm
         found: np.ndarray = np.logaddexp(np.log(part) + log_prior(scores), np.log1p(-part) + kernels)
         return found
 
