@@ -78,7 +78,9 @@ def coverage(cases: int) -> None:
 def _case(number: int, truth, values: dict[str, float], place, nothing: xr.DataArray) -> dict:
     random = np.random.default_rng([7, number])
     sds = [one.sd for one in observed(values, nothing)]
-    noisy = {name: value + sd * random.standard_normal() for (name, value), sd in zip(values.items(), sds, strict=False)}
+    noisy = {
+        name: value + sd * random.standard_normal() for (name, value), sd in zip(values.items(), sds, strict=False)
+    }
     change = change_of(truth, place, source=False) + CHANGE_SD * random.standard_normal(place.lattice.shape)
     observations = observed(noisy, nothing.copy(data=change))
     posterior = calibrate(
@@ -98,7 +100,7 @@ def _write(rows: list[dict], keys: list[str]) -> None:
     design = Prior(EventRuns(Event(SCENE, [Measure("run_out", 0.0, 1.0)]), VARY, ("max_depth",), 0, 8, "").varied)
     ends = design.design(np.repeat(np.array(tails)[:, None], len(keys), axis=1))
     summary = {}
-    for name, values in ends.data_vars.items():
+    for values in ends.data_vars.values():
         if "key" not in values.attrs:
             continue
         key, width = values.attrs["key"], float(np.ptp(values.values))
@@ -109,7 +111,9 @@ def _write(rows: list[dict], keys: list[str]) -> None:
         held, relative = summary[key].values()
         print(f"{key}: {held} of {count} intervals hold the truth; their width is {relative:.2f} of the prior's")
     sizes = [row["effective_size"] for row in rows]
-    print(f"effective sample size {np.mean(sizes):.0f} on average, {min(sizes):.0f} at least, of {MEMBERS * GENERATIONS}")
+    print(
+        f"effective sample size {np.mean(sizes):.0f} on average, {min(sizes):.0f} at least, of {MEMBERS * GENERATIONS}"
+    )
     found = {"cases": count, "part": PART, "members": MEMBERS, "generations": GENERATIONS, "summary": summary,
              "rows": rows}  # fmt: skip
     RESULTS.joinpath("calibration_coverage.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")

@@ -180,8 +180,8 @@ def _opened(folder: Path | None, known: str) -> Iterator[None]:
             other = json.loads(header.read_text(encoding="utf-8")).get("digest")
             if other != known:
                 raise InputError(
-                    f"{folder} holds another calibration, of digest {other}; this one has {known}: scene, distributions, "
-                    "observations, members, seed or version differ; choose another store, or remove it"
+                    f"{folder} holds another calibration, of digest {other}; this one has {known}: scene, "
+                    "distributions, observations, members, seed or version differ; choose another store, or remove it"
                 )
         elif list(folder.glob("generation_*")):
             raise InputError(f"{folder} holds generations without {HEADER}; choose another store, or remove it")

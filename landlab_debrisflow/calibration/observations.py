@@ -129,7 +129,9 @@ class RunOut:
         place.node_at(label, self.x, self.y)
         distance = float(np.hypot(self.x - place.centre[0], self.y - place.centre[1]))
         if not np.isfinite(distance):
-            raise InputError("calibration: run-out is counted from a release at time 0; the scene has none, use Measure")
+            raise InputError(
+                "calibration: run-out is counted from a release at time 0; the scene has none, use Measure"
+            )
         named = Measure("run_out", distance, self.sd, self.model_error)
         return _scalar(named, label, "m", lambda one: measure_of(one.measures, "run_out"), ("run_out",))
 
@@ -287,7 +289,9 @@ def measure_of(measures: Mapping[str, float], name: str) -> float:
 
 def _scalar(given: Any, label: str, unit: str, simulated: Callable[[MemberResult], float], content: tuple) -> Bound:
     stated = stated_error(given.sd, 1.0, abs(given.value), given.model_error)
-    return Bound(label, unit, lambda one: simulated(one) - given.value, stated, (*content, given.value, *_plain(stated)))
+    return Bound(
+        label, unit, lambda one: simulated(one) - given.value, stated, (*content, given.value, *_plain(stated))
+    )
 
 
 def _plain(stated: Stated | None) -> tuple[Any, ...]:

@@ -72,7 +72,9 @@ class ElevationChange:
         values = np.where(place.closed, np.nan, values)
         cells = int(np.isfinite(values).sum())
         if cells < FEWEST:
-            raise InputError(f"calibration: elevation change: only {cells} cells have values; are mask and raster right?")
+            raise InputError(
+                f"calibration: elevation change: only {cells} cells have values; are mask and raster right?"
+            )
         return values
 
     def at(self, place: Place) -> Bound:
@@ -81,7 +83,9 @@ class ElevationChange:
         compared = np.isfinite(observed) if self.source else np.isfinite(observed) & (place.released == 0.0)
         known, total = np.where(compared, observed, 0.0), int(compared.sum())
         if total < FEWEST:
-            raise InputError(f"calibration: elevation change: {total} cells lie outside of the release; give source=True")
+            raise InputError(
+                f"calibration: elevation change: {total} cells lie outside of the release; give source=True"
+            )
         count = float(total)
         if self.correlation_length > 0.0:
             count = min(count, 5.0 * total * place.lattice.area / (math.pi * self.correlation_length**2))
@@ -114,8 +118,8 @@ class ElevationChange:
             and np.allclose(y, lattice.y, atol=0.01 * lattice.spacing[1], rtol=0.0)
         ):
             raise InputError(
-                f"calibration: elevation change has {values.shape} nodes, {_span(x, y)}; the maps have {lattice.shape}, "
-                f"{_extent(lattice)}: give it at their nodes, or as a raster file, which is resampled"
+                f"calibration: elevation change has {values.shape} nodes, {_span(x, y)}; the maps have "
+                f"{lattice.shape}, {_extent(lattice)}: give it at their nodes, or as a raster file, which is resampled"
             )
         return values.values.astype(float)
 

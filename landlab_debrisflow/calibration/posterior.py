@@ -132,7 +132,9 @@ class Posterior(Printed):
         """
         names = {self.members[name].attrs["key"]: name for name in self._columns()}
         if key not in names:
-            raise InputError(f"calibration: {key!r} does not vary{did_you_mean(key, names)}; varied: {', '.join(names)}")
+            raise InputError(
+                f"calibration: {key!r} does not vary{did_you_mean(key, names)}; varied: {', '.join(names)}"
+            )
         values = self.members[names[key]]
         choices = json.loads(values.attrs["choices"]) if "choices" in values.attrs else None
         found: dict[str, float] = {}

@@ -93,7 +93,8 @@ def predictive_maps(
         for value in () if name == ARRIVAL else values:
             terms[f"{name} {value}"] = _above_term(name, value)
     sums, lattice = weighted_sums(results, weights, terms), results[0].lattice
-    maps = xr.Dataset(coords={"y": ("y", lattice.y, axis_attributes("y")), "x": ("x", lattice.x, axis_attributes("x"))})
+    axes = {"y": lattice.y, "x": lattice.x}
+    maps = xr.Dataset(coords={name: (name, axis, axis_attributes(name)) for name, axis in axes.items()})
     for name, values in levels.items():
         mean = sums[f"{name} mean"]
         if name == ARRIVAL:

@@ -1,4 +1,4 @@
-"""Generations of a calibration: points of the unit cube, simulated and weighted, around which further ones are drawn."""
+"""Generations of a calibration: points of the unit cube, simulated and weighted, and proposals around them."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -49,10 +49,10 @@ def draw_posterior(
     """Draw members of a posterior by population Monte Carlo with tempering, all generations weighted together.
 
     The first generation is a Latin hypercube from the prior. Each further one is drawn around all members so far
-    (Cappé et al. 2004), weighted by the strictest criterion that leaves an effective sample size of a quarter of a generation
-    (Del Moral, Doucet & Jasra 2006). Weights are prior times criterion over the mixture of all proposals, each with the
-    part of its generation (Veach & Guibas 1995, Owen & Zhou 2000, Cornuet et al. 2012), so no run is lost; because the
-    first proposal is the prior, the prior over the mixture is at most the number of generations.
+    (Cappé et al. 2004), weighted by the strictest criterion that leaves an effective sample size of a quarter of a
+    generation (Del Moral, Doucet & Jasra 2006). Weights are prior times criterion over the mixture of all proposals,
+    each with the part of its generation (Veach & Guibas 1995, Owen & Zhou 2000, Cornuet et al. 2012), so no run is
+    lost; because the first proposal is the prior, the prior over the mixture is at most the number of generations.
 
     Parameters
     ----------

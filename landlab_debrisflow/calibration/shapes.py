@@ -31,9 +31,9 @@ def polygon_of(value: Any, label: str, place: Place) -> Any:
     """
     import shapely
 
-    if hasattr(value, "geom_type"):
+    if isinstance(value, shapely.Geometry):
         found = value
-    elif hasattr(value, "geometry") and hasattr(value, "to_crs"):
+    elif hasattr(value, "to_crs"):
         known = place.lattice.crs is not None and value.crs is not None
         found = (value.to_crs(place.lattice.crs) if known else value).geometry.union_all()
     else:

@@ -77,8 +77,8 @@ def _chi_square(posterior: "Posterior") -> list[tuple[str, str]]:
         for weights in (posterior.weights, np.where(np.isnan(squares), 0.0, posterior.prior_weights))
     ]
     best = squares[posterior.best]
-    words = f"posterior {values[0]:.3g}, best member {best:.3g}, prior {values[1]:.3g}"
-    return [("chi-square", f"{words}; expected of a perfect model {errors.count:.3g}, the number of independent values")]
+    words = f"posterior {values[0]:.3g}, best member {best:.3g}, prior {values[1]:.3g}; expected of a perfect model "
+    return [("chi-square", f"{words}{errors.count:.3g}, the number of independent values")]
 
 
 def _doubts(posterior: "Posterior") -> list[str]:
