@@ -1,4 +1,4 @@
-"""Calibration: values of a scene, found from what was observed of an event."""
+"""Calibration: values of a scene, found from observations of an event."""
 
 from .calibrate import calibrate, calibrate_events
 from .event import Event

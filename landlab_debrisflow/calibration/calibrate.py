@@ -18,10 +18,10 @@ from ..record.files import write_atomically
 from ..run.directory import locked
 from ..scene.digest import digest
 from ..scene.ensemble_keys import KEPT_MAPS
+from .bound import Observation
 from .criteria import Criterion, Likelihood, Tolerance
 from .event import Event, EventRuns, Prior
 from .model_error import ErrorModel
-from .observations import Observation
 from .posterior import Posterior
 from .sampler import draw_posterior
 
@@ -118,7 +118,8 @@ def calibrate_events(
     prior, criterion = Prior(runs[0].varied, correlation), criterion_of(runs, members)
     probes = prior.design(np.random.default_rng(0).random((PROBES, len(prior.keys))))
     values = [[str(name), column.values, dict(column.attrs)] for name, column in probes.data_vars.items()]
-    identity = [[one.identity for one in runs], values, members, seed]
+    errors = [each.stated and each.stated.model_error for one in runs for each in one.bound]
+    identity = [[one.identity for one in runs], [errors.index(one) for one in errors], values, members, seed]
     folder = None if store is None else Path(store)
     results: dict[str, list[EnsembleResults]] = {one.name: [] for one in runs}
     with _opened(folder, digest([identity, __version__])), _workers(client, workers) as (found, count):

@@ -14,7 +14,7 @@ from ..ensemble.design import Varied, make_dataset, varied_values
 from ..ensemble.distributions import Choices
 from ..ensemble.sampling import Points
 from ..run.scene import Scene
-from .observations import Bound, Observation
+from .bound import Bound, Observation
 from .place import Place
 
 PLACES = ("polygons", "points", "raster")

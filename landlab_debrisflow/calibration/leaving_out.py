@@ -1,15 +1,13 @@
 """Leave-one-out over several events: members weighted by all events except one, which is then scored."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ..core.errors import InputError
 from ..fidelity.table import Printed, Table
 from .criteria import Level
 from .sampler import TARGET
 from .scores import Score, score_members
-
-if TYPE_CHECKING:
-    from .posterior import Posterior
+from .weighted_members import WeightedMembers
 
 
 class LeftOutEvent(NamedTuple):
@@ -46,7 +44,7 @@ class LeftOut(Printed):
         return Table(title="Leave one out", rows=rows)
 
 
-def leave_out(posterior: "Posterior") -> LeftOut:
+def leave_out(posterior: WeightedMembers) -> LeftOut:
     """Weight the members of a posterior by all events except one, in turn, and score the one that was left out.
 
     The prior over the mixture of proposals is as in the calibration: only the likelihood changes, so that no run is
@@ -54,7 +52,7 @@ def leave_out(posterior: "Posterior") -> LeftOut:
 
     Parameters
     ----------
-    posterior : Posterior
+    posterior : WeightedMembers
 
     Returns
     -------

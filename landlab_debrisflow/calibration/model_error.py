@@ -15,7 +15,7 @@ NODES = 128
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ModelError:
-    """Error of the model, unknown but for its scale; several observations may share one.
+    """Error of the model of which a scale is known; several observations may share one.
 
     The standard deviation of the error has a half-normal prior, and the likelihood of every member is averaged over it,
     which needs no run (Kennedy & O'Hagan 2001 for the error of a model beside that of observations).

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -11,59 +11,10 @@ from ..core.errors import InputError
 from ..core.hints import did_you_mean
 from ..ensemble.result import ARRIVAL, MemberResult
 from ..geo.cover import covered_fraction
-from .model_error import ModelError, Stated
+from .bound import Bound, check_error, plain_error, stated_error
+from .model_error import ModelError
 from .place import Place, check_map, unit_of
 from .shapes import polygon_of
-
-
-class Bound(NamedTuple):
-    """Observation at the nodes of an event.
-
-    Attributes
-    ----------
-    label : str
-        Name for tables and messages.
-    unit : str
-    misfit : callable
-        Simulated less observed of a `MemberResult`, in the unit; of a map the root mean square.
-    stated : Stated or None
-        Error; None: no error is stated.
-    content : tuple
-        All that the observation is made of, for a digest.
-    """
-
-    label: str
-    unit: str
-    misfit: Callable[[MemberResult], float]
-    stated: Stated | None
-    content: tuple[Any, ...]
-
-
-class Observation(Protocol):
-    """Observation of an event, of which every member has a misfit."""
-
-    sd: float | None
-    maps: tuple[str, ...]
-
-    def at(self, place: Place) -> Bound:
-        """Return the observation at the nodes of an event."""
-        ...
-
-
-def stated_error(sd: float | None, count: float, size: float, model_error: ModelError | float | None) -> Stated | None:
-    """Return the error of an observation; a number as model error is the scale of an error of its own."""
-    if sd is None:
-        return None
-    known = model_error if model_error is None or isinstance(model_error, ModelError) else ModelError(model_error)
-    return Stated(sd, count, size, known)
-
-
-def check_error(label: str, sd: float | None, model_error: ModelError | float | None, unit: str = "-") -> None:
-    """Refuse an error of an observation that is not > 0, or a model error without error of the observation."""
-    if sd is not None:
-        in_range(f"calibration: {label}: sd", sd, 0.0, unit=unit, open_ends=(True, False), error=InputError)
-    elif model_error is not None:
-        raise InputError(f"calibration: {label}: a model error needs the error sd of the observation, too; state it")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -290,13 +241,5 @@ def measure_of(measures: Mapping[str, float], name: str) -> float:
 def _scalar(given: Any, label: str, unit: str, simulated: Callable[[MemberResult], float], content: tuple) -> Bound:
     stated = stated_error(given.sd, 1.0, abs(given.value), given.model_error)
     return Bound(
-        label, unit, lambda one: simulated(one) - given.value, stated, (*content, given.value, *_plain(stated))
+        label, unit, lambda one: simulated(one) - given.value, stated, (*content, given.value, *plain_error(stated))
     )
-
-
-def _plain(stated: Stated | None) -> tuple[Any, ...]:
-    """Return an error as plain values, for a digest."""
-    if stated is None:
-        return (None,)
-    error = stated.model_error
-    return (*stated[:3], None if error is None else (error.scale, error.relative))

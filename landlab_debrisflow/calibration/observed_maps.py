@@ -12,9 +12,11 @@ from ..core.checks import in_range
 from ..core.errors import InputError
 from ..geo.cover import covered_fraction
 from ..geo.lattice import Lattice, extent
+from ..geo.references import label_of, same_place
 from ..geo.resampling import read_onto
+from ..record.georeference import crs_of
+from .bound import Bound, check_error, plain_error, stated_error
 from .model_error import ModelError
-from .observations import Bound, check_error, stated_error
 from .place import Place
 from .shapes import polygon_of
 
@@ -97,10 +99,7 @@ class ElevationChange:
         size = math.sqrt(float(np.sum(known**2)) / total)
         stated = stated_error(self.sd, max(1.0, count), size, self.model_error)
         label = "elevation change" if self.source else "elevation change outside of the release"
-        error = None if stated is None or stated.model_error is None else (
-            stated.model_error.scale, stated.model_error.relative
-        )  # fmt: skip
-        return Bound(label, "m", misfit, stated, (known, compared, self.sd, count, self.source, error))
+        return Bound(label, "m", misfit, stated, (known, compared, *plain_error(stated)))
 
     def _on(self, place: Place) -> np.ndarray:
         if isinstance(self.raster, str | Path):
@@ -111,8 +110,13 @@ class ElevationChange:
                 f"{type(self.raster).__name__}"
             )
         values = self.raster.transpose("y", "x").sortby(["y", "x"])
-        x, y = values.x.values, values.y.values
-        lattice = place.lattice
+        x, y, lattice = values.x.values, values.y.values, place.lattice
+        own = crs_of(self.raster.to_dataset(name="change"))
+        if not same_place(lattice.crs, own, lattice.bounds, 0.01 * min(lattice.spacing)):
+            raise InputError(
+                f"calibration: elevation change is in {label_of(own)}, the maps are in {label_of(lattice.crs)}; give it "
+                "as a raster file, which is brought into their system"
+            )
         if values.shape != lattice.shape or not (
             np.allclose(x, lattice.x, atol=0.01 * lattice.spacing[0], rtol=0.0)
             and np.allclose(y, lattice.y, atol=0.01 * lattice.spacing[1], rtol=0.0)
@@ -167,10 +171,7 @@ class DepositOutline:
             return float(np.sum(abs(covered - inside))) * place.lattice.area / perimeter
 
         stated = stated_error(self.sd, 1.0, math.sqrt(polygon.area), self.model_error)
-        error = None if stated is None or stated.model_error is None else (
-            stated.model_error.scale, stated.model_error.relative
-        )  # fmt: skip
-        content = (inside, perimeter, self.sd, self.threshold, error)
+        content = (inside, perimeter, self.threshold, *plain_error(stated))
         return Bound("outline of the deposit", "m", misfit, stated, content)
 
     def _on(self, place: Place) -> Any:

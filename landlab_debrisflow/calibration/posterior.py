@@ -1,147 +1,36 @@
-"""Posterior of a calibration: weighted members, intervals, predictive maps, scores."""
+"""Posterior of a calibration: weighted members, predictive maps, and members that are run again."""
 
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
-from ..core.errors import InputError
-from ..core.hints import did_you_mean
-from ..ensemble import EnsembleResults
 from ..fidelity.table import Printed, Table
-from .criteria import Criterion, Likelihood
-from .event import Event, EventRuns, Prior
-from .intervals import weighted_quantiles
+from .event import Event
 from .leaving_out import LeftOut, leave_out
 from .prediction import Prediction, predict, rescore
 from .predictive import predictive_maps
-from .sampler import Sample
-from .scores import Members, Score, score_members
 from .summary import posterior_table
+from .weighted_members import WeightedMembers
 
 
-class Posterior(Printed):
-    """Members of a calibration with weights; it prints itself.
-
-    Parameters
-    ----------
-    sample : Sample
-    prior : Prior
-    runs : tuple of EventRuns
-        Events in their order.
-    results : mapping of str to list of EnsembleResults
-        Generations by event.
-    criterion : Criterion
+class Posterior(Printed, WeightedMembers):
+    """Posterior of a calibration; it prints itself.
 
     Attributes
     ----------
-    sample, prior, runs, results, criterion
-        As the parameters.
+    sample : Sample
+        Points of the unit cube, misfits and weights of all members.
+    prior : Prior
+    runs : tuple of EventRuns
+        Events in their order.
+    results : dict of str to list of EnsembleResults
+        Generations by event.
+    criterion : Criterion
+        Likelihood of the stated errors, or tolerance of a distance.
     """
-
-    def __init__(
-        self, sample: Sample, prior: Prior, runs: tuple[EventRuns, ...],
-        results: Mapping[str, Sequence[EnsembleResults]], criterion: Criterion,
-    ) -> None:  # fmt: skip
-        self.sample, self.prior, self.runs, self.criterion = sample, prior, runs, criterion
-        self.results = {name: list(generations) for name, generations in results.items()}
-
-    @property
-    def is_abc(self) -> bool:
-        """Whether the result is approximate Bayesian computation, without stated errors."""
-        return not isinstance(self.criterion, Likelihood)
-
-    @property
-    def weights(self) -> np.ndarray:
-        """Weights of the members of all generations, shape (members,); sum 1."""
-        return self.sample.level.weights
-
-    @property
-    def effective_size(self) -> float:
-        """Effective sample size of the weights [-]."""
-        return self.sample.level.size
-
-    @property
-    def best(self) -> int:
-        """Number of the member with the largest weight without the proposal: likelihood, or the least distance."""
-        return self.criterion.best(self.sample.misfits)
-
-    @cached_property
-    def members(self) -> xr.Dataset:
-        """Values of all members over ``member``, with ``weight``, ``generation``, and ``misfit`` over observations."""
-        design = self.prior.design(self.sample.uniform).drop_vars("replicate")
-        labels = [f"{one.name}: {each.label}" if one.name else each.label for one in self.runs for each in one.bound]
-        return design.assign_coords(observation=labels).assign(
-            weight=("member", self.weights, {"long_name": "posterior weight"}),
-            generation=("member", self.sample.generation),
-            misfit=(("member", "observation"), self.sample.misfits, {"long_name": "simulated less observed"}),
-        )
-
-    def quantile(self, probability: float | Sequence[float]) -> dict[str, np.ndarray]:
-        """Return quantiles of the posterior by dotted name, in the units of the values.
-
-        Parameters
-        ----------
-        probability : float or sequence of float
-            In [0, 1].
-
-        Returns
-        -------
-        dict of str to ndarray
-            Of the shape of `probability`; of values that are no numbers nothing.
-        """
-        columns = {self.members[name].attrs["key"]: self.members[name] for name in self._columns()}
-        return {
-            key: weighted_quantiles(values.values, self.weights, np.asarray(probability, float))
-            for key, values in columns.items() if "choices" not in values.attrs
-        }  # fmt: skip
-
-    def interval(self, part: float = 0.9) -> dict[str, tuple[float, float]]:
-        """Return the intervals between equal tails that hold a part of the posterior, by dotted name.
-
-        Parameters
-        ----------
-        part : float
-            In (0, 1) [-].
-
-        Returns
-        -------
-        dict of str to tuple of float
-        """
-        if not 0.0 < part < 1.0:
-            raise InputError(f"calibration: the part of an interval must lie in (0, 1), got {part!r}")
-        found = self.quantile([0.5 * (1.0 - part), 0.5 * (1.0 + part)])
-        return {key: (float(low), float(high)) for key, (low, high) in found.items()}
-
-    def probabilities(self, key: str) -> dict[str, float]:
-        """Return the posterior probabilities of the different values of a list of choices.
-
-        Parameters
-        ----------
-        key : str
-            Dotted name.
-
-        Returns
-        -------
-        dict of str to float
-            By the value as text.
-        """
-        names = {self.members[name].attrs["key"]: name for name in self._columns()}
-        if key not in names:
-            raise InputError(
-                f"calibration: {key!r} does not vary{did_you_mean(key, names)}; varied: {', '.join(names)}"
-            )
-        values = self.members[names[key]]
-        choices = json.loads(values.attrs["choices"]) if "choices" in values.attrs else None
-        found: dict[str, float] = {}
-        for value, weight in zip(values.values.tolist(), self.weights, strict=True):
-            text = str(value if choices is None else choices[value])
-            found[text] = found.get(text, 0.0) + float(weight)
-        return found
 
     def predictive(self, thresholds: Mapping[str, Any], event: str | None = None) -> xr.Dataset:
         """Return posterior predictive maps: means, and probabilities of exceeding thresholds.
@@ -161,25 +50,6 @@ class Posterior(Printed):
         runs = self.event(event)
         maps = predictive_maps(self.results[runs.name], self.weights, thresholds)
         return maps.assign_attrs(effective_sample_size=self.effective_size, members=self.weights.size)
-
-    def scores(self, event: str | None = None) -> list[Score]:
-        """Return scores of posterior, best member and prior against the observations of an event.
-
-        Parameters
-        ----------
-        event : str, optional
-            Name of the event, where there are several.
-
-        Returns
-        -------
-        list of Score
-        """
-        runs = self.event(event)
-        return score_members(runs, {
-            "posterior": self.members_of(runs.name, self.weights),
-            "best member": self.members_of(runs.name, np.eye(self.weights.size)[self.best]),
-            "prior": self.members_of(runs.name, self.prior_weights),
-        })  # fmt: skip
 
     def rescore(self, particle_count: int | None = None, **options: Any) -> Prediction:
         """Run members of the posterior again with more particles, and score both runs.
@@ -227,34 +97,6 @@ class Posterior(Printed):
         """
         return leave_out(self)
 
-    @property
-    def prior_weights(self) -> np.ndarray:
-        """Weights of the members that are those of the prior: the first generation alone, shape (members,)."""
-        first = self.sample.generation == 0
-        return first / first.sum()
-
-    def event(self, name: str | None) -> EventRuns:
-        """Return the runs of an event; without a name those of the only one."""
-        known = [one.name for one in self.runs]
-        if name is None and len(known) == 1:
-            return self.runs[0]
-        if name not in known:
-            raise InputError(f"calibration: event must be one of {', '.join(known)}, got {name!r}")
-        return self.runs[known.index(name)]
-
-    def columns_of(self, name: str) -> slice:
-        """Return the observations of an event as a slice of all misfits."""
-        first = 0
-        for one in self.runs:
-            if one.name == name:
-                break
-            first += len(one.bound)
-        return slice(first, first + len(self.event(name).bound))
-
-    def members_of(self, name: str, weights: np.ndarray) -> Members:
-        """Return the members of an event with weights."""
-        return Members(self.results[name], weights, self.sample.misfits[:, self.columns_of(name)])
-
     def to_netcdf(self, path: str | Path) -> None:
         """Write values, weights and misfits of all members as a file.
 
@@ -263,9 +105,6 @@ class Posterior(Printed):
         path : str or Path
         """
         self.members.to_netcdf(path)
-
-    def _columns(self) -> list[str]:
-        return [str(name) for name, values in self.members.data_vars.items() if "key" in values.attrs]
 
     @cached_property
     def _printed(self) -> Table:

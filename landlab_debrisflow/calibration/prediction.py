@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +13,7 @@ from ..fidelity.table import Printed, Table
 from .event import Event, EventRuns
 from .proposal import systematic
 from .scores import Members, Score, score_members
-
-if TYPE_CHECKING:
-    from .posterior import Posterior
+from .weighted_members import WeightedMembers
 
 log = logging.getLogger("landlab_debrisflow.progress")
 
@@ -45,7 +43,7 @@ class Prediction(Printed):
 
 
 def rescore(
-    posterior: "Posterior", particle_count: int | None = None, *, members: int = 32, event: str | None = None,
+    posterior: WeightedMembers, particle_count: int | None = None, *, members: int = 32, event: str | None = None,
     client: Any = None, store: str | Path | None = None, workers: int | None = None,
     notify: Callable[[str], None] = log.info,
 ) -> Prediction:  # fmt: skip
@@ -53,7 +51,7 @@ def rescore(
 
     Parameters
     ----------
-    posterior : Posterior
+    posterior : WeightedMembers
     particle_count : int, optional
         By default twice that of the scene.
     members : int
@@ -97,14 +95,14 @@ def rescore(
 
 
 def predict(
-    posterior: "Posterior", event: Event, *, members: int = 32, client: Any = None, store: str | Path | None = None,
+    posterior: WeightedMembers, event: Event, *, members: int = 32, client: Any = None, store: str | Path | None = None,
     workers: int | None = None, notify: Callable[[str], None] = log.info,
 ) -> Prediction:  # fmt: skip
     """Run members of a posterior and of its prior in another event, and score both.
 
     Parameters
     ----------
-    posterior : Posterior
+    posterior : WeightedMembers
     event : Event
     members : int
         Members that are drawn by their weights, and as many of the prior.

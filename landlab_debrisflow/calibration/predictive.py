@@ -83,8 +83,8 @@ def predictive_maps(
     for name, values in levels.items():
         if name not in kept:
             raise InputError(
-                f"calibration: the map {name!r} was not kept{did_you_mean(name, kept)}; kept are {', '.join(kept)}; name "
-                "it in maps"
+                f"calibration: the map {name!r} was not kept{did_you_mean(name, kept)}; kept are "
+                f"{', '.join(kept)}; name it in maps"
             )
         in_range(f"calibration: threshold of {name}", values, error=InputError)
         terms[f"{name} mean"] = _mean_term(name)

@@ -1,14 +1,10 @@
 """Table that a posterior prints: intervals, scores beside a baseline and the noise floor, doubts."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..fidelity.table import Table
 from .criteria import Likelihood
-
-if TYPE_CHECKING:
-    from .posterior import Posterior
+from .weighted_members import WeightedMembers
 
 FEW = 50.0
 """Effective sample size below which the tails of an interval rest on two or three members."""
@@ -17,12 +13,12 @@ FAR = 3.0
 """Misfit over its standard deviation that all members have in vain: chance alone gives it to one in 370."""
 
 
-def posterior_table(posterior: "Posterior") -> Table:
+def posterior_table(posterior: WeightedMembers) -> Table:
     """Return the table of a posterior.
 
     Parameters
     ----------
-    posterior : Posterior
+    posterior : WeightedMembers
     """
     sample, count = posterior.sample, posterior.weights.size
     generations = int(sample.generation[-1]) + 1
@@ -56,7 +52,7 @@ def posterior_table(posterior: "Posterior") -> Table:
     return Table(title="Calibration", rows=rows, notes=_doubts(posterior))
 
 
-def _model_errors(posterior: "Posterior") -> list[tuple[str, str]]:
+def _model_errors(posterior: WeightedMembers) -> list[tuple[str, str]]:
     if not isinstance(posterior.criterion, Likelihood):
         return []
     labels = posterior.members.observation.values
@@ -67,7 +63,7 @@ def _model_errors(posterior: "Posterior") -> list[tuple[str, str]]:
     ]
 
 
-def _chi_square(posterior: "Posterior") -> list[tuple[str, str]]:
+def _chi_square(posterior: WeightedMembers) -> list[tuple[str, str]]:
     if not isinstance(posterior.criterion, Likelihood):
         return []
     errors = posterior.criterion.errors
@@ -81,7 +77,7 @@ def _chi_square(posterior: "Posterior") -> list[tuple[str, str]]:
     return [("chi-square", f"{words}{errors.count:.3g}, the number of independent values")]
 
 
-def _doubts(posterior: "Posterior") -> list[str]:
+def _doubts(posterior: WeightedMembers) -> list[str]:
     found = []
     if posterior.is_abc:
         found.append(
@@ -97,7 +93,7 @@ def _doubts(posterior: "Posterior") -> list[str]:
     return found
 
 
-def _out_of_reach(posterior: "Posterior") -> list[str]:
+def _out_of_reach(posterior: WeightedMembers) -> list[str]:
     """Return a sentence for each observation from which all members are far."""
     found, first = [], 0
     for runs in posterior.runs:

@@ -25,6 +25,7 @@ from landlab_debrisflow.calibration.criteria import Likelihood, Tolerance
 from landlab_debrisflow.calibration.place import Place
 from landlab_debrisflow.ensemble import MemberResult
 from landlab_debrisflow.geo.lattice import Lattice
+from landlab_debrisflow.geo.references import wkt_of
 
 LATTICE = Lattice((4, 6), (10.0, 10.0), (1000.0, 2000.0), "EPSG:32632")
 RELEASED = np.zeros(LATTICE.shape)
@@ -142,6 +143,7 @@ def test_observations_that_share_a_model_error_share_it():
 
 FAR = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]]
 MAP = xr.DataArray(np.zeros(LATTICE.shape), {"y": LATTICE.y, "x": LATTICE.x}, ("y", "x"))
+OTHER = MAP.assign_coords(spatial_ref=((), 0, {"crs_wkt": wkt_of("EPSG:32633")}))
 
 
 @pytest.mark.parametrize(
@@ -158,6 +160,7 @@ MAP = xr.DataArray(np.zeros(LATTICE.shape), {"y": LATTICE.y, "x": LATTICE.x}, ("
         (lambda: DepositOutline(FAR).at(PLACE), "does not touch the grid.*coordinate reference system"),
         (lambda: DepositOutline(shapely.Point(1000.0, 2000.0)).at(PLACE), "a polygon is needed, got Point"),
         (lambda: ElevationChange(MAP[1:]).at(PLACE), r"has \(3, 6\) nodes.*the maps have \(4, 6\)"),
+        (lambda: ElevationChange(OTHER).at(PLACE), "elevation change is in EPSG:32633 .*, the maps are in EPSG:32632"),
         (lambda: ElevationChange(MAP.values).at(PLACE), "a DataArray over y and x or a raster file is needed"),
         (lambda: ElevationChange(MAP * np.nan).at(PLACE), "only 0 cells have values"),
         (lambda: ElevationChange(MAP, correlation_length=-1.0), "correlation_length must lie in"),
