@@ -1,9 +1,9 @@
 """Landslides and debris flows that pick up wet ground, as a Landlab component.
 
-Public are the names below and those of `ensemble` (many runs of a scene), `exact` (closed forms), `laws` (classes of
-laws, names for the author of one), `plots` (figures), `record` (observers and files), `report` (the report of a run),
-`scene` (setup, terrains) and `triggers` (landslides of other components as a release). Deeper modules may change at any
-time.
+Public are the names below and those of `calibration` (values found from an observed event), `ensemble` (many runs of a
+scene), `exact` (closed forms), `laws` (classes of laws, names for the author of one), `plots` (figures), `record`
+(observers and files), `report` (the report of a run), `scene` (setup, terrains) and `triggers` (landslides of other
+components as a release). Deeper modules may change at any time.
 """
 
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""Calibration of a scene, or of several, to what was observed."""
+"""Calibration of a scene, or of several, to observations of events."""
 
 import json
 import logging

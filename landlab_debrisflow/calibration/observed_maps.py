@@ -114,8 +114,8 @@ class ElevationChange:
         own = crs_of(self.raster.to_dataset(name="change"))
         if not same_place(lattice.crs, own, lattice.bounds, 0.01 * min(lattice.spacing)):
             raise InputError(
-                f"calibration: elevation change is in {label_of(own)}, the maps are in {label_of(lattice.crs)}; give it "
-                "as a raster file, which is brought into their system"
+                f"calibration: elevation change is in {label_of(own)}, the maps are in {label_of(lattice.crs)}; give "
+                "it as a raster file, which is brought into their system"
             )
         if values.shape != lattice.shape or not (
             np.allclose(x, lattice.x, atol=0.01 * lattice.spacing[0], rtol=0.0)
