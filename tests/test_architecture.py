@@ -19,7 +19,8 @@ MODULES = {path.relative_to(PACKAGE).with_suffix("").as_posix(): path for path i
 LEVEL = {
     "core": 0, "exact": 1, "spatial": 1, "terrain": 1, "physics": 2, "model": 3, "grid": 4,
     "record": 5, "columns": 6, "plots": 6, "geo": 6, "scene": 7, "fidelity": 9, "run": 10, "ensemble": 11,
-    "sensitivity": 12, "hazard": 12, "report": 14, "cli": 15,
+    "sensitivity": 12, "hazard": 12, "calibration": 13,
+    "report": 14, "cli": 15,
 }  # fmt: skip
 TOP = 8  # component and what stands beside it
 KNOWS_LANDLAB = {

@@ -18,6 +18,7 @@ QUESTIONS = (
     "landlab_loops",
     "observers_restart_files",
     "columns",
+    "calibration",
     "theory_and_laws",
     "accuracy",
     "limits",
