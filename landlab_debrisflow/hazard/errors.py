@@ -75,8 +75,8 @@ def from_replicates(counts: np.ndarray, trials: np.ndarray) -> Estimate:
     The members of a replicate depend on each other, as the strata of a Latin hypercube do; replicates do not. With
     trials n_r of N, the variance is R / (R - 1) sum (n_r / N)^2 (p_r - p)^2, and the interval is that of Student's
     distribution with R - 1 degrees of freedom. Where all replicates agree, as where the event never came, their scatter
-    says nothing: there the interval is Wilson's, which a Latin hypercube does not exceed (Owen 1997: its variance is at
-    most n / (n - 1) times that of a random sample).
+    says nothing: there the interval is Wilson's, that of a random sample. The variance of a Latin hypercube of m
+    members is at most m / (m - 1) times that of a random sample (Owen 1997), so the interval is a fair bound.
 
     Parameters
     ----------
