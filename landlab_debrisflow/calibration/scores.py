@@ -75,7 +75,8 @@ def score_members(runs: EventRuns, sets: dict[str, Members]) -> list[Score]:
     for k, bound in enumerate(runs.bound):
         values = {name: rms(one.misfits[:, k], one.weights) for name, one in sets.items()}
         floor = np.nan if bound.stated is None else bound.stated.sd
-        scores.append(Score(f"misfit of {bound.label}", bound.unit, values, floor, "noise floor"))
+        unit = bound.unit if bound.unit != "-" else _unit_of_measure(bound.label, next(iter(sets.values())))
+        scores.append(Score(f"misfit of {bound.label}", unit, values, floor, "noise floor"))
     for one in runs.observations:
         if isinstance(one, ElevationChange):
             observed = one.observed(runs.place)
@@ -151,6 +152,13 @@ def correlation(modelled: np.ndarray, observed: np.ndarray) -> float:
     if modelled.size < 2 or np.ptp(modelled) == 0.0 or np.ptp(observed) == 0.0:
         return float("nan")
     return float(np.corrcoef(modelled.ravel(), observed.ravel())[0, 1])
+
+
+def _unit_of_measure(label: str, members: Members) -> str:
+    """Return the unit of an observed measure, which only runs know; "-" for none."""
+    known = members.results[0].measures
+    unit = str(known[label].attrs["units"]) if label in known else "1"
+    return "-" if unit == "1" else unit
 
 
 def _change_scores(

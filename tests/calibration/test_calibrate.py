@@ -80,6 +80,7 @@ def test_the_table_says_in_sample_baseline_and_noise_floor(posterior):
     ):  # fmt: skip
         assert words in text, words
     scores = {one.name: one for one in posterior.scores()}
+    assert scores["misfit of eroded_volume"].unit == "m3"
     lowered = scores["misfit of eroded_volume"].values
     assert lowered["best member"] < lowered["posterior"] < lowered["prior"]
     outside = scores["CSI of change outside of the release"]
@@ -109,6 +110,13 @@ def test_sums_are_those_of_batches_in_their_order(posterior):
             part[one.rows, one.columns] += weights[one.member] * one.maps["max_depth"].astype(float)
         total += part
     assert sums.tobytes() == total.tobytes()
+
+
+@pytest.mark.slow
+def test_two_workers_give_the_bits_of_one(observations):
+    found = [calibrate(SCENE, VARY, observations, **RUNS | {"workers": workers}) for workers in (1, 2)]
+    maps = [one.predictive({"max_depth": 1.0}).max_depth_mean.values.tobytes() for one in found]
+    assert found[0].weights.tobytes() == found[1].weights.tobytes() and maps[0] == maps[1]
 
 
 def test_a_store_is_continued_and_another_calibration_is_refused(posterior, observations, store, tmp_path):
