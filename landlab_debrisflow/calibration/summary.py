@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..ensemble.names import NOISE
 from ..fidelity.table import Table
 from .criteria import Likelihood
 from .weighted_members import WeightedMembers
@@ -35,13 +36,15 @@ def posterior_table(posterior: WeightedMembers) -> Table:
     names = {values.attrs["key"]: values.attrs["units"] for values in posterior.members.data_vars.values()
              if "key" in values.attrs}  # fmt: skip
     for key, unit in names.items():
-        if key in intervals:
+        if key.endswith(f".{NOISE}"):
+            rows.append((key, "realisations of noise, which the observations weight with the other values"))
+        elif key in intervals:
             low, high = intervals[key]
             words = f"{float(medians[key]):.4g} ({low:.4g} to {high:.4g}) {'' if unit == '1' else unit}".rstrip()
             rows.append((key, f"{words}, median and 90 % interval"))
         else:
             parts = posterior.probabilities(key).items()
-            rows.append((key, ", ".join(f"{name:.40} {part:.2f}" for name, part in parts)))
+            rows.append((key, ", ".join(f"{name:.60} {part:.2f}" for name, part in parts)))
     rows += _model_errors(posterior)
     for runs in posterior.runs:
         if runs.name:
@@ -102,8 +105,9 @@ def _out_of_reach(posterior: WeightedMembers) -> list[str]:
             if bound.stated is not None and np.isfinite(misfits).any():
                 nearest, sd = float(np.nanmin(misfits)), bound.stated.sd
                 if nearest > FAR * sd:
+                    unit = "" if bound.unit == "-" else f" {bound.unit}"
                     found.append(
-                        f"{bound.label} is out of reach: the nearest member is off by {nearest:.3g} {bound.unit}, "
+                        f"{bound.label} is out of reach: the nearest member is off by {nearest:.3g}{unit}, "
                         f"{nearest / sd:.1f} of its sd; widen the distributions, or state a model_error"
                     )
         first += len(runs.bound)

@@ -85,12 +85,12 @@ class WeightedMembers:
         Returns
         -------
         dict of str to ndarray
-            Of the shape of `probability`; of values that are no numbers nothing.
+            Of the shape of `probability`; words, files and realisations of noise have none.
         """
         columns = {self.members[name].attrs["key"]: self.members[name] for name in self._columns()}
         return {
             key: weighted_quantiles(values.values, self.weights, np.asarray(probability, float))
-            for key, values in columns.items() if "choices" not in values.attrs
+            for key, values in columns.items() if not {"choices", "rms"} & set(values.attrs)
         }  # fmt: skip
 
     def interval(self, part: float = 0.9) -> dict[str, tuple[float, float]]:

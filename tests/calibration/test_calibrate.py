@@ -164,7 +164,7 @@ def test_an_event_is_left_out_and_scored(truth):
         "first": Event(SCENE, [Measure("eroded_volume", near, 4.0)]),
         "second": Event(SCENE, [RunOut(WEST + 32.5 + far, SOUTH + 152.5, 2.0), Measure("run_out", far, 20.0)]),
     }
-    joint = calibrate_events(events, VARY, **RUNS | {"generations": 1})
+    joint = calibrate_events(events, VARY, **RUNS | {"generations": 1, "members": 12})
     left = joint.leave_one_out()
     # without the first event nothing tells the volume: its misfit is nearer to that of the prior
     score = left.events["first"].scores[0].values
@@ -177,7 +177,7 @@ def test_an_event_is_left_out_and_scored(truth):
 
 def test_without_errors_the_result_is_called_abc(observations):
     values = Measure("eroded_volume", 70.0), Measure("max_depth", 2.0)
-    found = calibrate(SCENE, VARY, values, **RUNS | {"generations": 1})
+    found = calibrate(SCENE, VARY, values, **RUNS | {"generations": 1, "members": 8})
     assert found.is_abc and "ABC" in str(found) and "depend on the tolerance" in str(found)
     with pytest.raises(InputError, match="one event alone cannot be left out"):
         found.leave_one_out()
@@ -189,11 +189,14 @@ def test_what_is_out_of_reach_is_named():
 
 
 def test_choices_and_correlations_are_calibrated(truth):
-    vary = VARY | {ANGLE: [26.0, 30.0], "friction.turbulent_coefficient": [200.0, 900.0]}
+    noise = {"terrain.elevation_noise": {"rms": 0.05, "length": 20.0}}
+    vary = VARY | {ANGLE: [26.0, 30.0], "release.velocity": [[0.0, 0.0], [1.0, 0.0]]} | noise
     target = Measure("eroded_volume", truth[0].measures["eroded_volume"], 4.0)
     found = calibrate(SCENE, vary, [target], correlation={(ANGLE, VOLUME): 0.3}, **RUNS | {"members": 8})
     assert set(found.probabilities(ANGLE)) == {"26.0", "30.0"}
+    assert set(found.probabilities("release.velocity")) == {"[0.0, 0.0]", "[1.0, 0.0]"}
     assert sum(found.probabilities(ANGLE).values()) == pytest.approx(1.0)
+    assert set(found.interval()) == {VOLUME, ANGLE} and "realisations of noise" in str(found)
     with pytest.raises(InputError, match=r"'release.volum' does not vary \(did you mean"):
         found.probabilities("release.volum")
 
