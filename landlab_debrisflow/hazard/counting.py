@@ -127,7 +127,7 @@ class Histogram:
 
     def __init__(self, name: str, shape: tuple[int, int], members: int):
         self.name, self.edges = name, bin_edges(name)
-        # bins last: the system gives memory only to the pages that are written, those of nodes that a flow touched
+        # bins last: the system gives memory only to pages that are written, of nodes that a flow touched
         self.counts = np.zeros((*shape, self.edges.size + 1), count_type(members))
 
     def add(self, member: MemberResult, values: Values) -> None:

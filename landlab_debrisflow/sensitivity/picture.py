@@ -137,7 +137,7 @@ def _draw_panel(axes: Axes, found: xr.Dataset, kind: Kind) -> None:
         )  # fmt: skip
     axes.axvline(0.0, color="black", linewidth=0.6)
     labels = zip(found["parameter"].values, found["parameter_units"].values, strict=True)
-    # a dotted name is long: what follows the first dot stands in a line of its own
+    # a dotted name is long: the part after the first dot stands in a line of its own
     axes.set_yticks(places, [label_text(plain_text(str(key).replace(".", ".\n", 1)), unit) for key, unit in labels])
     axes.set_title(
         label_text(str(found["measure"].item()).replace("_", " "), str(found["measure_units"].item())),

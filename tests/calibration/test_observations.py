@@ -62,7 +62,7 @@ def test_values_at_points_are_those_of_the_cell():
     assert misfit(AtPoint("max_depth", 1043.0, 2018.0, 1.5, 0.1), one) == 5.0 - 1.5
     assert misfit(AtPoint("max_depth", 1000.0, 2000.0, 1.5, 0.1), one) == -1.5  # outside of the window
     assert misfit(ArrivalTime(1043.0, 2018.0, 1.5, 0.1), one) == 3.5
-    assert misfit(ArrivalTime(1020.0, 2010.0, 1.5, 0.1), one) == np.inf  # within it, where nothing came
+    assert misfit(ArrivalTime(1020.0, 2010.0, 1.5, 0.1), one) == np.inf  # in the window, at a dry node
     assert AtPoint("max_speed", 1000.0, 2000.0, 1.0, 1.0).at(PLACE).unit == "m/s"
 
 
