@@ -112,13 +112,6 @@ def test_sums_are_those_of_batches_in_their_order(posterior):
     assert sums.tobytes() == total.tobytes()
 
 
-@pytest.mark.slow
-def test_two_workers_give_the_bits_of_one(observations):
-    found = [calibrate(SCENE, VARY, observations, **RUNS | {"workers": workers}) for workers in (1, 2)]
-    maps = [one.predictive({"max_depth": 1.0}).max_depth_mean.values.tobytes() for one in found]
-    assert found[0].weights.tobytes() == found[1].weights.tobytes() and maps[0] == maps[1]
-
-
 def test_a_store_is_continued_and_another_calibration_is_refused(posterior, observations, store, tmp_path):
     notes = []
     again = calibrate(SCENE, VARY, observations, store=store, notify=notes.append, **RUNS)
