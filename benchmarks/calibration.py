@@ -7,8 +7,6 @@ calibrated. Written to benchmarks/results/calibration_coverage.json.
 """
 
 import argparse
-import json
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -17,7 +15,7 @@ from landlab_debrisflow.calibration import ArrivalTime, AtPoint, ElevationChange
 from landlab_debrisflow.calibration.event import Event, EventRuns, Prior
 from landlab_debrisflow.calibration.observed_maps import change_of
 
-RESULTS = Path(__file__).parent / "results"
+from . import result_files
 
 HEAD = [[400020, 5200140], [400045, 5200140], [400045, 5200165], [400020, 5200165]]
 SCENE = {
@@ -116,7 +114,7 @@ def _write(rows: list[dict], keys: list[str]) -> None:
     )
     found = {"cases": count, "part": PART, "members": MEMBERS, "generations": GENERATIONS, "summary": summary,
              "rows": rows}  # fmt: skip
-    RESULTS.joinpath("calibration_coverage.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    result_files.keep("calibration_coverage", found, "python -m benchmarks.calibration coverage")
 
 
 def _quiet(text: str) -> None:

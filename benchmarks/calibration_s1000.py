@@ -9,7 +9,6 @@ those of validation.events. Written to benchmarks/results/calibration_EVENT.json
 """
 
 import argparse
-import json
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,7 @@ from validation.events.data import find_file
 from validation.events.s1000 import measures
 from validation.events.s1000.setup import NODATA, read_elevation, read_release
 
-from .calibration import RESULTS
+from . import result_files
 
 EVENTS = ("s1000", "cascade2009")
 VARY = {
@@ -120,7 +119,7 @@ def run(name: str, store: Path, members: int, generations: int, particles: int) 
             "spread along the path": _kept(measures.spread_evenly(foreign_seen)),
         },
     }  # fmt: skip
-    RESULTS.joinpath(f"calibration_{name}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    result_files.keep(f"calibration_{name}", found, f"python -m benchmarks.calibration_s1000 {name} --store DIR")
     for key, scores in found["scores"].items():
         print(key, _verdicts(scores) if name == "s1000" else scores)
     print(found["prediction"])
