@@ -11,10 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks import calibration_tables, result_files, step_tables
 from benchmarks import column as columns
 from benchmarks import flow as flows
 from benchmarks import paper_speed as speeds
-from benchmarks import result_files, step_tables
 from benchmarks.example_scripts import load
 
 PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "time_steps.md", "events.md"))
@@ -283,4 +283,8 @@ TABLES = {
     "speed": speed, "s1000": s1000, "provenance": provenance, "paper_speed": paper_speed,
     "ratios": lambda: table(*step_tables.ratios()), "step_rules": lambda: table(*step_tables.rules()),
     "erosion_order": lambda: table(*step_tables.orders()),
+    "calibrated_s1000": lambda: table(*calibration_tables.scores("s1000")),
+    "calibrated_2009": lambda: table(*calibration_tables.scores("cascade2009")),
+    "calibrated_predictions": lambda: table(*calibration_tables.predictions()),
+    "calibrated_intervals": lambda: table(*calibration_tables.intervals()),
 }  # fmt: skip

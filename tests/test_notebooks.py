@@ -8,9 +8,11 @@ import pytest
 NOTEBOOKS = sorted((Path(__file__).parents[1] / "notebooks").glob("*.ipynb"))
 
 
-def test_there_are_five():
-    names = "1_first_flow", "2_column_and_peclet", "3_tsing_shan", "4_landscape_loop", "5_dilatancy"
-    assert [path.stem for path in NOTEBOOKS] == list(names)
+def test_there_are_six():
+    names = [
+        "1_first_flow", "2_column_and_peclet", "3_tsing_shan", "4_landscape_loop", "5_dilatancy", "6_many_runs",
+    ]  # fmt: skip
+    assert [path.stem for path in NOTEBOOKS] == names
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
