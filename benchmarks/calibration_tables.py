@@ -47,6 +47,23 @@ def intervals() -> Rows:
     return ["90 % interval", *NAMES.values()], rows
 
 
+def coverage() -> Rows:
+    """Return heads and rows of how often 90 % intervals hold the truth, by effective sample size."""
+    found = result_files.read("calibration_coverage")
+    groups = {
+        "all": found["rows"],
+        "effective size of 60 or more": [row for row in found["rows"] if row["effective_size"] >= 60.0],
+        "below 30": [row for row in found["rows"] if row["effective_size"] < 30.0],
+    }
+    heads = ["intervals that hold the truth", *(f"{words}: {len(rows)} cases" for words, rows in groups.items())]
+    heads.append("width over that of the prior")
+    rows = []
+    for key, one in found["summary"].items():
+        held = [f"{100.0 * sum(row['held'][key] for row in part) / len(part):.0f} %" for part in groups.values()]
+        rows.append([f"`{key}`", *held, f"{one['width over prior']:.2f}"])
+    return heads, rows
+
+
 def _heads() -> list[str]:
     return [words for words, _ in FORMATS.values()]
 

@@ -17,7 +17,7 @@ from benchmarks import flow as flows
 from benchmarks import paper_speed as speeds
 from benchmarks.example_scripts import load
 
-PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "time_steps.md", "events.md"))
+PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "calibration.md", "time_steps.md", "events.md"))
 MARKED = re.compile(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 
@@ -234,7 +234,7 @@ def s1000() -> str:
 SOURCES = (
     "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
     "speed", "ratios", "valley_accuracy", "step_rules", "erosion_order", "step_stability", "key_figures", "s1000",
-    "tsing_shan", "when_ale_matters",
+    "tsing_shan", "when_ale_matters", "calibration_coverage", "calibration_s1000", "calibration_cascade2009",
 )  # fmt: skip
 
 
@@ -283,6 +283,7 @@ TABLES = {
     "speed": speed, "s1000": s1000, "provenance": provenance, "paper_speed": paper_speed,
     "ratios": lambda: table(*step_tables.ratios()), "step_rules": lambda: table(*step_tables.rules()),
     "erosion_order": lambda: table(*step_tables.orders()),
+    "coverage": lambda: table(*calibration_tables.coverage()),
     "calibrated_s1000": lambda: table(*calibration_tables.scores("s1000")),
     "calibrated_2009": lambda: table(*calibration_tables.scores("cascade2009")),
     "calibrated_predictions": lambda: table(*calibration_tables.predictions()),
