@@ -17,7 +17,9 @@ from benchmarks import flow as flows
 from benchmarks import paper_speed as speeds
 from benchmarks.example_scripts import load
 
-PAGES = tuple(result_files.ROOT / "docs" / name for name in ("accuracy.md", "calibration.md", "time_steps.md", "events.md"))
+PAGES = tuple(
+    result_files.ROOT / "docs" / name for name in ("accuracy.md", "calibration.md", "time_steps.md", "events.md")
+)
 MARKED = re.compile(r"(<!-- table (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 

@@ -101,7 +101,9 @@ class EventRuns:
     ) -> None:  # fmt: skip
         self.name, self.observations, self._vary, self._seed = name, tuple(event.observations), vary, seed
         if not self.observations:
-            raise InputError(f"calibration: {name or "the event"} has no observations; give at least one, such as Measure")
+            raise InputError(
+                f"calibration: {name or 'the event'} has no observations; give at least one, such as Measure"
+            )
         needed = [map_name for one in self.observations for map_name in one.maps]
         self.maps, self._batch = tuple(dict.fromkeys([*maps, *needed])), batch
         prior = Ensemble(event.scene, vary, members=2, sampling="random", maps=self.maps, batch=batch, seed=seed)
