@@ -23,3 +23,10 @@ class OwnedByFlow:
     def flow(self) -> Any:
         """Component that owns the part; None once it is gone."""
         return self._owner()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"_owner": self.flow}  # a weak reference cannot be pickled
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._owner = weakref.ref(state["_owner"])
