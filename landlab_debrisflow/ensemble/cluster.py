@@ -2,14 +2,15 @@
 
 import logging
 import os
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from multiprocessing import resource_tracker
 from typing import Any
 
 from ..core.errors import InputError
 from ..core.version import __version__
-from .interrupts import interrupts_later
 
 log = logging.getLogger("landlab_debrisflow")
 
@@ -70,7 +71,7 @@ def _local(distributed: Any, workers: int) -> Iterator[Any]:
     options = {"dashboard": False, "dashboard_address": f"{LOOPBACK}:0"}
     with ExitStack() as ends:
         ends.enter_context(_silent("asyncio"))  # where calls fail that an interrupted cluster leaves unanswered
-        with interrupts_later():
+        with _interrupts_later():
             cluster = distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, host=LOOPBACK, silence_logs=logging.CRITICAL,
                 dashboard_address=None, scheduler_kwargs=options,
@@ -89,6 +90,23 @@ def _silent(name: str) -> Iterator[None]:
         yield
     finally:
         logger.setLevel(level)
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """Keep Ctrl-C until the end of a block; threads and processes that begin in the block never get it.
+
+    A terminal sends Ctrl-C to workers, too; the process that started them ends them in order.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    resource_tracker.ensure_running()  # its start, within that of the first worker, would let Ctrl-C through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 from uuid import uuid4
 
 from ..core.errors import InputError
+from ..grid.interruption import Interruption
 from .basis import Basis
 from .batch import BatchResult, OtherVersionError, run_batch
-from .interrupts import Interrupts
 from .result import MemberResult
 
 AHEAD = 2
@@ -82,7 +82,8 @@ class _Schedule:
         self._client, self._basis, self._write = client, basis, write
         self._done: SimpleQueue[Any] = SimpleQueue()
         self._running: dict[Any, tuple[Task, int]] = {}
-        self._interrupts = Interrupts()
+        # a KeyboardInterrupt would be lost in a finaliser of dask, such as Future.__del__: Python drops it there
+        self._interruption = Interruption()
         self._scatter()
 
     def _scatter(self) -> None:
@@ -91,7 +92,7 @@ class _Schedule:
 
     def run(self, tasks) -> None:
         try:
-            with self._interrupts:
+            with self._interruption:
                 for task in tasks:
                     self._submit(task, 1)
                     while len(self._running) >= AHEAD * max(1, sum(self._client.nthreads().values())):
@@ -114,7 +115,8 @@ class _Schedule:
     def _finish_next(self) -> None:
         future = None
         while future is None:
-            self._interrupts.check()
+            if self._interruption.requested:
+                raise KeyboardInterrupt
             with suppress(Empty):
                 future = self._done.get(timeout=ASK)
         self._finish(future)
