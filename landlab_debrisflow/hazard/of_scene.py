@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import Any
 
+import xarray as xr
+
 from ..ensemble import Ensemble, EnsembleResults
 from ..geo.exposure import ELEVATION
 from ..run.scene import Scene
@@ -61,14 +63,37 @@ def write_scene_hazard(ensemble: Ensemble, results: EnsembleResults) -> list[Pat
     scene, keys = ensemble.scene, ensemble.scene.content.ensemble
     if keys is None or not has_hazard(keys) or results.done.sum() <= len(results.failures):
         return []
-    scale, least_depth = scale_of(keys), scene.output_keys.least_depth
-    asked: dict[str, Any] = {"thresholds": keys.thresholds, "least_depth": least_depth, "scale": scale}
-    maps = hazard_maps(results, quantiles=keys.quantiles or QUANTILES, **asked)
-    exposure = exposure_probabilities(results, scene=scene, **asked) if scene.places.exposure else None
+    maps = scene_hazard_maps(results, scene)
+    exposure = exposure_probabilities(results, scene=scene, **_asked(scene)) if scene.places.exposure else None
     elevation = scene.terrain[ELEVATION].values
     written = write_hazard(ensemble.results_directory, maps, elevation=elevation, exposure=exposure)
     _remove_others(ensemble.results_directory, written)
     return written
+
+
+def scene_hazard_maps(results: EnsembleResults, scene: Scene) -> xr.Dataset:
+    """Return the hazard maps that the keys of a scene ask for, with the usual thresholds if it has no key ``ensemble``.
+
+    Parameters
+    ----------
+    results : EnsembleResults
+    scene : Scene
+
+    Returns
+    -------
+    xarray.Dataset
+        As `hazard_maps` returns them.
+    """
+    keys = scene.content.ensemble
+    return hazard_maps(results, quantiles=(keys and keys.quantiles) or QUANTILES, **_asked(scene))
+
+
+def _asked(scene: Scene) -> dict[str, Any]:
+    """Return the arguments that maps and the table of exposed polygons have in common."""
+    keys, least_depth = scene.content.ensemble, scene.output_keys.least_depth
+    if keys is None:
+        return {"least_depth": least_depth}
+    return {"thresholds": keys.thresholds, "least_depth": least_depth, "scale": scale_of(keys)}
 
 
 def _remove_others(folder: Path, written: list[Path]) -> None:

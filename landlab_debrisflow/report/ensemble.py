@@ -1,6 +1,5 @@
 """Report of an ensemble: members, probabilities with their errors, exposed polygons."""
 
-import csv
 import os
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
@@ -14,18 +13,21 @@ import yaml
 from ..core.errors import InputError
 from ..core.version import __version__
 from ..ensemble import EnsembleResults
-from ..hazard import hazard_maps, hazard_summary
+from ..hazard import hazard_summary
 from ..hazard.files import EXPOSURE, HAZARD
+from ..hazard.of_scene import scene_hazard_maps
 from ..hazard.summary import probabilities_of
 from ..hazard.write import layers_of
 from ..plots import draw_probability
 from ..plots.style import unit_text
 from ..record.files import check_writable, write_atomically
 from ..run.files import PAGE, STORE
+from ..run.scene import Scene
 from .blocks import Block, Section, Sentences, Table, Verbatim
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
 from .content import Content
+from .exposure import read_exposed
 from .numbers import duration, rounded
 from .page import render_page
 from .pictures import picture
@@ -95,8 +97,7 @@ def _maps(folder: Path, results: EnsembleResults) -> xr.Dataset:
         counted = int(results.done.sum()) - len(results.failures)
         if maps.attrs.get("ensemble_digest") == results.digest and maps.attrs.get("members_completed") == counted:
             return maps
-    keys = results.scene.get("ensemble") or {}
-    return hazard_maps(results, keys.get("thresholds"))
+    return scene_hazard_maps(results, Scene.from_mapping(results.scene))
 
 
 def _sections(folder: Path, results: EnsembleResults, maps: xr.Dataset) -> Iterator[Section]:
@@ -177,14 +178,8 @@ def exposure_rows(folder: Path) -> list[dict[str, str]]:
     InputError
         If the file is damaged.
     """
-    path = folder / f"{EXPOSURE}.csv"
-    if not path.is_file():
-        return []
-    with path.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    if not rows or not {"id", "p_reached"} <= set(rows[0]):
-        raise InputError(f"{path} is no table of exposed polygons; the file is damaged, run the command ensemble again")
-    return rows
+    found = read_exposed(folder / f"{EXPOSURE}.csv", {"id", "p_reached"}, "run the command ensemble again")
+    return [] if found is None else [dict(zip(found.head, row, strict=True)) for row in found.rows]
 
 
 def exposure_blocks(folder: Path) -> Table | None:

@@ -1,6 +1,7 @@
 """Exposed polygons of a run for its report: which were reached, when, how deep and how fast."""
 
 import csv
+from pathlib import Path
 from typing import NamedTuple
 
 from ..core.errors import InputError
@@ -55,14 +56,35 @@ def exposed(results: Results) -> Exposed | None:
         If the table is damaged.
     """
     path = results.directory / "exposure.csv"
+    return read_exposed(path, {"id", "reached"}, "run the scene anew with --overwrite")
+
+
+def read_exposed(path: Path, needed: set[str], remedy: str) -> Exposed | None:
+    """Return a table of exposed polygons; None if there is no such file.
+
+    Parameters
+    ----------
+    path : Path
+    needed : set of str
+        Columns without which the table is damaged.
+    remedy : str
+        What to do then.
+
+    Returns
+    -------
+    Exposed or None
+
+    Raises
+    ------
+    InputError
+        If the table is damaged.
+    """
     if not path.is_file():
         return None
     with path.open(encoding="utf-8", newline="") as file:
         head, *rows = list(csv.reader(file)) or [[]]
-    if not {"id", "reached"} <= set(head) or any(len(row) != len(head) for row in rows):
-        raise InputError(
-            f"{path} is no table of exposed polygons; the file is damaged, run the scene anew with --overwrite"
-        )
+    if not needed <= set(head) or any(len(row) != len(head) for row in rows):
+        raise InputError(f"{path} is no table of exposed polygons; the file is damaged, {remedy}")
     return Exposed(head, rows)
 
 

@@ -117,11 +117,16 @@ def test_a_report_has_members_probabilities_and_polygons(folder):
 
 def test_a_report_of_other_files_is_made_of_the_store(folder, tmp_path):
     """A hazard.nc of other members does not count; one that is damaged is refused."""
-    scene = SCENE | {"ensemble": {"thresholds": {"max_speed": [3.0]}}}
+    scene = SCENE | {"ensemble": {"thresholds": {"max_speed": [3.0]}, "hazard_scale": "swiss"}}
     results = fake_results(members(8), maps=MAPS, lattice=LATTICE, scene=scene, path=tmp_path / STORE)
     (tmp_path / "hazard.nc").write_bytes((folder[0] / "hazard.nc").read_bytes())
     text = write_ensemble_report(tmp_path, tmp_path / "page.html").read_text(encoding="utf-8")
-    assert "shares of 7 of 8 members" in text and "peak speed &gt; 3 m/s" in text and results.done.all()
+    assert (
+        "shares of 7 of 8 members" in text
+        and "peak speed &gt; 3 m/s" in text
+        and "class strong" in text
+        and results.done.all()
+    )
     (tmp_path / "hazard.nc").write_bytes(b"half")
     with pytest.raises(InputError, match="damaged"):
         write_ensemble_report(tmp_path)
