@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from itertools import count
 from queue import Empty, SimpleQueue
 from typing import Any, NamedTuple
 from uuid import uuid4
@@ -94,7 +95,7 @@ class _Schedule:
         try:
             with self._interruption:
                 for task in tasks:
-                    self._submit(task, 1)
+                    self._give(task, 1)
                     while len(self._running) >= AHEAD * max(1, sum(self._client.nthreads().values())):
                         self._finish_next()
                 while self._running:
@@ -103,14 +104,14 @@ class _Schedule:
             self._client.cancel(list(self._running))
             self._client.cancel([self._shared])
 
-    def _submit(self, task: Task, attempt: int) -> None:
-        future = self._client.submit(run_batch, self._shared, *task, key=self._key(task), pure=False)
+    def _submit(self, task: Task) -> Any:
+        key = f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps a failed task under its key
+        return self._client.submit(run_batch, self._shared, *task, key=key, pure=False)
+
+    def _give(self, task: Task, attempt: int) -> None:
+        future = self._submit(task)
         self._running[future] = task, attempt
         future.add_done_callback(self._done.put)
-
-    @staticmethod
-    def _key(task: Task) -> str:
-        return f"batch-{task.batch}-{uuid4().hex}"  # new each time: a scheduler keeps a failed task under its key
 
     def _finish_next(self) -> None:
         future = None
@@ -127,19 +128,12 @@ class _Schedule:
 
         task, attempt = self._running.pop(future)
         try:
-            self._write(future.result())
-        except OtherVersionError as error:
-            raise InputError(f"ensemble: {error}; install the version of this process there") from error
+            self._write(_result_of(future))
         except KilledWorker:
             self._write(self._one_by_one(task))
         except CancelledError as error:
-            if attempt >= ATTEMPTS:
-                raise InputError(
-                    f"ensemble: batch {task.batch} was lost {attempt} times with its workers ({error}); batches "
-                    "that are in the store stay there: run again when workers are back"
-                ) from error
-            self._scatter()
-            self._submit(task, attempt + 1)
+            self._replace_lost(task, attempt, error)
+            self._give(task, attempt + 1)
 
     def _one_by_one(self, task: Task) -> BatchResult:
         """Return the result of a batch that ended its workers, the members that do it as failures."""
@@ -149,15 +143,42 @@ class _Schedule:
         attributes: dict[str, dict[str, str]] = {}
         seconds: list[float] = []
         for member, values in task.members:
-            one = Task(task.batch, [(member, values)])
             try:
-                found = self._client.submit(run_batch, self._shared, *one, key=self._key(one), pure=False).result()
+                found = self._alone(Task(task.batch, [(member, values)]))
                 results += found.results
                 attributes, seconds = attributes or found.attributes, seconds + found.seconds
             except KilledWorker as error:
                 results.append(_failed(member, values, ENDED.format(error.allowed_failures + 1)))
                 seconds.append(float("nan"))
         return BatchResult(task.batch, results, attributes, seconds)
+
+    def _alone(self, task: Task) -> BatchResult:
+        """Return the result of a task as soon as it is there, although workers with the basis may be lost."""
+        from distributed.client import CancelledError
+
+        for attempt in count(1):
+            try:
+                return _result_of(self._submit(task))
+            except CancelledError as error:
+                self._replace_lost(task, attempt, error)
+        raise AssertionError  # `_replace_lost` gives up
+
+    def _replace_lost(self, task: Task, attempt: int, error: BaseException) -> None:
+        """Send the basis to the workers that there are, after a task was lost with its workers; or give up."""
+        if attempt >= ATTEMPTS:
+            raise InputError(
+                f"ensemble: batch {task.batch} was lost {attempt} times with its workers ({error}); batches "
+                "that are in the store stay there: run again when workers are back"
+            ) from error
+        self._scatter()
+
+
+def _result_of(future: Any) -> BatchResult:
+    try:
+        found: BatchResult = future.result()
+    except OtherVersionError as error:
+        raise InputError(f"ensemble: {error}; install the version of this process there") from error
+    return found
 
 
 def _failed(member: int, values: Mapping[str, Any], error: str) -> MemberResult:
