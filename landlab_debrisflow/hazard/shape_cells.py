@@ -48,7 +48,6 @@ class ShapeCells(NamedTuple):
     def _taken(self, member: MemberResult, values: np.ndarray, outside: float) -> np.ndarray:
         rows, columns = self.rows - member.rows.start, self.columns - member.columns.start
         inside = (rows >= 0) & (rows < values.shape[0]) & (columns >= 0) & (columns < values.shape[1])
-        inside &= self.rows >= 0
         taken = np.full(rows.size, outside, values.dtype)
         taken[inside] = values[rows[inside], columns[inside]]
         return taken

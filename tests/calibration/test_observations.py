@@ -23,7 +23,7 @@ from landlab_debrisflow.calibration import (
 from landlab_debrisflow.calibration.calibrate import criterion_of
 from landlab_debrisflow.calibration.criteria import Likelihood, Tolerance
 from landlab_debrisflow.calibration.place import Place
-from landlab_debrisflow.ensemble import MemberResult
+from landlab_debrisflow.ensemble import Ensemble, MemberResult
 from landlab_debrisflow.geo.lattice import Lattice
 from landlab_debrisflow.geo.references import wkt_of
 
@@ -169,3 +169,13 @@ OTHER = MAP.assign_coords(spatial_ref=((), 0, {"crs_wkt": wkt_of("EPSG:32633")})
 def test_bad_observations_are_refused(make, words):
     with pytest.raises(ValueError, match=words):
         make()
+
+
+@pytest.mark.parametrize("source", ["ground", "above"])
+def test_mass_that_is_laid_on_the_ground_does_not_lower_it(source):
+    polygon = [[400020, 5200140], [400045, 5200140], [400045, 5200165], [400020, 5200165]]
+    scene = {"terrain": {"example": "gully"}, "release": {"polygons": polygon, "volume": 900.0, "from": source}}
+    ensemble = Ensemble(scene, {"release.factor": {"uniform": {"low": 0.5, "high": 2.0}}}, 2)
+    place = Place.of_basis(ensemble.basis())
+    assert place.volume == pytest.approx(900.0)
+    assert place.released.sum() * place.lattice.area == pytest.approx(900.0 if source == "ground" else 0.0)

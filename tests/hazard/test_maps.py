@@ -5,6 +5,7 @@ import pytest
 
 from landlab_debrisflow import InputError, ParameterError
 from landlab_debrisflow.hazard import SWISS, hazard_maps
+from landlab_debrisflow.hazard.counting import above
 
 from .fakes import fake_results
 
@@ -133,3 +134,7 @@ def test_an_ensemble_without_members_is_refused(tmp_path):
     (tmp_path / "half.zarr").mkdir()
     with pytest.raises(InputError, match="holds no ensemble"):
         hazard_maps(tmp_path / "half.zarr")
+
+
+def test_a_value_at_a_threshold_does_not_exceed_it():
+    assert above("max_depth", 0.5).came({"max_depth": np.array([0.5, 0.75])}).tolist() == [False, True]
