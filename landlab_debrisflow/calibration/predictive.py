@@ -11,6 +11,8 @@ from ..core.hints import did_you_mean
 from ..ensemble import EnsembleResults, MemberResult
 from ..ensemble.result import ARRIVAL
 from ..record.attributes import axis_attributes, variable_attributes
+from ..record.georeference import georeferenced
+from .place import unit_of
 
 Term = Callable[[MemberResult], np.ndarray]
 """Function of a member that returns an array over its window."""
@@ -70,8 +72,9 @@ def predictive_maps(
     Returns
     -------
     xarray.Dataset
-        Over ``y`` and ``x``: ``max_depth_mean``, and ``max_depth_probability`` over ``max_depth_threshold``, too; of
-        the arrival time the mean over members that came, and ``arrival_time_probability`` that one came.
+        Over ``y`` and ``x``: ``mean_of_max_depth``, and ``probability_of_max_depth`` over ``max_depth_threshold``, too,
+        named as in `hazard.hazard_maps`; of the arrival time the mean over members that reach a node, and
+        ``probability_of_reached``.
 
     Raises
     ------
@@ -100,14 +103,18 @@ def predictive_maps(
         if name == ARRIVAL:
             came = sums[f"{name} came"]
             mean = np.divide(mean, came, out=np.full(came.shape, np.nan), where=came > 0.0)
-            maps[f"{name}_probability"] = ("y", "x"), came, variable_attributes("-", "probability that the flow comes")
+            maps["probability_of_reached"] = (
+                ("y", "x"),
+                came,
+                variable_attributes("-", "probability that the flow comes"),
+            )
         elif values.size:
-            maps[f"{name}_threshold"] = f"{name}_threshold", values
+            maps[f"{name}_threshold"] = f"{name}_threshold", values, {"units": unit_of(name)}
             data = np.stack([sums[f"{name} {value}"] for value in values])
             words = variable_attributes("-", f"probability that {name} exceeds a threshold")
-            maps[f"{name}_probability"] = (f"{name}_threshold", "y", "x"), data, words
-        maps[f"{name}_mean"] = ("y", "x"), mean, {"long_name": f"mean of {name}"}
-    return maps
+            maps[f"probability_of_{name}"] = (f"{name}_threshold", "y", "x"), data, words
+        maps[f"mean_of_{name}"] = ("y", "x"), mean, variable_attributes(unit_of(name), f"mean of {name}")
+    return georeferenced(maps, lattice.crs)
 
 
 def _mean_term(name: str) -> Term:

@@ -52,7 +52,8 @@ def draw_probability(
     Parameters
     ----------
     maps : xarray.Dataset
-        As `hazard.hazard_maps` returns them, with the elevation of the ground if a hillshade is wanted.
+        As `hazard.hazard_maps` or `calibration.Posterior.predictive` return them, with the elevation of the ground if
+        a hillshade is wanted.
     name : str
         Name of a map, such as ``max_depth``, or ``reached`` or ``class``.
     threshold : float or str, optional
@@ -82,9 +83,9 @@ def draw_probability(
     maps = maps.sortby(["y", "x"])
     shown, words = _chosen(maps, name, threshold, "")
     place = chosen_extent(shown.values > 0.0, shown, None, extent, margin)
-    scatter = _chosen(maps, name, threshold, ERROR)[0]
+    scatter = _chosen(maps, name, threshold, ERROR)[0] if f"{PROBABILITY}{name}{ERROR}" in maps else None
     panels = [(shown, "", words if title is None else title)]
-    if error and bool(scatter.notnull().any()):
+    if error and scatter is not None and bool(scatter.notnull().any()):
         panels.append((scatter.where(shown > 0.0), ERROR, "Standard error"))
     width, height = panel_size(place, LARGEST_PANEL)
     rows, columns = (len(panels), 1) if width > height else (1, len(panels))

@@ -18,6 +18,7 @@ from landlab_debrisflow.calibration import (
 )
 from landlab_debrisflow.calibration.predictive import weighted_sums
 from landlab_debrisflow.ensemble import Ensemble
+from landlab_debrisflow.plots import draw_probability
 from landlab_debrisflow.scene.gully import LATTICE
 
 WEST, SOUTH = LATTICE.lower_left
@@ -94,8 +95,10 @@ def test_predictive_maps_are_means_over_weights(posterior):
     for one, weight in zip(members, posterior.weights, strict=True):
         expected += weight * (one.on_lattice("max_depth", LATTICE.shape) > 1.0)
     # the order of sums differs: rounding of numbers of at most 1
-    assert np.allclose(maps.max_depth_probability.sel(max_depth_threshold=1.0), expected, rtol=0.0, atol=1e-14)
-    assert float(maps.max_depth_probability.max()) == pytest.approx(1.0) and "eroded_depth_mean" in maps
+    assert np.allclose(maps.probability_of_max_depth.sel(max_depth_threshold=1.0), expected, rtol=0.0, atol=1e-14)
+    assert float(maps.probability_of_max_depth.max()) == pytest.approx(1.0) and "mean_of_eroded_depth" in maps
+    (panel,) = draw_probability(maps, "max_depth", 1.0).axes  # no standard error is known
+    assert panel.get_title(loc="left") == "Probability of peak depth > 1 m"
     with pytest.raises(InputError, match="the map 'max_speed' was not kept"):
         posterior.predictive({"max_speed": 1.0})
 
