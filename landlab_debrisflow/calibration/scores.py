@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..ensemble import EnsembleResults
+from .agreement import correlation, csi
 from .event import EventRuns
 from .observed_maps import DepositOutline, ElevationChange
 from .place import Place
@@ -124,34 +125,6 @@ def mean_change(members: Members, place: Place) -> np.ndarray:
         return sums["change"]
     change: np.ndarray = sums["change"] - place.released * (weights @ released[known]) / place.volume
     return change
-
-
-def csi(modelled: np.ndarray, observed: np.ndarray) -> float:
-    """Return the critical success index: hits over hits, misses and false alarms, the intersection over union [-].
-
-    Parameters
-    ----------
-    modelled, observed : ndarray of bool, of one shape
-
-    Examples
-    --------
-    >>> csi(np.array([True, True, False]), np.array([True, False, False]))
-    0.5
-    """
-    union = np.sum(modelled | observed)
-    return float(np.sum(modelled & observed) / union) if union else float("nan")
-
-
-def correlation(modelled: np.ndarray, observed: np.ndarray) -> float:
-    """Return Pearson's correlation of two arrays; NaN if one of them does not vary.
-
-    Parameters
-    ----------
-    modelled, observed : ndarray, of one shape
-    """
-    if modelled.size < 2 or np.ptp(modelled) == 0.0 or np.ptp(observed) == 0.0:
-        return float("nan")
-    return float(np.corrcoef(modelled.ravel(), observed.ravel())[0, 1])
 
 
 def _unit_of_measure(label: str, members: Members) -> str:

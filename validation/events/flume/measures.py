@@ -3,8 +3,9 @@
 import numpy as np
 import xarray as xr
 
+from landlab_debrisflow.calibration.agreement import csi
+
 from ..event import Measure, Target
-from ..scores import csi
 from .measured import LAST_TIME, SERIES
 from .setup import GRAVITY, SLOPE
 

@@ -5,8 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.ndimage import binary_dilation, binary_erosion
 
+from landlab_debrisflow.calibration.agreement import csi
+
 from ..event import Measure
-from ..scores import csi, precision, recall
+from ..scores import precision, recall
 from ..sets import ParameterSet
 from .setup import FLOWS, Observed, run_flow
 

@@ -3,8 +3,10 @@
 import numpy as np
 import xarray as xr
 
+from landlab_debrisflow.calibration.agreement import correlation, csi
+
 from ..event import Measure
-from ..scores import correlation, csi, precision, recall
+from ..scores import precision, recall
 
 CHANGED = 0.2
 """Least change of elevation that counts [m]."""
