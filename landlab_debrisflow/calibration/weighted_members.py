@@ -157,7 +157,7 @@ class WeightedMembers:
 
     @property
     def prior_weights(self) -> np.ndarray:
-        """Weights of the members that are those of the prior: the first generation alone, shape (members,)."""
+        """Weights of the prior, on the first generation alone, shape (members,)."""
         first = self.sample.generation == 0
         return first / first.sum()
 

@@ -13,7 +13,7 @@ SHIFTS = (0, 1), (0, -1), (1, 0), (-1, 0)
 
 
 def cells_under(geometry, lattice: Lattice):
-    """Return the cells under a shape; a shape that only touches sides of cells has these.
+    """Return the cells under a shape, or beside it if it only touches sides of cells.
 
     Parameters
     ----------

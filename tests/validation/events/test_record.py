@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from landlab_debrisflow import InputError
+from landlab_debrisflow.calibration.agreement import correlation, csi
 from validation import events
 from validation.events import EVENTS, data, find_event, page, record, scores
 from validation.events.sets import Commit
@@ -50,11 +51,11 @@ def test_noise_is_the_spread_of_runs_with_nearby_numbers_of_particles(tmp_path):
 
 def test_agreement_by_hand():
     modelled, observed = np.array([1, 1, 1, 0, 0], bool), np.array([1, 0, 0, 1, 0], bool)
-    found = [function(modelled, observed) for function in (scores.csi, scores.precision, scores.recall)]
+    found = [function(modelled, observed) for function in (csi, scores.precision, scores.recall)]
     assert found == [0.25, pytest.approx(1.0 / 3.0), 0.5]
     nothing = np.zeros(5, bool)
-    assert np.isnan([scores.csi(nothing, nothing), scores.precision(nothing, observed)]).all()
-    assert np.isnan(scores.correlation(np.ones(4), np.arange(4.0)))
+    assert np.isnan([csi(nothing, nothing), scores.precision(nothing, observed)]).all()
+    assert np.isnan(correlation(np.ones(4), np.arange(4.0)))
 
 
 def test_absent_data_tell_where_they_were_expected(tmp_path, monkeypatch):
