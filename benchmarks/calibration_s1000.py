@@ -2,10 +2,13 @@
 
 python -m benchmarks.calibration_s1000 s1000 --store DIR        calibrate, score at twice the particles, predict
 python -m benchmarks.calibration_s1000 cascade2009 --store DIR  the same with the events exchanged; 40 minutes each
+python -m benchmarks.calibration_s1000 s1000 --erosion excess_traction --store DIR  with the other law of erosion
 
-Priors are centres and ranges of validation/events/s1000/sets/centres.yaml, widened where that file has no range; they
-were written down before the first calibration, after 100 runs from a similar prior had been looked at. The data are
-those of validation.events. Written to benchmarks/results/calibration_EVENT.json.
+Priors are centres and ranges of validation/events/s1000/sets/centres.yaml, and of traction_roots.yaml for the law
+`excess_traction`, widened where these files have no range; they were written down before the first calibration with
+each law, those with the law `growth` after 100 runs from a similar prior had been looked at, and those with
+`excess_traction` after the calibration with `growth`. The data are those of validation.events. Written to
+benchmarks/results/calibration_EVENT.json, and calibration_EVENT_traction.json.
 """
 
 import argparse
@@ -29,13 +32,23 @@ VARY = {
     "friction.basal_friction_angle": {"uniform": {"low": 22.0, "high": 42.0}},
     "friction.turbulent_coefficient": {"lognormal": {"median": 350.0, "sigma": 0.7}},
     "friction.cohesion": {"lognormal": {"median": 150.0, "sigma": 1.2}},
-    "erosion.growth_rate": {"lognormal": {"median": 1.22e-3, "sigma": 0.7}},
     "material.initial_pressure_ratio": {"uniform": {"low": 0.0, "high": 0.9}},
     "material.bed_pressure_ratio": {"uniform": {"low": 0.0, "high": 0.7}},
     "material.coefficient_of_consolidation": {"lognormal": {"median": 1e-3, "sigma": 2.0}},
     "terrain.soil_depth": {"uniform": {"low": 0.5, "high": 2.0}},
     "column.loading_source": {"choices": ["overburden", "proportional"]},
 }
+EROSION = {
+    "growth": ({"growth_rate": 1.22e-3}, {"erosion.growth_rate": {"lognormal": {"median": 1.22e-3, "sigma": 0.7}}}),
+    "excess_traction": (
+        {"bed_friction_angle": 31.0, "highest_rate": 0.075},
+        {
+            "erosion.bed_cohesion": {"uniform": {"low": 0.0, "high": 15000.0}},
+            "erosion.highest_rate": {"uniform": {"low": 0.01, "high": 0.1}},
+        },
+    ),
+}  # fmt: skip
+"""Laws of erosion, each with its values and with those that vary."""
 SURVEY_SD, RESIDUAL_LENGTH = 0.2, 60.0
 """Error of a cell, the least change that counts [m]; range of the correlation of what model and survey differ by, about
 the width of the paths [m]."""
@@ -52,7 +65,7 @@ TARGETS = {
 """Bounds that the scores of S-1000 are compared with; lowered outside 5126 m3, in the scar 1411 m3 were observed."""
 
 
-def event(name: str, particles: int) -> tuple[Event, xr.Dataset]:
+def event(name: str, particles: int, law: str = "growth") -> tuple[Event, xr.Dataset]:
     """Return a landslide with its observations, and its observed change as `validation.events` scores it."""
     dem = xr.open_dataarray(find_file(name, "pre_runout_DEM.asc"), engine="rasterio").squeeze().sortby("y")
     shape, x, y = dem.shape, dem.x.values, dem.y.values
@@ -73,7 +86,7 @@ def event(name: str, particles: int) -> tuple[Event, xr.Dataset]:
         "terrain": {"elevation": str(find_file(name, "pre_runout_DEM.asc")), "crs": "EPSG:26910", "soil_depth": 1.2},
         "release": {"raster": str(find_file(name, "landslide_depth.asc"))},
         "friction": {"law": "voellmy", "basal_friction_angle": 31.0, "turbulent_coefficient": 350.0},
-        "erosion": {"law": "growth", "growth_rate": 1.22e-3},
+        "erosion": {"law": law, **EROSION[law][0]},
         "column": {"law": "ale", "loading_source": "overburden"},
         "numerics": {"particle_count": particles, "preset": "fast"}, "output": {"max_duration": 900.0},
     }  # fmt: skip
@@ -86,22 +99,22 @@ def event(name: str, particles: int) -> tuple[Event, xr.Dataset]:
     return Event(scene, observations), seen
 
 
-def run(name: str, store: Path, members: int, generations: int, particles: int) -> None:
+def run(name: str, law: str, store: Path, members: int, generations: int, particles: int) -> None:
     """Calibrate an event, score members at twice the particles, and predict the other event."""
-    given, seen = event(name, particles)
+    given, seen = event(name, particles, law)
     posterior = calibrate(
-        given.scene, VARY, given.observations, members=members, generations=generations, seed=11, batch=4, workers=1,
+        given.scene, {**VARY, **EROSION[law][1]}, given.observations, members=members, generations=generations, seed=11, batch=4, workers=1,
         store=store / name, maps=("deposit_depth", "eroded_depth", "depth"), notify=_say,
     )  # fmt: skip
     print(posterior)
     finer = posterior.rescore(2 * particles, members=16, store=store / f"{name}_finer.zarr", workers=1, notify=_say)
     print(finer)
     other = EVENTS[1 - EVENTS.index(name)]
-    foreign, foreign_seen = event(other, particles)
+    foreign, foreign_seen = event(other, particles, law)
     there = posterior.predict(foreign, members=16, store=store / f"{name}_predicts", workers=1, notify=_say)
     print(there)
     found = {
-        "event": name, "members": members, "generations": generations, "particles": particles,
+        "event": name, "erosion": law, "members": members, "generations": generations, "particles": particles,
         "effective_size": posterior.effective_size, "intervals": posterior.interval(0.9),
         "loading_source": posterior.probabilities("column.loading_source"),
         "best": _values(posterior),
@@ -119,7 +132,10 @@ def run(name: str, store: Path, members: int, generations: int, particles: int) 
             "spread along the path": _kept(measures.spread_evenly(foreign_seen)),
         },
     }  # fmt: skip
-    result_files.keep(f"calibration_{name}", found, f"python -m benchmarks.calibration_s1000 {name} --store DIR")
+    file, option = f"calibration_{name}", ""
+    if law != "growth":
+        file, option = f"{file}_traction", f" --erosion {law}"
+    result_files.keep(file, found, f"python -m benchmarks.calibration_s1000 {name}{option} --store DIR")
     for key, scores in found["scores"].items():
         print(key, _verdicts(scores) if name == "s1000" else scores)
     print(found["prediction"])
@@ -199,13 +215,17 @@ def main() -> None:
     """Calibrate one of the events."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("event", choices=EVENTS)
+    parser.add_argument("--erosion", choices=EROSION, default="growth")
     parser.add_argument("--store", type=Path, required=True, help="directory of the runs, which is continued")
     parser.add_argument("--members", type=int, default=48)
     parser.add_argument("--generations", type=int, default=5)
     parser.add_argument("--particles", type=int, default=1000)
     arguments = parser.parse_args()
     arguments.store.mkdir(parents=True, exist_ok=True)
-    run(arguments.event, arguments.store, arguments.members, arguments.generations, arguments.particles)
+    run(
+        arguments.event, arguments.erosion, arguments.store, arguments.members, arguments.generations,
+        arguments.particles,
+    )  # fmt: skip
 
 
 if __name__ == "__main__":
