@@ -103,8 +103,8 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
     """Calibrate an event, score members at twice the particles, and predict the other event."""
     given, seen = event(name, particles, law)
     posterior = calibrate(
-        given.scene, {**VARY, **EROSION[law][1]}, given.observations, members=members, generations=generations, seed=11, batch=4, workers=1,
-        store=store / name, maps=("deposit_depth", "eroded_depth", "depth"), notify=_say,
+        given.scene, {**VARY, **EROSION[law][1]}, given.observations, members=members, generations=generations, seed=11,
+        batch=4, workers=1, store=store / name, maps=("deposit_depth", "eroded_depth", "depth"), notify=_say,
     )  # fmt: skip
     print(posterior)
     finer = posterior.rescore(2 * particles, members=16, store=store / f"{name}_finer.zarr", workers=1, notify=_say)
