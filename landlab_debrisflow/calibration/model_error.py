@@ -1,6 +1,7 @@
 """Errors of observations and of the model, as a likelihood over misfits."""
 
 import dataclasses
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -60,6 +61,13 @@ class Stated(NamedTuple):
     count: float
     size: float
     model_error: ModelError | None
+
+    @property
+    def largest(self) -> float:
+        """Standard deviation with an error of the model of its stated scale, in the unit of the observation."""
+        if self.model_error is None:
+            return self.sd
+        return math.hypot(self.sd, self.model_error.scale * (self.size if self.model_error.relative else 1.0))
 
 
 class ErrorModel:

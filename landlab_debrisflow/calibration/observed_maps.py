@@ -103,7 +103,7 @@ class ElevationChange:
 
     def _on(self, place: Place) -> np.ndarray:
         if isinstance(self.raster, str | Path):
-            return read_onto(place.folder / self.raster, place.lattice)
+            return read_onto(place.folder / self.raster, place.lattice, whole=False)
         if not isinstance(self.raster, xr.DataArray) or set(self.raster.dims) != {"y", "x"}:
             raise InputError(
                 f"calibration: elevation change: a DataArray over y and x or a raster file is needed, got "

@@ -103,12 +103,13 @@ def _out_of_reach(posterior: WeightedMembers) -> list[str]:
         for k, bound in enumerate(runs.bound):
             misfits = abs(posterior.sample.misfits[:, first + k])
             if bound.stated is not None and np.isfinite(misfits).any():
-                nearest, sd = float(np.nanmin(misfits)), bound.stated.sd
-                if nearest > FAR * sd:
+                nearest, error = float(np.nanmin(misfits)), bound.stated.largest
+                if nearest > FAR * error:
                     unit = "" if bound.unit == "-" else f" {bound.unit}"
+                    named = "its sd" if bound.stated.model_error is None else "its sd with the scale of its model_error"
                     found.append(
                         f"{bound.label} is out of reach: the nearest member is off by {nearest:.3g}{unit}, "
-                        f"{nearest / sd:.1f} of its sd; widen the distributions, or state a model_error"
+                        f"{nearest / error:.1f} of {named}; widen the distributions, or state a larger model_error"
                     )
         first += len(runs.bound)
     return found

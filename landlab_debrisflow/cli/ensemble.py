@@ -36,9 +36,11 @@ def _ensemble(arguments) -> int:
         with compilations(lambda: monitor.say(COMPILING)):
             ensemble = Ensemble.from_file(arguments.scene, **others)
             check_hazard_keys(ensemble.scene)
+            for note in ensemble.scene.notes:  # reads releases and places of output before the first run
+                monitor.say(f"note: {note}")
             store = ensemble.results_directory / STORE
             results = ensemble.run(arguments.scheduler, store, workers=arguments.workers, notify=monitor.say)
-            monitor.say("ensemble: hazard maps are written")
+            monitor.say("ensemble: writing hazard maps")
             written = write_scene_hazard(ensemble, results)
         monitor.close()
         failures = results.failures

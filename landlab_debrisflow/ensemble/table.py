@@ -1,6 +1,5 @@
 """Members of an ensemble from a table of the user's own."""
 
-import csv
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +12,7 @@ from ..core.checks import in_range
 from ..core.errors import InputError, ParameterError
 from ..core.hints import number_in
 from ..scene.content import SceneContent
+from ..scene.text_table import table_rows
 from .design import Varied, design_keys, make_dataset
 from .distributions import Choices, NoiseRealisations, check_file, distribution_of
 from .names import NOISE, Name, find_name
@@ -41,7 +41,7 @@ def design_of_table(
     ----------
     table : Dataset, DataFrame, mapping of str to array_like, str or Path
         A column for each dotted name; a Dataset may be the design of another ensemble, or some members of it; the name
-        of a file (CSV, with the names in its first line).
+        of a file (text with commas, semicolons or tabs between columns, names in its first line).
     vary : mapping of str to object
         Only noise on the elevation, of which the table then holds the number of the realisation, or no column: then the
         number of the member counts.
@@ -146,18 +146,14 @@ def _objects(values: Any) -> np.ndarray:
 
 
 def _file_columns(path: Path) -> dict[str, np.ndarray]:
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            head, *rows = [row for row in csv.reader(file) if row]
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}; give the table of an ensemble as CSV") from error
-    except (ValueError, csv.Error) as error:
-        raise InputError(f"{path} is no table: the first line must hold names, further lines a member each") from error
+    (first, head), *rows = table_rows(path, "the table of an ensemble: names in the first line, then a line per member")
+    if len(set(head)) < len(head):
+        raise InputError(f"{path} line {first}: a name stands there twice; give each column one of its own")
     columns = {}
     for k, name in enumerate(head):
-        texts = [row[k].strip() if k < len(row) else "" for row in rows]
+        texts = [row[k] if k < len(row) else "" for _, row in rows]
         if missing := [number for number, text in enumerate(texts) if not text]:
-            raise InputError(f"{path}: {name.strip()} has no value for member {missing[0]}, line {missing[0] + 2}")
+            raise InputError(f"{path}: {name} has no value for member {missing[0]}, line {rows[missing[0]][0]}")
         numbers = [number_in(text) for text in texts]
-        columns[name.strip()] = np.array(texts if None in numbers else numbers)
+        columns[name] = np.array(texts if None in numbers else numbers)
     return columns

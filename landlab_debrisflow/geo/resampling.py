@@ -21,7 +21,8 @@ LEAST_DATA = 0.5
 
 
 def read_onto(
-    path: str | Path, lattice: Lattice, crs: str | None = None, *, lengths: bool = True, notes: list[str] | None = None,
+    path: str | Path, lattice: Lattice, crs: str | None = None, *, lengths: bool = True, whole: bool = True,
+    notes: list[str] | None = None,
 ) -> np.ndarray:  # fmt: skip
     """Read a raster onto the nodes of a lattice, shape (rows, columns), NaN where there are no data.
 
@@ -37,13 +38,15 @@ def read_onto(
         Coordinate reference system of a file that names none; by default that of the lattice is taken.
     lengths : bool
         As in `read_raster`.
+    whole : bool
+        Whether the raster must cover the lattice; else it must touch it, and there are no data beyond its edge.
     notes : list of str, optional
         Remarks for the user are appended to it.
 
     Raises
     ------
     InputError
-        If the file is no raster, or does not cover the lattice.
+        If the file is no raster, does not cover the lattice, or does not touch it.
     """
     source = open_raster(path, crs or lattice.crs, notes)
     own = source.lattice
@@ -53,7 +56,7 @@ def read_onto(
     else:
         wanted = _moved_bounds(lattice, str(own.crs))
         said(notes, f"{source.path.name}: brought from {label_of(own.crs)} into {label_of(lattice.crs)}")
-    _check_cover(source, wanted, label_of(own.crs))
+    _check_cover(source, wanted, label_of(own.crs), whole)
     dx, dy = own.spacing
     window = own.window_around((wanted[0] - 3 * dx, wanted[1] - 3 * dy, wanted[2] + 3 * dx, wanted[3] + 3 * dy))
     offset = [(a - b) / step for a, b, step in zip(lattice.lower_left, own.lower_left, own.spacing, strict=True)]
@@ -137,9 +140,16 @@ def _moved_bounds(lattice: Lattice, crs: str) -> Bounds:
     return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
 
-def _check_cover(source: RasterSource, wanted: Bounds, system: str) -> None:
-    """Refuse a raster that ends more than a cell before the edge of a rectangle [m]."""
+def _check_cover(source: RasterSource, wanted: Bounds, system: str, whole: bool) -> None:
+    """Refuse a raster that ends more than a cell before the edge of a rectangle [m], or one wholly outside."""
     west, south, east, north = source.lattice.bounds
+    if not whole:
+        if wanted[0] >= east or wanted[1] >= north or wanted[2] <= west or wanted[3] <= south:
+            raise InputError(
+                f"{source.path} lies wholly outside the terrain: it reaches over {extent(source.lattice.bounds)}, the "
+                f"terrain over {extent(wanted)} ({system}); is it of this place, and in the system that it names?"
+            )
+        return
     dx, dy = (math.ceil(1e6 * step) / 1e6 for step in source.lattice.spacing)
     if wanted[0] < west - dx or wanted[1] < south - dy or wanted[2] > east + dx or wanted[3] > north + dy:
         raise InputError(

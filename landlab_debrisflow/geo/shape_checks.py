@@ -98,6 +98,16 @@ def _joined(geometry, label: str):
     return geometry
 
 
+def inside_of(geometries: Sequence[Any], bounds: Bounds, name: str, notes: list[str] | None) -> list[int]:
+    """Return which shapes touch a rectangle [m], and note how many do not, if another one does."""
+    import shapely
+
+    inside = np.flatnonzero(shapely.intersects(shapely.box(*bounds), np.array(geometries, object))).tolist()
+    if inside and (outside := len(geometries) - len(inside)):
+        said(notes, f"{name}: {outside} of {len(geometries)} features lie wholly outside the DEM and are left out")
+    return inside
+
+
 def note_outside(geometries: Sequence[Any], labels: Sequence[str], bounds: Bounds, notes: list[str] | None) -> None:
     """Refuse shapes wholly outside a rectangle [m], and note the percentage of shapes that is outside.
 

@@ -13,7 +13,7 @@ from .cover import covered_fraction
 from .lattice import Bounds, extent
 from .names import find_file, said
 from .references import label_of, wkt_of
-from .shape_checks import TYPES, check_features, note_outside, note_overlaps
+from .shape_checks import TYPES, check_features, inside_of, note_outside, note_overlaps
 from .shape_files import read_features
 
 __all__ = ["Shape", "covered_fraction", "read_shapes"]
@@ -30,11 +30,14 @@ class Shape(NamedTuple):
         Values of the feature by name, without those that are not set.
     label : str
         File and number of the feature, for messages.
+    feature : int
+        Number of the feature in its file or list, from 1.
     """
 
     geometry: Any
     attributes: dict[str, Any]
     label: str
+    feature: int = 1
 
     def number(
         self, name: str, default: float | None = None, low: float = -math.inf, high: float = math.inf, unit: str = "m",
@@ -77,7 +80,7 @@ class Shape(NamedTuple):
 
 def read_shapes(
     source: str | Path | Sequence[Any], crs: str | None = None, *, kind: str = "polygon", bounds: Bounds | None = None,
-    notes: list[str] | None = None,
+    notes: list[str] | None = None, only_inside: bool = False,
 ) -> list[Shape]:  # fmt: skip
     """Read the shapes of a vector file, or make them of coordinates.
 
@@ -97,6 +100,8 @@ def read_shapes(
         West, south, east, north of the DEM [m]; a shape wholly outside is refused.
     notes : list of str, optional
         Remarks for the user are appended to it.
+    only_inside : bool
+        Whether shapes wholly outside are left out, with a note, if another one is not.
 
     Returns
     -------
@@ -122,11 +127,15 @@ def read_shapes(
     if not len(geometries):
         raise InputError(f"{name} holds no shapes; draw some, or choose another layer or file")
     geometries = check_features(geometries, labels, kind, notes)
+    numbers = list(range(1, len(geometries) + 1))
     if bounds is not None:
+        if only_inside and (inside := inside_of(geometries, bounds, name, notes)):
+            columns = geometries, records, labels, numbers
+            geometries, records, labels, numbers = ([each[k] for k in inside] for each in columns)
         note_outside(geometries, labels, bounds, notes)
     if kind == "polygon":
         note_overlaps(geometries, name, notes)
-    return [Shape(*one) for one in zip(geometries, records, labels, strict=True)]
+    return [Shape(*one) for one in zip(geometries, records, labels, numbers, strict=True)]
 
 
 def _features(path: Path, choice: str | None, notes: list[str] | None):

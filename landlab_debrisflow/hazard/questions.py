@@ -91,7 +91,7 @@ def check_questions(
         if name not in allowed:
             raise ParameterError(
                 f"hazard: the members have kept no map {name!r} for thresholds{did_you_mean(name, allowed)}; there are "
-                f"{', '.join(allowed)}"
+                f"{', '.join(allowed)}; members keep others if the key maps of the ensemble names them before it runs"
             )
         found[str(name)] = _increasing(f"thresholds of {name}", bounds)
     return Questions(found, _increasing("quantiles", quantiles, 1.0), float(least_depth))

@@ -197,8 +197,9 @@ class Scene:
 
     @property
     def notes(self) -> list[str]:
-        """Remarks and doubts about terrain and releases, as sentences."""
+        """Remarks and doubts about terrain, releases and places of output, as sentences."""
         notes = [*self.terrain.attrs.get("notes", ()), *(note for one in self.releases for note in one.notes)]
+        notes.extend(self.places.notes)
         if not self.releases and not self.setup.inflow:
             notes.append("nothing is released and nothing flows in; give release or inflow")
         return notes

@@ -1,18 +1,16 @@
 """Hydrographs from tables: time and discharge in a text file."""
 
-import csv
-import io
 import math
 import re
 from pathlib import Path
 
 from ..core.errors import InputError
 from ..core.hints import number_in
-from ..geo.names import find_file
+from .text_table import table_rows
 
-MOST_BYTES = 5_000_000
 COLUMNS = {"time": ("time", "t"), "discharge": ("discharge", "q", "flow")}
 """Words by which a column is known, the first of them the one that is asked for."""
+WANTED = "a table with time [s] and discharge [m3 s-1]"
 
 
 def read_hydrograph(path: Path) -> tuple[tuple[float, float], ...]:
@@ -43,41 +41,13 @@ def read_hydrograph(path: Path) -> tuple[tuple[float, float], ...]:
     ...     read_hydrograph(path)
     ((0.0, 0.0), (60.0, 20.5))
     """
-    rows = _rows(path)
+    rows = table_rows(path, WANTED)
     header = None if all(number_in(cell) is not None for cell in rows[0][1][:2]) else rows.pop(0)[1]
     places = {name: _place(path, name, header) for name in COLUMNS}
     if not rows:
         raise InputError(f"{path} has no line with numbers; give time [s] and discharge [m3 s-1] in two columns")
     return tuple((_cell(path, line, row, places["time"]), _cell(path, line, row, places["discharge"]))
                  for line, row in rows)  # fmt: skip
-
-
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Return number and cells of every line that is not empty and no comment (#)."""
-    try:
-        path, _ = find_file(path)
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"cannot read {path}: it has more than {MOST_BYTES / 1e6:g} MB, too much for a hydrograph")
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = getattr(error, "strerror", None) or "it is no text in UTF-8"
-        raise InputError(f"cannot read {path}: {reason}; give a table with time [s] and discharge [m3 s-1]") from error
-    if "\0" in text:
-        raise InputError(f"cannot read {path}: it is no text; give a table with time [s] and discharge [m3 s-1]")
-    lines = [(k, line) for k, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
-    if not lines:
-        raise InputError(f"{path} is empty; give a table with time [s] and discharge [m3 s-1]")
-    mark = next((mark for mark in (";", "\t", ",") if mark in lines[0][1]), None)
-    if mark is None:
-        return [(k, line.split()) for k, line in lines]
-    try:
-        return [
-            (k, [cell.strip() for cell in next(csv.reader(io.StringIO(line), delimiter=mark))]) for k, line in lines
-        ]
-    except csv.Error as error:
-        raise InputError(f"cannot read {path} as a table: {error}") from error
 
 
 def _place(path: Path, name: str, header: list[str] | None) -> int:

@@ -30,12 +30,15 @@ class OutputPlaces(NamedTuple):
         Line along which the front is followed [m].
     exposure : dict of str to Shape
         Polygons by id.
+    notes : tuple of str
+        Remarks on the files.
     """
 
     gauges: dict[str, np.ndarray]
     sections: dict[str, np.ndarray]
     thalweg: np.ndarray | None
     exposure: dict[str, Shape]
+    notes: tuple[str, ...] = ()
 
 
 def output_places(keys: OutputKeys, lattice: Lattice, folder: Path, file: YamlFile | None = None) -> OutputPlaces:
@@ -58,19 +61,21 @@ def output_places(keys: OutputKeys, lattice: Lattice, folder: Path, file: YamlFi
     Raises
     ------
     InputError
-        If a file cannot be used, a place lies outside of the terrain, a name is there twice, or a line has parts.
+        If a file cannot be used, a place, or all places of a file, lie outside of the terrain, a name is there twice,
+        or a line has parts.
     """
+    notes: list[str] = []
     with located(file, "output", "exposure"):
-        exposure = _named(keys.exposure, "polygon", lattice, folder)
+        exposure = _named(keys.exposure, "polygon", lattice, folder, notes)
     with located(file, "output", "gauges"):
-        points = _named(keys.gauges, "point", lattice, folder)
+        points = _named(keys.gauges, "point", lattice, folder, notes)
         gauges = {name: _coordinates(shape)[0] for name, shape in points.items()}
     with located(file, "output", "sections"):
-        lines = _named(keys.sections, "line", lattice, folder)
+        lines = _named(keys.sections, "line", lattice, folder, notes)
         sections = {name: _coordinates(shape) for name, shape in lines.items()}
     with located(file, "output", "thalweg"):
-        thalweg = None if keys.thalweg is None else _only_line(shapes_of(keys.thalweg, "line", lattice, folder))
-    return OutputPlaces(gauges, sections, thalweg, exposure)
+        thalweg = None if keys.thalweg is None else _only_line(shapes_of(keys.thalweg, "line", lattice, folder, notes))
+    return OutputPlaces(gauges, sections, thalweg, exposure, tuple(notes))
 
 
 def _only_line(shapes: list[Shape]) -> np.ndarray:
@@ -79,13 +84,13 @@ def _only_line(shapes: list[Shape]) -> np.ndarray:
     return _coordinates(shapes[0])
 
 
-def _named(value: Any, kind: str, lattice: Lattice, folder: Path) -> dict[str, Shape]:
+def _named(value: Any, kind: str, lattice: Lattice, folder: Path, notes: list[str]) -> dict[str, Shape]:
     if value is None:
         return {}
     found: dict[str, Shape] = {}
-    for k, shape in enumerate(shapes_of(value, kind, lattice, folder, named=True), 1):
+    for shape in shapes_of(value, kind, lattice, folder, notes, named=True, only_inside=True):
         attributes = {str(name).lower(): one for name, one in shape.attributes.items()}
-        name = next((_text(attributes[one]) for one in NAMES if _text(attributes.get(one))), str(k))
+        name = next((_text(attributes[one]) for one in NAMES if _text(attributes.get(one))), str(shape.feature))
         if name in found:
             raise InputError(f"{found[name].label} and {shape.label} are both named {name!r}; rename one")
         found[name] = shape

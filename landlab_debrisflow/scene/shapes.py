@@ -9,8 +9,9 @@ from ..geo.shapes import Shape, read_shapes
 
 
 def shapes_of(
-    value: Any, kind: str, lattice: Lattice, folder: Path, notes: list[str] | None = None, *, named: bool = False
-) -> list[Shape]:
+    value: Any, kind: str, lattice: Lattice, folder: Path, notes: list[str] | None = None, *, named: bool = False,
+    only_inside: bool = False,
+) -> list[Shape]:  # fmt: skip
     """Return the shapes that the value of a key stands for.
 
     Parameters
@@ -27,6 +28,8 @@ def shapes_of(
         Remarks for the user are appended to it.
     named : bool
         Whether coordinates have names; these become the attribute ``name``.
+    only_inside : bool
+        Whether shapes of a file that lie wholly outside are left out, with a note, if another one does not.
 
     Returns
     -------
@@ -38,7 +41,9 @@ def shapes_of(
         If a file cannot be read, or a shape is of another kind, not valid or outside.
     """
     if isinstance(value, str):
-        return read_shapes(folder / value, lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
+        return read_shapes(
+            folder / value, lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes, only_inside=only_inside
+        )
     if not named:
         return read_shapes(list(value), lattice.crs, kind=kind, bounds=lattice.bounds, notes=notes)
     shapes = []

@@ -182,6 +182,9 @@ def test_without_errors_the_result_is_called_abc(observations):
 def test_what_is_out_of_reach_is_named():
     found = calibrate(SCENE, VARY, [Measure("eroded_volume", 5000.0, 10.0)], **RUNS | {"generations": 1, "members": 8})
     assert "eroded_volume is out of reach: the nearest member is off by" in found._table().notes[-1]
+    error = Measure("eroded_volume", 5000.0, 10.0, model_error=3000.0)
+    found = calibrate(SCENE, VARY, [error], **RUNS | {"generations": 1, "members": 8})
+    assert not any("out of reach" in note for note in found._table().notes)
 
 
 def test_choices_and_correlations_are_calibrated(truth):

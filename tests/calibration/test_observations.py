@@ -108,6 +108,17 @@ def test_a_difference_of_surveys_may_be_a_file(tmp_path):
     assert np.array_equal(found, np.where(CLOSED, np.nan, 1.0), equal_nan=True)
 
 
+def test_a_difference_of_surveys_may_end_within_the_dem(tmp_path):
+    transform = rasterio.transform.from_origin(995.0, 2035.0, 10.0, 10.0)
+    with rasterio.open(
+        tmp_path / "dod.tif", "w", driver="GTiff", height=4, width=3, count=1, dtype="float32", crs="EPSG:32632",
+        transform=transform,
+    ) as file:  # fmt: skip
+        file.write(np.ones((4, 3), np.float32), 1)
+    known = np.isfinite(ElevationChange(tmp_path / "dod.tif", 0.1).observed(PLACE))
+    assert known[:, :3].any() and not known[:, 4:].any()  # of column 3 the file has an edge
+
+
 def test_the_outline_is_compared_by_the_area_between():
     # the deposit is 20 m by 30 m; the outline is the same rectangle, then one cell longer
     one = member(deposit_depth=np.ones((2, 3), np.float32))

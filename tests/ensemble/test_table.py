@@ -18,7 +18,9 @@ def test_a_mapping_a_frame_and_a_file_give_the_same_members(tmp_path):
         f"{ANGLE},release.volume\n" + "\n".join(f"{a},{v}" for a, v in zip(*COLUMNS.values(), strict=True)) + "\n"
     )
     scene = Scene.from_mapping(SCENE, tmp_path)
-    tables = COLUMNS, pd.DataFrame(COLUMNS), "members.csv", tmp_path / "members.csv"
+    lines = (f"{a};{v}".replace(".", ",") for a, v in zip(*COLUMNS.values(), strict=True))
+    (tmp_path / "excel.csv").write_text(f"\ufeff{ANGLE} ; release.volume\r\n" + "\r\n".join(lines) + "\r\n\r\n")
+    tables = COLUMNS, pd.DataFrame(COLUMNS), "members.csv", tmp_path / "members.csv", "excel.csv"
     ensembles = [Ensemble(scene, sampling=table) for table in tables]
     assert ensembles[0].values(2) == {ANGLE: 28.5, "release.volume": 700.0}
     assert len({one.digest() for one in ensembles}) == 1 and ensembles[0].sampling == "table"
@@ -67,7 +69,7 @@ def test_words_of_a_table_are_choices():
         ({"sampling": COLUMNS, "members": 3}, ParameterError, r"a table has its own members; leave members out"),
         ({"sampling": COLUMNS, "vary": VARY}, ParameterError, r"a table holds the members"),
         ({"sampling": {"friction.angle": [1.0]}}, ParameterError, r"unknown name 'friction.angle'"),
-        ({"sampling": "none.csv"}, InputError, r"none.csv: No such file"),
+        ({"sampling": "none.csv"}, InputError, r"cannot read none.csv: there is no such file"),
         ({"sampling": 3}, InputError, r"a table must be a Dataset, a DataFrame, a mapping or a file, got 3"),
     ],
 )

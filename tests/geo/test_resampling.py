@@ -64,6 +64,15 @@ def test_a_raster_that_does_not_cover_is_refused(tmp_path):
         read_onto(path, LATTICE)
 
 
+def test_a_raster_of_a_part_has_no_data_beyond_its_edge(tmp_path):
+    found = read_onto(write_tiff(tmp_path / "part.tif", Z[:, :10]), LATTICE, whole=False)
+    assert_allclose(found[:, :10], Z[::-1, :10], rtol=1e-12)
+    assert np.isnan(found[:, 11:]).all()
+    far = write_tiff(tmp_path / "far.tif", Z, transform=placed(WEST + 500.0, NORTH, 5.0, 5.0))
+    with pytest.raises(InputError, match=r"lies wholly outside the terrain.*in the system that it names"):
+        read_onto(far, LATTICE, whole=False)
+
+
 def test_means_keep_volume_and_missing_data_do_not_spread():
     coarse = Lattice((4, 4), (20.0, 15.0), (WEST + 10.0, NORTH - 52.5), LATTICE.crs)
     assert_allclose(resample(Z[::-1], LATTICE, coarse), Z[::-1].reshape(4, 3, 4, 4).mean(axis=(1, 3)), rtol=1e-12)

@@ -136,6 +136,16 @@ def test_a_shape_outside_is_refused_with_both_extents(tmp_path):
         read_shapes(write(tmp_path / "a.gpkg", box(5e5, 5e6, 5e5 + 1, 5e6 + 1)), crs=wkt_of(UTM), bounds=BOUNDS)
 
 
+def test_features_outside_are_left_out_if_they_may_be(tmp_path):
+    far, notes = box(5e5, 5e6, 5e5 + 1, 5e6 + 1), []
+    path = write(tmp_path / "a.gpkg", far, SQUARE, far)
+    (kept,) = read_shapes(path, wkt_of(UTM), bounds=BOUNDS, notes=notes, only_inside=True)
+    assert kept.geometry.equals(SQUARE) and kept.label == "a.gpkg feature 2" and kept.feature == 2
+    assert notes == ["a.gpkg: 2 of 3 features lie wholly outside the DEM and are left out"]
+    with pytest.raises(InputError, match=r"feature 1 lies wholly outside.*are its coordinates in the same system"):
+        read_shapes(write(tmp_path / "b.gpkg", far, far), wkt_of(UTM), bounds=BOUNDS, only_inside=True)
+
+
 @pytest.mark.parametrize(
     ("geometry", "kind", "words"),
     [
