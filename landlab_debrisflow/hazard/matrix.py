@@ -1,6 +1,6 @@
 """Danger levels: hazard classes and return periods together, after a declared matrix."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -130,7 +130,9 @@ def hazard_matrix(
         row = np.array([0, *(matrix.level(one.name, period) for one in scale.classes)], np.uint8)
         levels[j] = row[numbers[j]]
     words = variable_attributes("-", f"danger level: 0 none, {_numbered(matrix.levels)}")
-    classes = variable_attributes("-", f"hazard class: 0 none, {_numbered([one.name for one in scale.classes])}")
+    words |= _flags(matrix.levels, matrix.colours)
+    names = [one.name for one in scale.classes]
+    classes = variable_attributes("-", f"hazard class: 0 none, {_numbered(names)}") | _flags(names)
     period_words = variable_attributes("a", "return period")
     found = xr.Dataset(
         {"danger_level": (("y", "x"), levels.max(axis=0), words),
@@ -199,6 +201,36 @@ def _with_classes(given: Any, scale: HazardScale, others: dict[str, Any]) -> xr.
     if maps.attrs.get("hazard_scale") != scale.name:
         raise ParameterError(f"hazard: maps of a return period lack the classes of {scale.name}; give them that scale")
     return maps
+
+
+def level_names(levels: xr.DataArray) -> tuple[list[str], list[str]]:
+    """Return names and colours of danger levels or hazard classes, from number 1, that their attributes state.
+
+    Parameters
+    ----------
+    levels : xarray.DataArray
+        Danger levels or class numbers of `hazard_matrix`, or of a file of them.
+
+    Returns
+    -------
+    names, colours : list of str
+        Names with blanks as underscores; no colours of classes.
+
+    Raises
+    ------
+    KeyError
+        If there are no such attributes.
+    """
+    return levels.attrs["flag_meanings"].split()[1:], levels.attrs.get("flag_colors", "").split()[1:]
+
+
+def _flags(names: Sequence[str], colours: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the CF attributes of numbers with names; colours as land cover of ESA CCI has them."""
+    found: dict[str, Any] = {
+        "flag_values": np.arange(len(names) + 1, dtype=np.uint8),
+        "flag_meanings": " ".join(["none", *("_".join(name.split()) for name in names)]),
+    }
+    return found | ({"flag_colors": " ".join(["#ffffff", *colours])} if colours else {})
 
 
 def _numbered(names: Any) -> str:

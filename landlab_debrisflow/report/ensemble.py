@@ -27,6 +27,7 @@ from .blocks import Block, Section, Sentences, Table, Verbatim
 from .cautions import DISTRUST, NOT_MODELLED
 from .citation import SENTENCE, bibtex
 from .content import Content
+from .danger import danger_blocks
 from .exposure import read_exposed
 from .numbers import duration, rounded
 from .page import render_page
@@ -107,6 +108,8 @@ def _sections(folder: Path, results: EnsembleResults, maps: xr.Dataset) -> Itera
     ])  # fmt: skip
     yield Section("members", "Members", list(_members(results)))
     yield Section("probabilities", "Probabilities", list(_probabilities(maps, _shapes(folder))))
+    if danger := danger_blocks(folder, _shapes(folder)):
+        yield Section("danger", "Danger levels", danger)
     if (table := exposure_blocks(folder)) is not None:
         yield Section("exposure", "Exposed polygons", [table])
     scene = yaml.safe_dump(_plain(results.scene), sort_keys=False, allow_unicode=True, default_flow_style=None)

@@ -108,7 +108,10 @@ def test_a_report_has_members_probabilities_and_polygons(folder):
     folder = folder[0]
     text = write_ensemble_report(folder).read_text(encoding="utf-8")
     assert "shares of 23 of 24 members (random)" in text and "takes 100 members; 77 more are needed" in text
-    assert text.count('<img src="data:image/png') == 2  # reached, and one threshold
+    assert text.count('<img src="data:image/png') == 3  # reached, one threshold, danger levels
+    rows = re.findall(r"<td>(high|medium|low|residual)</td>\s*<td[^>]*>([^<]*)", text)
+    assert [name for name, _ in rows] == ["high", "medium", "low", "residual"]
+    assert rows[0][1].strip() != "0\u00a0m²" and "300 years" in text and "Matrix of debris flows" in text
     assert "Member 23 failed" in text and "&lt;b&gt;burst" in text and "<b>burst" not in text
     assert "<i>A" not in text and "100 (86–100)" in text and "Some members reach 1 of the 2 polygons" in text
     assert "Complete" in text and "friction.basal_friction_angle" in text
@@ -127,6 +130,11 @@ def test_a_report_of_other_files_is_made_of_the_store(folder, tmp_path):
         and "class strong" in text
         and results.done.all()
     )
+    levels = tmp_path / "danger_level.nc"
+    levels.write_bytes((folder[0] / "hazard.nc").read_bytes())
+    with pytest.raises(InputError, match="write the danger levels again, or remove the file"):
+        write_ensemble_report(tmp_path)
+    levels.unlink()
     (tmp_path / "hazard.nc").write_bytes(b"half")
     with pytest.raises(InputError, match="damaged"):
         write_ensemble_report(tmp_path)
