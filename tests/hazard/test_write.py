@@ -109,9 +109,9 @@ def test_a_report_has_members_probabilities_and_polygons(folder):
     text = write_ensemble_report(folder).read_text(encoding="utf-8")
     assert "shares of 23 of 24 members (random)" in text and "takes 100 members; 77 more are needed" in text
     assert text.count('<img src="data:image/png') == 3  # reached, one threshold, danger levels
-    rows = re.findall(r"<td>(high|medium|low|residual)</td>\s*<td[^>]*>([^<]*)", text)
-    assert [name for name, _ in rows] == ["high", "medium", "low", "residual"]
-    assert rows[0][1].strip() != "0\u00a0m²" and "300 years" in text and "Matrix of debris flows" in text
+    rows = dict(re.findall(r'<th scope="row">(high|medium|low|residual)</th><td class="n">(\d[\s\d]*)', text))
+    assert list(rows) == ["high", "medium", "low", "residual"] and float("".join(rows["high"].split())) > 0.0
+    assert "300 years" in text and "Matrix of debris flows" in text
     assert "Member 23 failed" in text and "&lt;b&gt;burst" in text and "<b>burst" not in text
     assert "<i>A" not in text and "100 (86–100)" in text and "Some members reach 1 of the 2 polygons" in text
     assert "Complete" in text and "friction.basal_friction_angle" in text
