@@ -94,7 +94,7 @@ def style_for(name: str, values: np.ndarray) -> Style:
     short = name.removeprefix(OUTPUT_PREFIX)
     if short.startswith("probability_of_"):
         return STANDARD_ERRORS if short.endswith("_standard_error") else PROBABILITIES
-    if (style := STYLES.get(short.removeprefix("quantile_of_"))) is not None:
+    if (style := STYLES.get(short.removeprefix("quantile_of_").removeprefix("mean_of_"))) is not None:
         return style
     shown = values[np.isfinite(values)]
     low, high = (float(shown.min()), float(shown.max())) if shown.size else (0.0, 0.0)

@@ -39,7 +39,7 @@ def variance_ratio(maps: xr.Dataset) -> float:
 def probabilities_of(maps: xr.Dataset) -> list[str]:
     """Return the names of the probabilities in hazard maps, errors left out."""
     names = [str(name) for name in maps if str(name).startswith("probability_of_")]
-    return [name.removesuffix("_low") for name in names if name.endswith("_low")]
+    return [name for name in names if not name.endswith(("_low", "_high", "_standard_error"))]
 
 
 def hazard_summary(maps: xr.Dataset, standard_error: float = TARGET) -> list[str]:

@@ -27,6 +27,10 @@ DPI = 150
 """Dots per inch of pictures."""
 
 
+TAGS = "ensemble_digest", "sampling", "members_completed", "sampling_error", "members", "effective_sample_size"
+"""Attributes of maps that their GeoTIFFs have, too."""
+
+
 class Layer(NamedTuple):
     """Map of a hazard Dataset that is written as a file of its own.
 
@@ -62,7 +66,7 @@ def write_hazard(
     directory : str or os.PathLike
         Existing directory.
     maps : xarray.Dataset
-        As `hazard_maps` returns them.
+        As `hazard_maps` returns them, or predictive maps of a calibration.
     elevation : array_like, shape (rows, columns), optional
         Elevation of the ground, for pictures [m].
     exposure : geopandas.GeoDataFrame, optional
@@ -84,9 +88,8 @@ def write_hazard(
     folder, lattice = check_directory(directory), lattice_of(maps)
     whole = with_ground(maps, elevation)
     paths = [write_dataset(folder / HAZARD, whole)]
-    tags = {"software": f"landlab_debrisflow {__version__}"} | {
-        name: maps.attrs[name] for name in ("ensemble_digest", "sampling", "members_completed", "sampling_error")
-    }  # fmt: skip
+    tags = {"software": f"landlab_debrisflow {__version__}"}
+    tags |= {name: maps.attrs[name] for name in TAGS if name in maps.attrs}
     for layer in layers_of(maps):
         paths.append(_write_layer(folder, layer, lattice, tags))
     if exposure is not None:
@@ -169,7 +172,7 @@ def with_ground(maps: xr.Dataset, elevation: Any) -> xr.Dataset:
 
 
 def layers_of(maps: xr.Dataset) -> Iterator[Layer]:
-    """Yield the maps that are files of their own: probabilities, their standard errors, quantiles.
+    """Yield the maps that are files of their own: probabilities, their standard errors, quantiles, means.
 
     Parameters
     ----------
@@ -181,9 +184,10 @@ def layers_of(maps: xr.Dataset) -> Iterator[Layer]:
     Layer
     """
     known = probabilities_of(maps)
-    quantiles = [str(name) for name in maps if str(name).startswith("quantile_of_")]
-    errors = [f"{name}_standard_error" for name in known if bool(maps[f"{name}_standard_error"].notnull().any())]
-    for name in [*known, *errors, *(one for one in quantiles if not one.endswith(("_low", "_high")))]:
+    errors = [f"{name}_standard_error" for name in known]
+    errors = [name for name in errors if name in maps and bool(maps[name].notnull().any())]
+    others = [str(name) for name in maps if str(name).startswith(("quantile_of_", "mean_of_"))]
+    for name in [*known, *errors, *(one for one in others if not one.endswith(("_low", "_high")))]:
         values = maps[name]
         (axis,) = [str(dim) for dim in values.dims if dim not in ("y", "x")] or [""]
         if not axis:

@@ -4,6 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
+import rasterio
 import xarray as xr
 
 from landlab_debrisflow import InputError, ParameterError
@@ -18,6 +19,7 @@ from landlab_debrisflow.calibration import (
 )
 from landlab_debrisflow.calibration.predictive import weighted_sums
 from landlab_debrisflow.ensemble import Ensemble
+from landlab_debrisflow.hazard import write_hazard
 from landlab_debrisflow.plots import draw_probability
 from landlab_debrisflow.scene.gully import LATTICE
 
@@ -101,6 +103,17 @@ def test_predictive_maps_are_means_over_weights(posterior):
     assert panel.get_title(loc="left") == "Probability of peak depth > 1 m"
     with pytest.raises(InputError, match="the map 'max_speed' was not kept"):
         posterior.predictive({"max_speed": 1.0})
+
+
+def test_predictive_maps_are_written_as_hazard_maps_are(posterior, tmp_path):
+    maps = posterior.predictive({"max_depth": [0.5], "eroded_depth": []})
+    names = {path.name for path in write_hazard(tmp_path, maps)}
+    maps_of = {"mean_of_max_depth.tif", "mean_of_eroded_depth.tif", "probability_of_max_depth_above_0.5_m.tif"}
+    assert names == {"hazard.nc", *maps_of, "probability_of_max_depth_above_0.5_m.png"}
+    with rasterio.open(tmp_path / "mean_of_max_depth.tif") as file:
+        values = maps.mean_of_max_depth.values
+        assert np.array_equal(file.read(1)[::-1], np.where(values > 0, values, np.nan).astype("f4"), equal_nan=True)
+        assert float(file.tags()["effective_sample_size"]) == pytest.approx(posterior.effective_size)
 
 
 def test_sums_are_those_of_batches_in_their_order(posterior):
