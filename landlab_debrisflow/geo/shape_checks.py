@@ -99,7 +99,7 @@ def _joined(geometry, label: str):
 
 
 def inside_of(geometries: Sequence[Any], bounds: Bounds, name: str, notes: list[str] | None) -> list[int]:
-    """Return the numbers of the shapes that touch a rectangle [m]; note how many features are left out beside these."""
+    """Return the numbers of the shapes that touch a rectangle [m], and note how many features are left out."""
     import shapely
 
     inside = np.flatnonzero(shapely.intersects(shapely.box(*bounds), np.array(geometries, object))).tolist()

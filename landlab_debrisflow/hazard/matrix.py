@@ -204,7 +204,7 @@ def _with_classes(given: Any, scale: HazardScale, others: dict[str, Any]) -> xr.
 
 
 def level_names(levels: xr.DataArray) -> tuple[list[str], list[str]]:
-    """Return names and colours of danger levels or hazard classes, from number 1, that their attributes state.
+    """Return names and colours in the attributes of danger levels or of hazard classes, from number 1.
 
     Parameters
     ----------

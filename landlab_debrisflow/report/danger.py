@@ -18,7 +18,7 @@ from .pictures import picture
 
 
 def danger_blocks(folder: Path, shapes: Any = None) -> list[Block]:
-    """Return picture, areas and source of the danger levels in a directory; none if there are none.
+    """Return picture, areas and source of the danger levels, if a directory has a file of danger levels.
 
     Parameters
     ----------
