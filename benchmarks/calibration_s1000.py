@@ -132,6 +132,8 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
             "prior mean": _scores(posterior.members_of("", posterior.prior_weights), posterior, seen),
             **{key: _of_change(mean_change(one, finer.runs.place), seen) for key, one in finer.sets.items()},
             "spread along the path": _kept(measures.spread_evenly(seen)),
+            "observed, moved by a cell": _kept(measures.observed_moved(seen)),
+            "observed, smoothed over a cell": _kept(measures.observed_smoothed(seen)),
         },
         "prediction": {
             "event": other,

@@ -5,6 +5,7 @@ python -m benchmarks.ensembles workers             members a minute of one worke
 python -m benchmarks.ensembles client --members N  CPU time of client and scheduler by the length of batches; 1 minute
 python -m benchmarks.ensembles memory --members N  largest memory of all processes; N members with 30 particles
 python -m benchmarks.ensembles plan --members N    cost and probabilities of fidelity auto beside 8000 particles
+python -m benchmarks.ensembles plan-s1000          the same on the landslide S-1000, with erosion; 20 minutes
 """
 
 import argparse
@@ -25,10 +26,17 @@ from landlab_debrisflow.run.advance import start
 from landlab_debrisflow.run.grids import build_grid
 from landlab_debrisflow.scene.releases import advance
 
+from .calibration_s1000 import event
+
 HEAD = [[400020, 5200140], [400045, 5200140], [400045, 5200160], [400020, 5200160]]
 VARY = {
     "friction.basal_friction_angle": {"truncated_normal": {"mean": 28.0, "sd": 2.0, "low": 20.0, "high": 36.0}},
     "release.volume": {"lognormal": {"median": 700.0, "sigma": 0.3}},
+}
+VARY_LANDSLIDE = {
+    "friction.basal_friction_angle": {"truncated_normal": {"mean": 31.0, "sd": 2.0, "low": 24.0, "high": 38.0}},
+    "erosion.growth_rate": {"lognormal": {"median": 1.22e-3, "sigma": 0.5}},
+    "material.initial_pressure_ratio": {"uniform": {"low": 0.0, "high": 0.6}},
 }
 THRESHOLDS = {"max_depth": 0.5, "max_speed": 5.0, "max_impact_pressure": 30e3, "deposit_depth": 0.3}
 """Thresholds of the probabilities that are compared, in the units of the maps."""
@@ -136,18 +144,24 @@ def probabilities(results) -> dict[str, np.ndarray]:
     return {name: count / results.done.sum() for name, count in counts.items()}
 
 
-def plan(members: int) -> None:
+def landslide(members: int, particles: int, **others) -> Ensemble:
+    """Return an ensemble of the landslide S-1000 on its DEM of 10 m, with erosion."""
+    given, _ = event("s1000", particles)
+    return Ensemble(given.scene, VARY_LANDSLIDE, members, seed=1, **others)
+
+
+def plan(members: int, build=ensemble, vary=VARY) -> None:
     """Print cost and probabilities of an ensemble with its plan beside those with 8000 particles."""
     found, costs = [], []
     for options in ({"particles": 2000, "fidelity": "auto"}, {"particles": 8000}):
-        runs = ensemble(members, **options)
+        runs = build(members, **options)
         began = time.process_time()
         basis_plan = runs.plan(quiet) if runs.automatic else None
         pilots = time.process_time() - began
         if basis_plan is not None:
             print(basis_plan)
             setup = basis_plan.applied(runs.scene.setup)
-            runs = Ensemble(_with_setup(runs.scene, setup), VARY, members, seed=1)
+            runs = Ensemble(_with_setup(runs.scene, setup), vary, members, seed=1)
         results = runs.run(workers=1, notify=quiet)
         costs.append(pilots + float(np.nansum(results.seconds)))
         print(f"{options}: {costs[-1]:.0f} s of CPU time, of which pilots {pilots:.0f} s", flush=True)
@@ -166,19 +180,29 @@ def plan(members: int) -> None:
         )
 
 
+def plan_landslide(members: int) -> None:
+    """Print cost and probabilities of the landslide's ensemble with its plan beside those with 8000 particles."""
+    plan(members, landslide, VARY_LANDSLIDE)
+
+
 def _with_setup(scene: Scene, setup) -> Scene:
     mapping = scene.to_mapping() | {key: value for key, value in setup.to_mapping().items() if key != "inflow"}
     return Scene.from_mapping({key: value for key, value in mapping.items() if value != []})
 
 
+TABLES = {
+    "overhead": overhead, "workers": workers, "client": client, "memory": memory, "plan": plan,
+    "plan-s1000": plan_landslide,
+}  # fmt: skip
+
+
 def main() -> None:
     """Print one of the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", choices=("overhead", "workers", "client", "memory", "plan"))
+    parser.add_argument("table", choices=TABLES)
     parser.add_argument("--members", type=int, default=32)
     arguments = parser.parse_args()
-    tables = {"overhead": overhead, "workers": workers, "client": client, "memory": memory, "plan": plan}
-    tables[arguments.table](arguments.members)
+    TABLES[arguments.table](arguments.members)
 
 
 if __name__ == "__main__":

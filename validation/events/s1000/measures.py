@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from scipy import ndimage
 
 from landlab_debrisflow.calibration.agreement import correlation, csi
 
@@ -104,6 +105,24 @@ def spread_evenly(result: xr.Dataset) -> dict[str, float]:
     for side in (-1, 0, 1):
         strip[every, np.clip(np.rint(centre).astype(int) + side, 0, seen.shape[1] - 1)] = True
     return of_change(np.where(strip, release.sum() / strip.sum(), 0.0) - release, result)
+
+
+def observed_moved(result: xr.Dataset) -> dict[str, float]:
+    """Return the mean measures of the observed change outside of the source, moved by a cell in four directions.
+
+    A model without error, whose terrain or survey is out of place by a cell, would have these.
+    """
+    seen, source = result.observed_change.values, result.source.values == 1
+    moved = [np.roll(seen, step, axis) for axis in (0, 1) for step in (-1, 1)]
+    found = [of_change(np.where(source, seen, one), result) for one in moved]
+    return {key: float(np.mean([one[key] for one in found])) for key in found[0]}
+
+
+def observed_smoothed(result: xr.Dataset) -> dict[str, float]:
+    """Return the measures of the observed change, smoothed outside of the source by a Gaussian of one cell."""
+    seen, source = result.observed_change.values, result.source.values == 1
+    smooth = ndimage.gaussian_filter(np.where(source, 0.0, seen), 1.0)
+    return of_change(np.where(source, seen, smooth), result)
 
 
 def reach(changed: np.ndarray, result: xr.Dataset) -> float:
