@@ -51,7 +51,8 @@ def calibrate(
     vary : mapping
         Prior distributions by dotted name, as for `Ensemble`; lists of choices are varied values, too.
     observations : sequence of Observation
-        Such as `Measure`, `Volume`, `RunOut`, `AtPoint`, `ArrivalTime`, `ElevationChange`, `DepositOutline`.
+        Such as `Measure`, `Volume`, `RunOut`, `AtPoint`, `ArrivalTime`, `ElevationChange`, `ChangeVolume`,
+        `DepositOutline`.
     members : int
         Runs of each generation.
     generations : int

@@ -79,15 +79,20 @@ class ElevationChange:
             )
         return values
 
-    def at(self, place: Place) -> Bound:
-        """Return the observation at the nodes of an event."""
+    def compared(self, place: Place) -> tuple[np.ndarray, np.ndarray]:
+        """Return the observed change at the nodes of an event [m], and which nodes are compared; 0 m elsewhere."""
         observed = self.observed(place)
         compared = np.isfinite(observed) if self.source else np.isfinite(observed) & (place.released == 0.0)
-        known, total = np.where(compared, observed, 0.0), int(compared.sum())
-        if total < FEWEST:
+        if (total := int(compared.sum())) < FEWEST:
             raise InputError(
                 f"calibration: elevation change: {total} cells lie outside of the release; give source=True"
             )
+        return np.where(compared, observed, 0.0), compared
+
+    def at(self, place: Place) -> Bound:
+        """Return the observation at the nodes of an event."""
+        known, compared = self.compared(place)
+        total = int(compared.sum())
         count = float(total)
         if self.correlation_length > 0.0:
             count = min(count, 5.0 * total * place.lattice.area / (math.pi * self.correlation_length**2))

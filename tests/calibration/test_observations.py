@@ -13,6 +13,7 @@ from landlab_debrisflow import InputError
 from landlab_debrisflow.calibration import (
     ArrivalTime,
     AtPoint,
+    ChangeVolume,
     DepositOutline,
     ElevationChange,
     Measure,
@@ -88,6 +89,28 @@ def test_the_change_of_elevation_is_deposit_less_erosion_without_the_release():
     mask = shapely.box(1005.0, 2005.0, 1055.0, 2035.0)
     # 15 cells less one closed
     assert misfit(ElevationChange(given, 0.1, mask=mask), one) == pytest.approx(np.sqrt(5 * 4.0 / 14))
+
+
+def test_volumes_of_a_change_are_sums_beyond_its_threshold():
+    observed = np.zeros(LATTICE.shape)
+    observed[1, 2], observed[1, 3], observed[0, 1], observed[2, 0] = (
+        -2.0,
+        1.0,
+        -0.1,
+        -3.0,
+    )  # the last one is the release
+    given = xr.DataArray(observed, {"y": LATTICE.y, "x": LATTICE.x}, ("y", "x"))
+    change = ElevationChange(given, 0.1)
+    depth = np.full((2, 3), 0.15, np.float32)
+    depth[0, :2] = 0.0, 4.0
+    one = member(deposit_depth=depth, eroded_depth=np.array([[1.0, 0.5, 0.0], [0.0, 0.0, 0.0]], np.float32))
+    # simulated -1 and +3.5 m, observed -2 and +1 m on cells of 100 m2; 0.15 and -0.1 m are below the threshold of 0.2 m
+    assert misfit(ChangeVolume(change, "lowered", 50.0), one) == pytest.approx(100.0 - 200.0)
+    assert misfit(ChangeVolume(change, "raised", 50.0), one) == pytest.approx(350.0 - 100.0)
+    # with the release, of which half of the volume left
+    whole = ElevationChange(given, 0.1, source=True)
+    assert misfit(ChangeVolume(whole, "lowered", 50.0), one) == pytest.approx(100.0 + 150.0 - 500.0)
+    assert ChangeVolume(change, "lowered", 50.0).at(PLACE).label == "volume lowered outside of the release"
 
 
 def test_correlated_errors_count_as_fewer_cells():
@@ -174,6 +197,12 @@ OTHER = MAP.assign_coords(spatial_ref=((), 0, {"crs_wkt": wkt_of("EPSG:32633")})
         (lambda: ElevationChange(OTHER).at(PLACE), "elevation change is in EPSG:32633 .*, the maps are in EPSG:32632"),
         (lambda: ElevationChange(MAP.values).at(PLACE), "a DataArray over y and x or a raster file is needed"),
         (lambda: ElevationChange(MAP * np.nan).at(PLACE), "only 0 cells have values"),
+        (
+            lambda: ChangeVolume(ElevationChange(MAP), "lowred"),
+            r"must be lowered or raised, got 'lowred' \(did you mean",
+        ),
+        (lambda: ChangeVolume(MAP, "lowered"), "volume of a change: give an ElevationChange"),
+        (lambda: ChangeVolume(ElevationChange(MAP), "raised", 0.0), r"volume raised: sd must lie in \(0, inf\]"),
         (lambda: ElevationChange(MAP, correlation_length=-1.0), "correlation_length must lie in"),
     ],
 )
