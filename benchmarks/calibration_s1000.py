@@ -10,7 +10,8 @@ They were written down before the first calibration with each law: with the law 
 prior had been looked at, then `excess_traction`, then `shear_excess`, each after the results of those before. After a
 first calibration of each law the friction angle got a lower bound of 16 instead of 22 degrees, which posteriors had
 reached, and the volume lowered outside of the source became an observation: cells alone had preferred runs that lower
-a seventh of it. The data are those of validation.events. Written to benchmarks/results/calibration_EVENT.json, or calibration_EVENT_LAW.json.
+a seventh of it. The data are those of validation.events. Written to benchmarks/results/calibration_EVENT.json, or
+calibration_EVENT_LAW.json.
 """
 
 import argparse
