@@ -61,7 +61,7 @@ def output_places(keys: OutputKeys, lattice: Lattice, folder: Path, file: YamlFi
     Raises
     ------
     InputError
-        If a file cannot be used, a place, or all places of a file, lie outside of the terrain, a name is there twice,
+        If a file cannot be used, a gauge, a section or all polygons lie outside of the terrain, a name is there twice,
         or a line has parts.
     """
     notes: list[str] = []
@@ -88,7 +88,8 @@ def _named(value: Any, kind: str, lattice: Lattice, folder: Path, notes: list[st
     if value is None:
         return {}
     found: dict[str, Shape] = {}
-    for shape in shapes_of(value, kind, lattice, folder, notes, named=True, only_inside=True):
+    layer = kind == "polygon"  # of all buildings of a region perhaps; gauges and sections are few, and each is missed
+    for shape in shapes_of(value, kind, lattice, folder, notes, named=True, only_inside=layer):
         attributes = {str(name).lower(): one for name, one in shape.attributes.items()}
         name = next((_text(attributes[one]) for one in NAMES if _text(attributes.get(one))), str(shape.feature))
         if name in found:

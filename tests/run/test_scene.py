@@ -119,15 +119,17 @@ def test_places_from_files(tmp_path):
     }
     assert list(found["named.gpkg"]) == ["bridge", "mill"] and list(found["bare.gpkg"]) == ["1", "2"]
     assert np.allclose(found["named.gpkg"]["mill"], [WEST + 500, SOUTH + 150], atol=1e-3)
-    far = geopandas.GeoDataFrame(geometry=[shapely.Point(0, 0), *points], crs=LATTICE.crs)
-    far.to_file(tmp_path / "far.gpkg")
-    scene = Scene.from_mapping(MAPPING | {"output": {"gauges": "far.gpkg"}}, tmp_path)
-    assert list(scene.places.gauges) == ["2", "3"]  # numbers of the features in the file
+    squares = [point.buffer(10.0) for point in (shapely.Point(0, 0), *points)]
+    for name, shapes in (("far.gpkg", squares), ("stray.gpkg", [shapely.Point(0, 0), *points])):
+        geopandas.GeoDataFrame(geometry=shapes, crs=LATTICE.crs).to_file(tmp_path / name)
+    scene = Scene.from_mapping(MAPPING | {"output": {"exposure": "far.gpkg"}}, tmp_path)
+    assert list(scene.places.exposure) == ["2", "3"]  # numbers of the features in the file
     assert "far.gpkg: 1 of 3 features lie wholly outside the DEM and are left out" in scene.notes
     twice = geopandas.GeoDataFrame({"id": [7, 7]}, geometry=points, crs=LATTICE.crs)
     twice.to_file(tmp_path / "twice.gpkg")
     for output, words in (
         ({"gauges": "twice.gpkg"}, "both named '7'"), ({"sections": "named.gpkg"}, "line"),
+        ({"gauges": "stray.gpkg"}, "output: gauges: stray.gpkg feature 1 lies wholly outside"),
         ({"gauges": {"far": [0.0, 0.0]}}, "output: gauges: far: the point lies wholly outside"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=words):
