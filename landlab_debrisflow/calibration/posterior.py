@@ -5,13 +5,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
+from ..core.checks import in_range
+from ..core.errors import InputError
 from ..fidelity.table import Printed, Table
 from .event import Event
 from .leaving_out import LeftOut, leave_out
 from .prediction import Prediction, predict, rescore
 from .predictive import predictive_maps
+from .proposal import systematic
 from .summary import posterior_table
 from .weighted_members import WeightedMembers
 
@@ -82,6 +86,33 @@ class Posterior(Printed, WeightedMembers):
         Prediction
         """
         return predict(self, event, **options)
+
+    def draw(self, members: int = 64, seed: int = 0) -> xr.Dataset:
+        """Draw members by their weights, as a table for an ensemble of another scene.
+
+        Such an ensemble, `Ensemble(scene, sampling=posterior.draw())`, has the values that the event taught; values of
+        the event alone, such as its volume, are left out with ``drop_vars``.
+
+        Parameters
+        ----------
+        members : int
+            Number of members; one of great weight is drawn more than once.
+        seed : int
+            Equal seeds draw equal members.
+
+        Returns
+        -------
+        xarray.Dataset
+            Values over ``member``.
+
+        Raises
+        ------
+        InputError
+            If `members` is less than 1.
+        """
+        in_range("calibration: members", members, 1, error=InputError)
+        index = systematic(self.weights, members, np.random.default_rng(seed))
+        return self.prior.design(self.sample.uniform[index]).assign_attrs(effective_sample_size=self.effective_size)
 
     def leave_one_out(self) -> LeftOut:
         """Weight all members by all events except one, and score the one that was left out; needs no run.

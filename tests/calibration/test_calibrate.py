@@ -116,6 +116,19 @@ def test_predictive_maps_are_written_as_hazard_maps_are(posterior, tmp_path):
         assert float(file.tags()["effective_sample_size"]) == pytest.approx(posterior.effective_size)
 
 
+def test_draws_of_the_posterior_are_members_of_another_ensemble(posterior):
+    drawn = posterior.draw(40, seed=3)
+    names = {str(values.attrs["key"]): name for name, values in drawn.data_vars.items() if "key" in values.attrs}
+    assert set(names) == {ANGLE, VOLUME} and drawn.attrs["effective_sample_size"] == posterior.effective_size
+    known = posterior.members[names[VOLUME]].values
+    for value, weight in zip(known, posterior.weights, strict=True):
+        assert abs(int((drawn[names[VOLUME]] == value).sum()) - 40 * weight) < 1.0
+    other = Ensemble(SCENE | {"output": {"max_duration": 1.0}}, sampling=drawn.drop_vars(names[VOLUME]))
+    assert other.members == 40 and other.values(0) == {ANGLE: float(drawn[names[ANGLE]][0])}
+    with pytest.raises(InputError, match="members must lie in"):
+        posterior.draw(0)
+
+
 def test_sums_are_those_of_batches_in_their_order(posterior):
     generation, weights = posterior.results[""][0], np.random.default_rng(0).random(16)
     sums = weighted_sums([generation], weights, {"x": lambda one: one.maps["max_depth"].astype(float)})["x"]
