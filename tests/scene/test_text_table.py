@@ -25,7 +25,7 @@ def test_the_first_line_tells_what_separates_columns(text, head, cells, tmp_path
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"", "is empty; give a table"), (b"# nothing\n", "is empty"), (b"\xff\xfea\x00", "no text in UTF-8"),
+        (b"", "the file is empty"), (b"# nothing\n", "is empty; give a table"), (b"\xff\xfea\x00", "no text in UTF-8"),
         (b"a\x00b\n", "it is no text"), (b"1\n" * (MOST_BYTES // 2 + 1), "more than 5 MB"),
     ],
 )  # fmt: skip
