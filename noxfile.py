@@ -33,13 +33,15 @@ PLAIN = [
     "--deselect=tests/record/test_measures.py::test_of_a_flow_that_moves_and_of_its_deposit",
 ]
 """Tests that take no more than minutes where kernels are plain Python."""
+FAST = ["python", "-m", "pytest", "-q", "-n", "auto", "-m", "not slow", "tests", "landlab_debrisflow"]
+"""The fast subset, on all processors."""
 
 
 @nox.session
 def test(session):
     """Run all tests and doctests, and build the site, which runs notebooks and pages."""
     session.install("-e", ".[test]")
-    session.run("python", "-m", "pytest", *session.posargs)
+    session.run("python", "-m", "pytest", "-n", "auto", *session.posargs)
 
 
 @nox.session(name="test-fast")
@@ -47,7 +49,7 @@ def test_fast(session):
     """Run a subset that reaches every room: less than a minute once kernels are in numba's cache."""
     session.install("-e", ".[test]")
     start = time.perf_counter()
-    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+    session.run(*FAST, *session.posargs)
     session.log(f"fast subset: {time.perf_counter() - start:.0f} s")
 
 
@@ -74,7 +76,7 @@ def oldest(session):
     lowest = [re.sub(r">=([\d.]+)(,[^;]*)?", r"==\1", each) for each in needed]
     session.install(*lowest)
     session.install("--no-deps", "-e", ".")
-    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+    session.run(*FAST, *session.posargs)
 
 
 @nox.session
@@ -100,7 +102,7 @@ def build(session):
     shutil.copytree(work / "dist", "dist", dirs_exist_ok=True)
     shutil.unpack_archive(archive, work, filter="data")
     session.chdir(work / archive.name.removesuffix(".tar.gz"))
-    session.run("python", "-m", "pytest", "-q", "-m", "not slow", "tests", "landlab_debrisflow", *session.posargs)
+    session.run(*FAST, *session.posargs)
 
 
 @nox.session

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -12,13 +13,30 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
-    """Return the folder of the built site; the variable SITE names one that is built already."""
+    """Return the folder of the built site; the variable SITE names one that is built already.
+
+    Of several processes of tests the first one that needs the site builds it, and others wait.
+    """
     if "SITE" in os.environ:
         return ROOT / os.environ["SITE"]
-    folder = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-n", "-j", "4", "-q", "docs", str(folder)]
-    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert found.returncode == 0, found.stderr[-10_000:]
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    folder, told = base / "site" / "html", base / "site.txt"
+    try:
+        folder.parent.mkdir()
+    except FileExistsError:
+        while not told.exists():
+            time.sleep(0.5)
+    else:
+        command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-n", "-j", "4", "-q", "docs", str(folder)]
+        words, part = "the build was interrupted", told.with_suffix(".part")
+        try:
+            found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+            words = "" if found.returncode == 0 else f"the build failed: {found.stderr}"
+        finally:
+            part.write_text(words)
+            part.rename(told)
+    assert told.read_text()[-10_000:] == ""
     return folder
 
 
