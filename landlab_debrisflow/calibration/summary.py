@@ -2,13 +2,19 @@
 
 import numpy as np
 
+from scipy import stats
+
 from ..ensemble.names import NOISE
 from ..fidelity.table import Table
 from .criteria import Likelihood
+from .observed_maps import ElevationChange
 from .weighted_members import WeightedMembers
 
 FEW = 50.0
 """Effective sample size below which the tails of an interval rest on two or three members."""
+
+CLEAR = 2.0
+"""Threshold of scores over the standard deviation of a cell from which on errors alone seldom exceed it: in 5 %."""
 
 FAR = 3.0
 """Misfit over its standard deviation that all members have in vain: chance alone gives it to one in 370."""
@@ -93,7 +99,18 @@ def _doubts(posterior: WeightedMembers) -> list[str]:
             "more generations or members"
         )
     found += _out_of_reach(posterior)
+    changes = [one for runs in posterior.runs for one in runs.observations if isinstance(one, ElevationChange)]
+    found += [_noise_words(one) for one in changes if one.sd is not None and one.threshold < CLEAR * one.sd]
     return found
+
+
+def _noise_words(one: ElevationChange) -> str:
+    share = 200.0 * stats.norm.sf(one.threshold / one.sd)
+    return (
+        f"errors of {one.sd:g} m alone carry {share:.0f} % of the cells without change over the threshold of "
+        f"{one.threshold:g} m that scores have, so that the CSI of a perfect model is low; a threshold of "
+        f"{CLEAR * one.sd:g} m leaves 5 %"
+    )
 
 
 def _out_of_reach(posterior: WeightedMembers) -> list[str]:

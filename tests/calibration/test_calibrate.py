@@ -72,6 +72,8 @@ def test_the_truth_is_found_again(posterior):
     assert low < TRUTH < high and high - low < 0.7 * prior
     assert posterior.members.sizes == {"member": 32, "observation": 3}
     assert posterior.weights.sum() == pytest.approx(1.0) and posterior.members.generation.values[-1] == 1
+    (noise,) = [note for note in posterior._table().notes if "threshold" in note]  # P(|e| > 0.2) of sd 0.3 is 0.505
+    assert "errors of 0.3 m alone carry 50 %" in noise and "a threshold of 0.6 m leaves 5 %" in noise
     assert abs(float(posterior.members.release__volume[posterior.best]) - TRUTH) < 0.2 * TRUTH
 
 
