@@ -152,6 +152,7 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
             "observed, moved by a cell": _kept(measures.observed_moved(seen)),
             "observed, smoothed over a cell": _kept(measures.observed_smoothed(seen)),
         },
+        "reached": _reached(posterior, seen),
         "prediction": {
             "event": other,
             **{key: _of_change(mean_change(one, there.runs.place), foreign_seen) for key, one in there.sets.items()},
@@ -167,15 +168,28 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
     print(found["prediction"])
 
 
-def _member_scores(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:
-    """Return the weighted means of the scores of single members."""
+def _all_scores(posterior: Posterior, seen: xr.Dataset) -> tuple[np.ndarray, list[dict[str, float]]]:
+    """Return the weights and the scores of single members, without those that failed."""
     found, place = [], posterior.runs[0].place
     members = (one for results in posterior.results[""] for one in results.members())
     for weight, one in zip(posterior.weights, members, strict=True):
-        if weight > 0.0 and not one.error:
+        if not one.error:
             found.append((weight, _of_change(change_of(one, place), seen)))
-    weights = np.array([weight for weight, _ in found])
-    return {key: float(np.average([scores[key] for _, scores in found], weights=weights)) for key in TARGETS}
+    return np.array([weight for weight, _ in found]), [scores for _, scores in found]
+
+
+def _member_scores(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:
+    """Return the weighted means of the scores of single members."""
+    weights, found = _all_scores(posterior, seen)
+    return {key: float(np.average([scores[key] for scores in found], weights=weights)) for key in TARGETS}
+
+
+def _reached(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:
+    """Return what any member reached: highest CSI, highest correlation, and how many bounds one of them keeps."""
+    _, found = _all_scores(posterior, seen)
+    kept = [sum(low <= one[key] <= high for key, (low, high) in TARGETS.items()) for one in found]
+    highest = {key: max(one[key] for one in found) for key in ("csi outside", "correlation outside")}
+    return {"members": len(found), **highest, "bounds kept": max(kept)}
 
 
 def _best_scores(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:

@@ -1,7 +1,6 @@
 """Table that a posterior prints: intervals, scores beside a baseline and the noise floor, doubts."""
 
 import numpy as np
-
 from scipy import stats
 
 from ..ensemble.names import NOISE
