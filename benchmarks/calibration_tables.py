@@ -5,6 +5,11 @@ from collections.abc import Mapping
 from . import result_files
 
 NAMES = {"s1000": "S-1000", "cascade2009": "Cascade Mountains 2009"}
+LAWS = {
+    "growth": "calibration_s1000", "shear_excess": "calibration_s1000_shear_excess",
+    "excess_traction": "calibration_s1000_excess_traction",
+}  # fmt: skip
+"""Result files of the calibrations of S-1000 by their law of erosion."""
 FORMATS = {
     "csi outside": ("CSI", "{:.3f}"), "correlation outside": ("correlation", "{:+.2f}"),
     "lowered outside": ("lowered [m³]", "{:.0f}"), "in scar": ("in the scar [m³]", "{:.0f}"),
@@ -19,6 +24,36 @@ def scores(name: str) -> Rows:
     """Return heads and rows of the scores of a calibrated event, in sample."""
     found = result_files.read(f"calibration_{name}")
     return ["in sample", *_heads()], [_row(words, values) for words, values in found["scores"].items()]
+
+
+def laws() -> Rows:
+    """Return heads and rows of the scores of S-1000 with each law of erosion, in sample."""
+    rows = []
+    for law, file in LAWS.items():
+        found = result_files.read(file)["scores"]
+        rows += [
+            _row(f"`{law}`, {words}", found[words]) for words in ("best member", "posterior mean", "2000 particles")
+        ]
+    return ["in sample, S-1000", *_heads()], rows
+
+
+def reached() -> Rows:
+    """Return heads and rows of what any run of S-1000 reached, by law of erosion."""
+    rows = []
+    for law, file in LAWS.items():
+        found = result_files.read(file)
+        best = found["reached"]
+        values = [f"{best['csi outside']:.3f}", f"{best['correlation outside']:+.2f}", f"{best['bounds kept']} of 5"]
+        rows.append([f"`{law}`", str(best["members"]), *values, f"{found['effective_size']:.1f}"])
+    heads = [
+        "law of erosion",
+        "runs",
+        "highest CSI",
+        "highest correlation",
+        "most aims of one run",
+        "effective sample size",
+    ]
+    return heads, rows
 
 
 def predictions() -> Rows:

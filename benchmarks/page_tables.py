@@ -237,6 +237,7 @@ SOURCES = (
     "flow", "flow_com1dfa", "two_phase_errors", "column", "column_stability", "dilatancy_stability", "flow_stability",
     "speed", "ratios", "valley_accuracy", "step_rules", "erosion_order", "step_stability", "key_figures", "s1000",
     "tsing_shan", "when_ale_matters", "calibration_coverage", "calibration_s1000", "calibration_cascade2009",
+    "calibration_s1000_shear_excess", "calibration_s1000_excess_traction",
 )  # fmt: skip
 
 
@@ -287,6 +288,8 @@ TABLES = {
     "erosion_order": lambda: table(*step_tables.orders()),
     "coverage": lambda: table(*calibration_tables.coverage()),
     "calibrated_s1000": lambda: table(*calibration_tables.scores("s1000")),
+    "calibrated_laws": lambda: table(*calibration_tables.laws()),
+    "calibrated_reached": lambda: table(*calibration_tables.reached()),
     "calibrated_2009": lambda: table(*calibration_tables.scores("cascade2009")),
     "calibrated_predictions": lambda: table(*calibration_tables.predictions()),
     "calibrated_intervals": lambda: table(*calibration_tables.intervals()),
