@@ -152,7 +152,7 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
             "observed, moved by a cell": _kept(measures.observed_moved(seen)),
             "observed, smoothed over a cell": _kept(measures.observed_smoothed(seen)),
         },
-        "reached": _reached(posterior, seen),
+        **({"reached": _reached(posterior, seen)} if name == "s1000" else {}),
         "prediction": {
             "event": other,
             **{key: _of_change(mean_change(one, there.runs.place), foreign_seen) for key, one in there.sets.items()},
