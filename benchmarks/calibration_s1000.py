@@ -131,11 +131,15 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
         batch=4, workers=1, store=store / name, maps=("deposit_depth", "eroded_depth", "depth"), notify=_say,
     )  # fmt: skip
     print(posterior)
-    finer = posterior.rescore(2 * particles, members=16, store=store / f"{name}_finer.zarr", workers=1, notify=_say)
+    finer = posterior.rescore(
+        2 * particles, members=16, store=store / f"{name}_finer_{generations}.zarr", workers=1, notify=_say
+    )
     print(finer)
     other = EVENTS[1 - EVENTS.index(name)]
     foreign, foreign_seen = event(other, particles, law)
-    there = posterior.predict(foreign, members=16, store=store / f"{name}_predicts", workers=1, notify=_say)
+    there = posterior.predict(
+        foreign, members=16, store=store / f"{name}_predicts_{generations}", workers=1, notify=_say
+    )
     print(there)
     found = {
         "event": name, "erosion": law, "members": members, "generations": generations, "particles": particles,
