@@ -163,9 +163,9 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
             "spread along the path": _kept(measures.spread_evenly(foreign_seen)),
         },
     }  # fmt: skip
-    file, option = f"calibration_{name}", ""
+    file, option = f"calibration_{name}", f" --members {members} --generations {generations}"
     if law != "growth":
-        file, option = f"{file}_{law}", f" --erosion {law}"
+        file, option = f"{file}_{law}", f" --erosion {law}{option}"
     result_files.keep(file, found, f"python -m benchmarks.calibration_s1000 {name}{option} --store DIR")
     for key, scores in found["scores"].items():
         print(key, _verdicts(scores) if name == "s1000" else scores)
