@@ -20,8 +20,8 @@ PARTS = {"lowered": -1.0, "raised": 1.0}
 class ChangeVolume:
     """Volume by which a difference of surveys was lowered, or raised, beyond its threshold [m3].
 
-    A flow that is right but for a shift of one cell is wrong twice where maps are compared cell by cell: where it is
-    and where it should be. Such a comparison prefers a flow that erodes and deposits too little (the double penalty of
+    Where maps are compared cell by cell, a flow that lies one cell beside its place is punished twice: where it is and
+    where it should be. Such a comparison prefers a flow that erodes and deposits too little (the double penalty of
     weather forecasts, Mass et al. 2002, Ebert 2008). A volume does not depend on the place.
 
     Parameters
