@@ -106,7 +106,7 @@ def test_what_is_shown_imports_public_names(path):
         assert [name for name in names if name not in importlib.import_module(module).__all__] == []
 
 
-@pytest.mark.parametrize("module", PUBLIC)
+@pytest.mark.parametrize("module", sorted(PUBLIC))
 def test_public_modules_list_their_names(module):
     public = importlib.import_module(f"landlab_debrisflow.{module}")
     assert len(set(public.__all__)) == len(public.__all__)
