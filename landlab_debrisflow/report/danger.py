@@ -17,13 +17,15 @@ from .numbers import rounded
 from .pictures import picture
 
 
-def danger_blocks(folder: Path, shapes: Any = None) -> list[Block]:
+def danger_blocks(folder: Path, digest: str, shapes: Any = None) -> list[Block]:
     """Return picture, areas and source of the danger levels, if a directory has a file of danger levels.
 
     Parameters
     ----------
     folder : Path
         Directory that `write_danger_levels` may have written to.
+    digest : str
+        Digest of the ensemble in the directory; danger levels of others alone are named and not shown.
     shapes : object, optional
         As in `draw_map`.
 
@@ -47,6 +49,8 @@ def danger_blocks(folder: Path, shapes: Any = None) -> list[Block]:
         classes, _ = level_names(found.class_number)
     except (OSError, ValueError, RuntimeError, KeyError, AttributeError) as error:
         raise InputError(f"cannot read {path}: {error}; write the danger levels again, or remove the file") from error
+    if digest not in str(found.attrs.get("ensemble_digest", "")).split(", "):
+        return [Sentences([f"{path.name} was made of other members, and is not shown; write the danger levels again."])]
     figure = draw_danger_levels(
         levels, names, colours, relief=found.get(ELEVATION), reference=reference_name(found), shapes=shapes
     )

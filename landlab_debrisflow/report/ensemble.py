@@ -108,7 +108,7 @@ def _sections(folder: Path, results: EnsembleResults, maps: xr.Dataset) -> Itera
     ])  # fmt: skip
     yield Section("members", "Members", list(_members(results)))
     yield Section("probabilities", "Probabilities", list(_probabilities(maps, _shapes(folder))))
-    if danger := danger_blocks(folder, _shapes(folder)):
+    if danger := danger_blocks(folder, results.digest, _shapes(folder)):
         yield Section("danger", "Danger levels", danger)
     if (table := exposure_blocks(folder)) is not None:
         yield Section("exposure", "Exposed polygons", [table])

@@ -134,6 +134,10 @@ def test_a_report_of_other_files_is_made_of_the_store(folder, tmp_path):
     levels.write_bytes((folder[0] / "hazard.nc").read_bytes())
     with pytest.raises(InputError, match="write the danger levels again, or remove the file"):
         write_ensemble_report(tmp_path)
+    with xr.open_dataset(folder[0] / "danger_level.nc") as file:
+        file.load().assign_attrs(ensemble_digest="e" * 32).to_netcdf(levels)
+    text = write_ensemble_report(tmp_path).read_text(encoding="utf-8")
+    assert "danger_level.nc was made of other members" in text and "Area by danger level" not in text
     levels.unlink()
     (tmp_path / "hazard.nc").write_bytes(b"half")
     with pytest.raises(InputError, match="damaged"):
