@@ -25,12 +25,13 @@ friction is 0.30 without excess pore pressure and 0.10 at the bed's ratio of 0.6
 
 def print_table(console, records, title):
     """Print all measures of all runs."""
-    table = Table(title=title, title_justify="left")
+    table = Table()
     table.add_column("", no_wrap=True)
     for model, c_v in records:
         table.add_column(f"{model}\nc_v = {c_v:g}", justify="right")
     for key, (words, form) in MEASURES.items():
         table.add_row(Text(words), *(form.format(record.measures[key]) for record in records.values()))
+    console.print(title, highlight=False, markup=False, soft_wrap=True)  # names of files stay whole
     console.print(table, NOTES, highlight=False, markup=False)
 
 
