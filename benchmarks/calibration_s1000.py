@@ -74,7 +74,7 @@ the width of the paths [m]."""
 BESIDE = 6
 """Cells beside the mapped footprint where nothing changed; a flow that is too wide is seen there."""
 MODEL_ERROR = 1.0, 30.0, 1000.0
-"""Scales of the error of the model: change of elevation [m], run-out [m], volume left in the scar [m3]."""
+"""Scales of the error of the model: change of elevation [m], run-out [m], each of the two volumes [m3]."""
 RUN_OUT_SD, SCAR_SD, LOWERED_SD = 10.0, 300.0, 500.0
 """Errors of the observed run-out, a cell [m], and of the volumes in the scar and lowered outside of it: those of the
 survey, correlated over the length of residuals [m3]."""
@@ -141,6 +141,7 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
         foreign, members=16, store=store / f"{name}_predicts_{generations}", workers=1, notify=_say
     )
     print(there)
+    weights, members_scores = _all_scores(posterior, seen)
     found = {
         "event": name, "erosion": law, "members": members, "generations": generations, "particles": particles,
         "effective_size": posterior.effective_size, "intervals": posterior.interval(0.9),
@@ -149,14 +150,14 @@ def run(name: str, law: str, store: Path, members: int, generations: int, partic
         "scores": {
             "best member": _best_scores(posterior, seen),
             "posterior mean": _scores(posterior.members_of("", posterior.weights), posterior, seen),
-            "mean of posterior members": _member_scores(posterior, seen),
+            "mean of posterior members": _mean_scores(weights, members_scores),
             "prior mean": _scores(posterior.members_of("", posterior.prior_weights), posterior, seen),
             **{key: _of_change(mean_change(one, finer.runs.place), seen) for key, one in finer.sets.items()},
             "spread along the path": _kept(measures.spread_evenly(seen)),
             "observed, moved by a cell": _kept(measures.observed_moved(seen)),
             "observed, smoothed over a cell": _kept(measures.observed_smoothed(seen)),
         },
-        **({"reached": _reached(posterior, seen)} if name == "s1000" else {}),
+        **({"reached": _reached(members_scores)} if name == "s1000" else {}),
         "prediction": {
             "event": other,
             **{key: _of_change(mean_change(one, there.runs.place), foreign_seen) for key, one in there.sets.items()},
@@ -182,15 +183,13 @@ def _all_scores(posterior: Posterior, seen: xr.Dataset) -> tuple[np.ndarray, lis
     return np.array([weight for weight, _ in found]), [scores for _, scores in found]
 
 
-def _member_scores(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:
+def _mean_scores(weights: np.ndarray, found: list[dict[str, float]]) -> dict[str, float]:
     """Return the weighted means of the scores of single members."""
-    weights, found = _all_scores(posterior, seen)
     return {key: float(np.average([scores[key] for scores in found], weights=weights)) for key in TARGETS}
 
 
-def _reached(posterior: Posterior, seen: xr.Dataset) -> dict[str, float]:
+def _reached(found: list[dict[str, float]]) -> dict[str, float]:
     """Return what any member reached: highest CSI, highest correlation, and how many bounds one of them keeps."""
-    _, found = _all_scores(posterior, seen)
     kept = [sum(low <= one[key] <= high for key, (low, high) in TARGETS.items()) for one in found]
     highest = {key: max(one[key] for one in found) for key in ("csi outside", "correlation outside")}
     return {"members": len(found), **highest, "bounds kept": max(kept)}
