@@ -112,3 +112,10 @@ def test_thresholds_that_have_no_map_are_refused_before_the_run(scene, tmp_path,
     (tmp_path / scene).write_text(SCENE + ENSEMBLE.replace("{max_depth:", "{max_depht:"), encoding="utf-8")
     line = refused(["ensemble", scene], exit_codes.USER_ERROR, capsys)
     assert "slope.yaml" in line and "did you mean 'max_depth'" in line and not Path("slope_ensemble").exists()
+
+
+def test_places_of_output_are_read_before_the_run(scene, tmp_path, capsys):
+    house = SCENE.replace("max_duration: 3.0", "max_duration: 3.0, exposure: {mill: [[-9, -9], [-8, -9], [-8, -8]]}")
+    (tmp_path / scene).write_text(house + ENSEMBLE, encoding="utf-8")
+    line = refused(["ensemble", scene], exit_codes.USER_ERROR, capsys)
+    assert "mill" in line and "wholly outside the DEM" in line and not Path("slope_ensemble").exists()
